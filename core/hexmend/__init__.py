@@ -10,6 +10,8 @@ Names are imported when they are first used: a command that computes nothing doe
 `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
+from hexmend import aliases
+
 __version__ = "0.1.0"
 
 TYPE_CHECKING = False  # which type checkers take for true; `typing` alone would cost as much as `--version` does
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
     from hexmend.run.recipe_files import read_recipe, write_recipe
     from hexmend.smoothers import METHODS, Smoother, method
     from hexmend.study.compare import Comparison, compare
+
+aliases.install()
 
 _HOMES = {
     "advice": ("advise",),
@@ -103,7 +107,7 @@ def __getattr__(name: str) -> object:
     for smoother in () if name.startswith("_") else import_module("hexmend.smoothers").METHODS.values():
         if smoother.__name__ == name:
             return smoother
-    raise AttributeError(f"module 'hexmend' has no attribute {name!r}")
+    return aliases.exports("hexmend")(name)
 
 
 def __dir__() -> list[str]:

@@ -1,5 +1,6 @@
 """The surface of a mesh: corners, curves and patches of its boundary, closest points, and how two boundaries differ."""
 
+from hexmend.aliases import exports
 from hexmend.boundary.band import Deviations
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
@@ -26,3 +27,5 @@ __all__ = [
     "sliding_boundary",
     "surface_change",
 ]
+
+__getattr__ = exports(__name__)

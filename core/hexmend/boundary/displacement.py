@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.aliases import exports
 from hexmend.boundary import SkinSurface
 from hexmend.kernels import corner_values
 from hexmend.mesh.mesh import Mesh
@@ -254,3 +255,6 @@ class Counts:
     worse: int
     newly_inverted: int
     mended: int
+
+
+__getattr__ = exports(__name__)

@@ -1,5 +1,6 @@
 """The energy that the optimisers minimise, its derivatives, and the policies for its delta."""
 
+from hexmend.aliases import exports
 from hexmend.energy.hex_energy import energies, objective
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
@@ -11,3 +12,5 @@ __all__ = [
     "POLICIES", "SQUARES", "AdaptiveDelta", "BlockSparsity", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
     "ObjectiveNorm", "SlidingEnergy", "energies", "objective",
 ]  # fmt: skip
+
+__getattr__ = exports(__name__)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib
 import pkgutil
 
+from hexmend.aliases import exports
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
@@ -40,4 +41,4 @@ def __getattr__(name: str) -> object:
         from hexmend.io.surfaces import read_surface
 
         return read_surface
-    raise AttributeError(f"module 'hexmend.io' has no attribute {name!r}")
+    return exports("hexmend.io")(name)

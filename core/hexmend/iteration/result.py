@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.aliases import exports
 from hexmend.boundary import SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.html_repr import html_of
@@ -244,3 +245,6 @@ class Result:
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""
         return html_of(self)
+
+
+__getattr__ = exports(__name__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hexmend.aliases import exports
 from hexmend.parameters import Parametrised, parameter
 
 
@@ -36,3 +37,6 @@ class StoppingCriteria(Parametrised):
         False,
         help="Keep the last iterate, however bad, not the best by inverted hexes, then least q(H).",
     )
+
+
+__getattr__ = exports(__name__)

@@ -7,6 +7,7 @@ viewer, the docs and the tests take it from there.
 import importlib
 import pkgutil
 
+from hexmend.aliases import exports
 from hexmend.quality import metrics
 from hexmend.quality.element import Element, Node, element, node, worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
@@ -52,3 +53,5 @@ __all__ = [
     "worst",
     "worst_hexes",
 ]
+
+__getattr__ = exports(__name__)

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
+from hexmend.aliases import exports
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
@@ -131,3 +132,6 @@ def _configured(
     if wanted and isinstance(smoother, Recipe) and stop is None:
         return smoother.limited(**wanted), None
     return smoother, dataclasses.replace(stop or StoppingCriteria(), **wanted) if wanted else stop
+
+
+__getattr__ = exports(__name__)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
+from hexmend.aliases import exports
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
@@ -75,3 +76,5 @@ class Format:
 
 #: Every format by name.
 FORMATS: Registry[Format] = Registry("format")
+
+__getattr__ = exports(__name__)

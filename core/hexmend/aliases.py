@@ -1,0 +1,136 @@
+"""Names of earlier versions that are still read; nothing is written under them any more.
+
+Each table maps an old name to the name that took its place:
+
+- `MODULES`: modules and packages, for imports (``import hexmend.surface``).
+- `NAMES`: what a module or package exports (``hx.Stop``, ``from hexmend.optimise import Outcome``).
+- `PARAMETERS`: parameters by the name of their owner (a method, or "stop"), in recipes, sessions, studies, records,
+  on the command line and as keywords in Python.
+- `KEYS`: keys of JSON records, by the kind of record.
+"""
+
+from __future__ import annotations
+
+import sys
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from importlib.machinery import ModuleSpec
+    from types import ModuleType
+    from typing import Any
+
+MODULES = {
+    "hexmend.cells": "hexmend.mesh.cells",
+    "hexmend.edge_length": "hexmend.mesh.edge_length",
+    "hexmend.fixing": "hexmend.mesh.fixing",
+    "hexmend.hexahedron": "hexmend.mesh.hexahedron",
+    "hexmend.io.format": "hexmend.io.base.format",
+    "hexmend.io.recipes": "hexmend.run.recipe_files",
+    "hexmend.io.session": "hexmend.io.formats.session",
+    "hexmend.movement": "hexmend.boundary.displacement",
+    "hexmend.optimise.figures": "hexmend.iteration.figures",
+    "hexmend.optimise.iteration": "hexmend.iteration.result",
+    "hexmend.optimise.stop": "hexmend.iteration.stopping",
+    "hexmend.orientation": "hexmend.mesh.orientation",
+    "hexmend.patches": "hexmend.mesh.patches",
+    "hexmend.recipe": "hexmend.run.recipe",
+    "hexmend.second_order": "hexmend.mesh.second_order",
+    "hexmend.shape_functions": "hexmend.mesh.shape_functions",
+    "hexmend.smoothers.smoother": "hexmend.smoothers.base",
+    "hexmend.structure": "hexmend.mesh.structure",
+    "hexmend.surface": "hexmend.boundary",
+    "hexmend.tags": "hexmend.mesh.tags",
+    "hexmend.topology": "hexmend.mesh.topology",
+}
+
+NAMES = {
+    "hexmend.Stop": "hexmend.iteration.StoppingCriteria",
+    "hexmend.boundary.Kind": "hexmend.boundary.NodeClass",
+    "hexmend.boundary.Skin": "hexmend.boundary.SkinSurface",
+    "hexmend.boundary.Sliding": "hexmend.boundary.SlidingBoundary",
+    "hexmend.boundary.displacement.Movement": "hexmend.boundary.displacement.Displacement",
+    "hexmend.energy.Couplings": "hexmend.energy.BlockSparsity",
+    "hexmend.energy.Power": "hexmend.energy.ObjectiveNorm",
+    "hexmend.io.base.format.Holds": "hexmend.io.base.format.Capability",
+    "hexmend.io.read_recipe": "hexmend.run.recipe_files.read_recipe",
+    "hexmend.io.write_recipe": "hexmend.run.recipe_files.write_recipe",
+    "hexmend.iteration.Limits": "hexmend.iteration.ActiveSet",
+    "hexmend.iteration.Stop": "hexmend.iteration.StoppingCriteria",
+    "hexmend.iteration.result.Limits": "hexmend.iteration.ActiveSet",
+    "hexmend.iteration.stopping.Stop": "hexmend.iteration.StoppingCriteria",
+    "hexmend.mesh.topology.Rows": "hexmend.mesh.topology.CSR",
+    "hexmend.node_step.Verdict": "hexmend.node_step.StepStatus",
+    "hexmend.optimise.Iteration": "hexmend.iteration.Iteration",
+    "hexmend.optimise.Limits": "hexmend.iteration.ActiveSet",
+    "hexmend.optimise.Outcome": "hexmend.iteration.Outcome",
+    "hexmend.optimise.Result": "hexmend.iteration.Result",
+    "hexmend.optimise.StageResult": "hexmend.iteration.StageResult",
+    "hexmend.optimise.Step": "hexmend.iteration.Step",
+    "hexmend.optimise.Stop": "hexmend.iteration.StoppingCriteria",
+    "hexmend.quality.worse": "hexmend.quality.regressions.regressions",
+    "hexmend.run.Stop": "hexmend.iteration.StoppingCriteria",
+}
+
+PARAMETERS: dict[str, dict[str, str]] = {}
+
+KEYS: dict[str, dict[str, str]] = {}
+
+
+def exports(module: str) -> Callable[[str], object]:
+    """Make a `__getattr__` that gives what a module exported under names of earlier versions.
+
+    Parameters
+    ----------
+    module : str
+        The module's dotted name.
+
+    Returns
+    -------
+    callable
+        Takes an attribute's name; raises AttributeError for one that never was.
+    """
+
+    def __getattr__(name: str) -> object:
+        now = NAMES.get(f"{module}.{name}")
+        if now is None:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        home, _, attribute = now.rpartition(".")
+        return getattr(import_module(home), attribute)
+
+    return __getattr__
+
+
+def renamed(values: Mapping[str, Any], table: Mapping[str, str]) -> dict[str, Any]:
+    """Copy `values` with the keys of today; where old and new name are both there, the new one counts."""
+    return {table.get(key, key): value for key, value in values.items() if table.get(key) not in values}
+
+
+class _OldModules:
+    """Finder of modules under the names of earlier versions; the last in `sys.meta_path`."""
+
+    @staticmethod
+    def find_spec(name: str, path: object = None, target: object = None) -> ModuleSpec | None:
+        if name not in MODULES:
+            return None
+        from importlib.machinery import ModuleSpec
+
+        return ModuleSpec(name, _OldModules())
+
+    @staticmethod
+    def create_module(spec: ModuleSpec) -> None:
+        return None
+
+    @staticmethod
+    def exec_module(module: ModuleType) -> None:
+        from importlib import import_module
+
+        sys.modules[module.__name__] = import_module(MODULES[module.__name__])
+
+
+def install() -> None:
+    """Let `import` find the modules of `MODULES`."""
+    if not any(isinstance(finder, _OldModules) for finder in sys.meta_path):
+        sys.meta_path.append(_OldModules())
