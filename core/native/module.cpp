@@ -2,8 +2,8 @@
 // build is for.
 #include <nanobind/nanobind.h>
 
-#include "lanes.hpp"
-#include "threads.hpp"
+#include "simd/lanes.hpp"
+#include "simd/threads.hpp"
 
 namespace nb = nanobind;
 

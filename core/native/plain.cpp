@@ -1,8 +1,8 @@
 // Compiled so that the compiler finds no vectors by itself either.
 #include "plain.hpp"
 
-#include "objective_loops.hpp"
-#include "visit.hpp"
+#include "energy/objective_loops.hpp"
+#include "smoothers/visit.hpp"
 
 namespace hexmend {
 

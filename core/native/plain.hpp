@@ -1,8 +1,8 @@
 // What kernels are measured against: the same formulas, one hex after another, without vectors.
 #pragma once
 
-#include "objective.hpp"
-#include "power.hpp"
+#include "energy/objective.hpp"
+#include "energy/power.hpp"
 
 namespace hexmend::plain {
 

@@ -14,8 +14,8 @@
 #include <unistd.h>
 #endif
 
-#include "../power.hpp"
-#include "../rows.hpp"
+#include "energy/power.hpp"
+#include "mesh/rows.hpp"
 
 namespace nanobind::detail {
 

@@ -1,6 +1,6 @@
-#include "../plain.hpp"
+#include "plain.hpp"
 
-#include "arrays.hpp"
+#include "bindings/arrays.hpp"
 
 namespace hexmend {
 

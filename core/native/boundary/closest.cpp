@@ -1,0 +1,187 @@
+#include "boundary/closest.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "simd/threads.hpp"
+
+namespace hexmend {
+namespace {
+
+using Vector = V3<double>;
+
+constexpr std::int32_t LEAF = 4;  // pieces that a leaf holds at most
+constexpr int DEEPEST = 64;       // halving 2^31 pieces goes half as deep
+constexpr std::int64_t POINTS_A_CHUNK = 256;
+
+Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
+
+struct Builder {
+    Points points;
+    std::span<const Piece> pieces;
+    std::vector<Point> centres;
+    std::vector<std::int32_t> order;
+    std::vector<double> boxes;
+    std::vector<std::int32_t> links;
+
+    Builder(Points points_, std::span<const Piece> pieces_)
+        : points(points_), pieces(pieces_), centres(pieces_.size()), order(pieces_.size()) {
+        std::iota(order.begin(), order.end(), 0);
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            auto [a, b, c] = pieces[i];
+            for (int k = 0; k < 3; ++k) {
+                auto [low, high] = std::minmax({points[a][k], points[b][k], points[c][k]});
+                centres[i][k] = 0.5 * (low + high);
+            }
+        }
+    }
+
+    // Adds the tree of order[begin] to order[end - 1]: halves along the longest side of their centres' box.
+    void add(std::int32_t begin, std::int32_t end) {
+        Point low{INF, INF, INF}, high{-INF, -INF, -INF}, first = low, last = high;
+        for (std::int32_t s = begin; s < end; ++s)
+            for (int k = 0; k < 3; ++k) {
+                for (Node i : pieces[order[s]])
+                    low[k] = std::min(low[k], points[i][k]), high[k] = std::max(high[k], points[i][k]);
+                first[k] = std::min(first[k], centres[order[s]][k]);
+                last[k] = std::max(last[k], centres[order[s]][k]);
+            }
+        std::size_t at = links.size();
+        boxes.insert(boxes.end(), low.begin(), low.end());
+        boxes.insert(boxes.end(), high.begin(), high.end());
+        links.insert(links.end(), {begin, end - begin});
+        if (end - begin <= LEAF) return;
+        int axis = 0;
+        for (int k = 1; k < 3; ++k)
+            if (last[k] - first[k] > last[axis] - first[axis]) axis = k;
+        std::int32_t middle = begin + (end - begin) / 2;
+        std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](auto i, auto j) {
+            return std::pair(centres[i][axis], i) < std::pair(centres[j][axis], j);
+        });
+        add(begin, middle);
+        links[at] = static_cast<std::int32_t>(links.size() / 2), links[at + 1] = 0;
+        add(middle, end);
+    }
+};
+
+double square_to(const Box &box, const Point &x) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        double off = std::max({box[k] - x[k], 0.0, x[k] - box[k + 3]});
+        sum += off * off;
+    }
+    return sum;
+}
+
+// How far along a + t d, 0 <= t <= 1, the point closest to a + p is.
+double along(const Vector &d, const Vector &p) {
+    double whole = square(d);
+    return whole > 0 ? std::clamp(dot(p, d) / whole, 0.0, 1.0) : 0.0;
+}
+
+// Shares of the corners at the point of a triangle (a, a + u, a + v) that is closest to a + p.
+Shares nearest(const Vector &u, const Vector &v, const Vector &p) {
+    Vector n = cross(u, v);
+    double whole = square(n);
+    if (whole > 0) {
+        double second = dot(cross(p, v), n) / whole, third = dot(cross(u, p), n) / whole;
+        if (second >= 0 && third >= 0 && second + third <= 1) return {1 - second - third, second, third};
+    }
+    // Beyond its edges, or a triangle that has no area: on one of its edges.
+    double one = along(u, p), two = along(v, p), three = along(v - u, p - u);
+    Shares edges[3] = {{1 - one, one, 0}, {1 - two, 0, two}, {0, 1 - three, three}};
+    double far[3] = {square(one * u - p), square(two * v - p), square(u + three * (v - u) - p)};
+    return edges[std::min_element(far, far + 3) - far];
+}
+
+void improve(Closest &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
+    Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
+    Shares weights;
+    if (piece[1] == piece[2]) {
+        double t = along(u, p);
+        weights = {1 - t, t, 0};
+        place = t < 1 ? a + t * u : vector(points[piece[1]]);
+    } else {
+        Vector v = vector(points[piece[2]]) - a;
+        weights = nearest(u, v, p);
+        place = a + (weights[1] * u + weights[2] * v);
+        for (int k = 0; k < 3; ++k)
+            if (weights[k] == 1) place = vector(points[piece[k]]);  // to the last bit
+    }
+    double far = square(place - vector(x));
+    if (far < best.square) best = {far, number, {place.x, place.y, place.z}, weights};
+}
+
+}  // namespace
+
+Closest Pieces::closest(const Point &x, std::int32_t root, double enough) const {
+    Closest best;
+    std::pair<std::int32_t, double> waiting[DEEPEST];
+    int size = 0;
+    waiting[size++] = {root, square_to(boxes[root], x)};
+    while (size && best.square > enough) {
+        auto [at, square] = waiting[--size];
+        if (square >= best.square) continue;
+        auto [link, count] = links[at];
+        if (count) {
+            for (std::int32_t i = link; i < link + count; ++i) improve(best, points, pieces[i], i, x);
+            continue;
+        }
+        std::pair<std::int32_t, double> one{at + 1, square_to(boxes[at + 1], x)};
+        std::pair<std::int32_t, double> other{link, square_to(boxes[link], x)};
+        if (one.second < other.second) std::swap(one, other);
+        waiting[size++] = one, waiting[size++] = other;  // the nearer first
+    }
+    return best;
+}
+
+std::tuple<Made<std::int32_t>, Made<double, 6>, Made<std::int32_t, 2>, Made<std::int32_t>> trees(
+    Points points, std::span<const Piece> pieces, Indices start) {
+    Builder builder(points, pieces);
+    std::vector<std::int32_t> roots;
+    for (std::size_t t = 0; t + 1 < start.size(); ++t) {
+        expect(start[t] >= 0 && start[t] < start[t + 1] && start[t + 1] <= static_cast<std::int64_t>(pieces.size()),
+               "start does not ascend: expected at least one piece a tree");
+        roots.push_back(static_cast<std::int32_t>(builder.links.size() / 2));
+        builder.add(start[t], start[t + 1]);
+    }
+    return {{std::move(builder.order)}, {std::move(builder.boxes)}, {std::move(builder.links)}, {std::move(roots)}};
+}
+
+void refit(Points points, std::span<const Piece> pieces, std::span<const Link> links, std::span<Box> boxes) {
+    expect(links.size() == boxes.size(), "links and boxes have different lengths: expected a row a box");
+    for (std::size_t at = links.size(); at-- > 0;) {  // children follow their parents
+        auto [link, count] = links[at];
+        Box &box = boxes[at];
+        if (count == 0) {
+            const Box &one = boxes[at + 1], &other = boxes[link];
+            for (int k = 0; k < 3; ++k)
+                box[k] = std::min(one[k], other[k]), box[k + 3] = std::max(one[k + 3], other[k + 3]);
+            continue;
+        }
+        box = {INF, INF, INF, -INF, -INF, -INF};
+        for (std::int32_t i = link; i < link + count; ++i)
+            for (Node node : pieces[i])
+                for (int k = 0; k < 3; ++k) {
+                    box[k] = std::min(box[k], points[node][k]);
+                    box[k + 3] = std::max(box[k + 3], points[node][k]);
+                }
+    }
+}
+
+void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
+             Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
+             std::span<Shares> weights) {
+    expect(
+        roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
+        "x, roots, piece, places and weights have different lengths: expected a row a point");
+    Pieces all{points, pieces, boxes, links};
+    parallel_chunks(x.size(), POINTS_A_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) {
+            Closest found = all.closest(x[i], roots[i], enough * enough);
+            piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
+        }
+    });
+}
+
+}  // namespace hexmend

@@ -1,0 +1,126 @@
+// The second derivatives of eta(H)^p by the corners of each hex of a block.
+#pragma once
+
+#include "energy/tetrahedron.hpp"
+#include "linear/couplings.hpp"
+#include "simd/blocks.hpp"
+
+namespace hexmend {
+
+// Values of a hex: the blocks of its 28 pairs of corners, by rows, then the symmetric ones of its 8 corners, xx xy xz
+// yy yz zz; and as many more as make whole vectors.
+constexpr int OWN = 9 * PAIRS, VALUES = OWN + 6 * 8, ROOM = (VALUES + 7) / 8 * 8;
+
+// Beyond it a value is cut, so that single precision holds sums of it.
+constexpr double CUT = 1e34;
+
+// The sums of a block of hexes.
+struct Sums {
+    Lanes at[OWN];
+    Corners<Lanes> g;
+    Lanes eta{};
+
+    // c q' + p d' + k I + [e] cross, to the block of corners a and b.
+    template <int a, int b>
+    void pair(const V3<Lanes> &c, const V3<Lanes> &p, const V3<Lanes> &d, const V3<Lanes> &q, Lanes k,
+              const V3<Lanes> &e) {
+        Lanes *to = at + 9 * (a < b ? pair_of(a, b) : pair_of(b, a));
+        constexpr int xy = a < b ? 1 : 3, xz = a < b ? 2 : 6, yz = a < b ? 5 : 7;
+        to[0] += c.x * q.x + p.x * d.x + k;
+        to[xy] += c.x * q.y + p.x * d.y - e.z;
+        to[xz] += c.x * q.z + p.x * d.z + e.y;
+        to[4 - xy] += c.y * q.x + p.y * d.x + e.z;
+        to[4] += c.y * q.y + p.y * d.y + k;
+        to[yz] += c.y * q.z + p.y * d.z - e.x;
+        to[8 - xz] += c.z * q.x + p.z * d.x - e.y;
+        to[12 - yz] += c.z * q.y + p.z * d.y + e.x;
+        to[8] += c.z * q.z + p.z * d.z + k;
+    }
+};
+
+// Add eta(T) of corner tetrahedron t, an eighth of its gradient, and of its second derivatives by its nodes: (B.19),
+// mended, as `tetrahedron` has it.
+//
+// With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c,
+// the block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
+template <bool soft, int t> inline void add(const Corners<Lanes> &x, double delta, Bits counted, Sums &sums) {
+    constexpr auto &n = CORNER_TETRAHEDRA[t];
+    auto s = x.edges<t>();
+    auto c = cofactors(s);
+    auto d = derivatives<soft>(s, c, delta, counted);
+    sums.eta += counted ? d.eta : all<Lanes>(1.0);
+    sums.g.scatter<t>(gradient(d, s, c));
+    M3<Lanes> p{d.mixed * s.u + d.half * c.u, d.mixed * s.v + d.half * c.v, d.mixed * s.w + d.half * c.w};
+    V3<Lanes> ca = -(c.u + c.v + c.w), pa = -(p.u + p.v + p.w);
+    V3<Lanes> u = d.c * s.u, v = d.c * s.v, w = d.c * s.w;
+    sums.pair<n[0], n[1]>(ca, pa, c.u, p.u, -d.k, w - v);
+    sums.pair<n[0], n[2]>(ca, pa, c.v, p.v, -d.k, u - w);
+    sums.pair<n[0], n[3]>(ca, pa, c.w, p.w, -d.k, v - u);
+    sums.pair<n[1], n[2]>(c.u, p.u, c.v, p.v, Lanes{}, w);
+    sums.pair<n[1], n[3]>(c.u, p.u, c.w, p.w, Lanes{}, -v);
+    sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, Lanes{}, u);
+}
+
+// Write eight rows of numbers as a column of eight for each lane.
+inline void put(const Lanes (&rows)[8], int row, float (*out)[ROOM]) {
+#if defined(__AVX512F__)
+    typedef float Eight __attribute__((vector_size(32)));
+    Eight a[8], b[8];
+    for (int k = 0; k < 8; ++k) a[k] = _mm512_cvtpd_ps(rows[k]);
+    for (int k = 0; k < 8; k += 2) {
+        b[k] = __builtin_shufflevector(a[k], a[k + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+        b[k + 1] = __builtin_shufflevector(a[k], a[k + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+    }
+    for (int k = 0; k < 8; k += 4)
+        for (int j = 0; j < 2; ++j) {
+            a[k + 2 * j] = __builtin_shufflevector(b[k + j], b[k + j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            a[k + 2 * j + 1] = __builtin_shufflevector(b[k + j], b[k + j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int k = 0; k < 4; ++k) {
+        Eight low = __builtin_shufflevector(a[k], a[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        Eight high = __builtin_shufflevector(a[k], a[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+        std::memcpy(out[k] + row, &low, sizeof low);
+        std::memcpy(out[k + 4] + row, &high, sizeof high);
+    }
+#else
+    for (int k = 0; k < 8; ++k)
+        for (int i = 0; i < LANES; ++i) out[i][row + k] = static_cast<float>(rows[k][i]);
+#endif
+}
+
+inline void put(const Lanes (&rows)[8], int row, double (*out)[ROOM]) {
+    for (int k = 0; k < 8; ++k)
+        for (int i = 0; i < LANES; ++i) out[i][row + k] = rows[k][i];
+}
+
+inline Lanes cut(Lanes value) { return least(all<Lanes>(CUT), greatest(all<Lanes>(-CUT), value)); }
+
+// first * values + second * g g', cut to what single precision holds; a hex after another.
+//
+// A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its
+// own.
+template <class Real> void weigh(const Sums &sums, Power power, Real (*out)[ROOM]) {
+    Lanes g[24], h[24], own[48] = {}, rows[8];
+    auto [first, second] = BlockWeights<Lanes>(sums.eta * 0.125 - power.offset, power.p);
+    std::memcpy(g, &sums.g, sizeof g);
+    for (int k = 0; k < 24; ++k) h[k] = second * g[k];
+    int row = 0;
+    auto next = [&](Lanes value) __attribute__((always_inline)) {
+        rows[row % 8] = value;
+        if (++row % 8 == 0) put(rows, row - 8, out);
+    };
+    for (int a = 0; a < 8; ++a)
+        for (int b = a + 1; b < 8; ++b)
+            unrolled<9>([&](auto at) {
+                constexpr int i = at / 3, j = at % 3;
+                Lanes value = cut(first * sums.at[row] + h[3 * a + i] * g[3 * b + j]);
+                // xx xy xz yy yz zz: of the block as it stands for a, of its transpose for b.
+                if constexpr (i <= j) own[6 * a + i * (5 - i) / 2 + j] -= value;
+                if constexpr (i >= j) own[6 * b + j * (5 - j) / 2 + i] -= value;
+                next(value);
+            });
+    for (Lanes value : own) next(cut(value));
+    while (row % 8) next(Lanes{});
+}
+
+}  // namespace hexmend

@@ -1,0 +1,247 @@
+// The energy of a node's patch as a function of that node alone.
+//
+// Each attached hex has four corner tetrahedra that hold the node: the one whose apex it is, and those of its three
+// edge neighbours. The other four do not change as the node moves. At the node's displacement y,
+//
+//     sigma = sigma_0 + g . y          |S|^2 = s_0 + b . y + k |y|^2,   k = 3 at the apex, else 1,
+//
+// because a determinant is linear in each of its columns. A patch is therefore a table of numbers a tetrahedron, made
+// once a visit, on which value, gradient and every trial of the line search are short.
+//
+// Every hex is turned so that the node is its corner 0: what is to be done is then the same in all lanes. In a block
+// that is not full the last hex is repeated, and left out of the sums.
+#pragma once
+
+#include <vector>
+
+#include "energy/tetrahedron.hpp"
+#include "linear/symmetric.hpp"
+#include "simd/blocks.hpp"
+
+namespace hexmend {
+
+// A hex turned so that `corner` is its corner 0.
+inline Hex turned(const Hex &hex, int corner) {
+    Hex there;
+#if defined(__AVX2__)
+    auto from = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(hex.data()));
+    auto order = _mm256_load_si256(reinterpret_cast<const __m256i *>(TURNED[corner].data()));
+    _mm256_storeu_si256(reinterpret_cast<__m256i *>(there.data()), _mm256_permutevar8x32_epi32(from, order));
+#else
+    for (int c = 0; c < 8; ++c) there[c] = hex[TURNED[corner][c]];
+#endif
+    return there;
+}
+
+// Hexes at one node: 8 * hex + corner of each.
+using Star = std::span<const std::int32_t>;
+
+struct Visit {
+    double value;
+    V3<double> gradient;
+};
+
+template <class T> class Patch {
+  public:
+    // Room for as many hexes as meet at any node.
+    explicit Patch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
+
+    // How many hexes there are.
+    int size() const { return size_; }
+
+    // Take the hexes at a node, in lengths so that their mean edge is 1 (each edge counted once a hex), or multiplied
+    // by `factor` if it is not 0. Returns the factor; 0 if the patch has no extent.
+    double load(Points points, Hexes hexes, Star star, double factor = 0) {
+        size_ = static_cast<int>(star.size());
+        const Point &node = points[hexes[star[0] / 8][star[0] % 8]];
+        V3<T> origin{all<T>(node[0]), all<T>(node[1]), all<T>(node[2])};
+        double total = 0;
+        for (int b = 0; b < blocks(); ++b) {
+            Hex hex[width<T>];
+            for (int i = 0; i < width<T>; ++i) {
+                int s = b * width<T> + i;
+                std::int32_t corner = star[s < size_ ? s : size_ - 1];
+                hex[i] = turned(hexes[corner / 8], corner % 8);
+            }
+            auto &x = blocks_[b].x;
+            for (int c = 0; c < 8; ++c)
+                x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
+            if (factor == 0) {
+                T lengths{};
+                for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
+                total += sum(lengths, b);
+            }
+        }
+        if (factor == 0) factor = total > 0 ? 12 * size_ / total : 0.0;
+        for (int b = 0; b < blocks(); ++b)
+            for (auto &corner : blocks_[b].x.at) corner = all<T>(factor) * corner;
+        return factor;
+    }
+
+    // Write the table. delta is meant for the lengths that the patch has now.
+    template <bool soft> void tabulate(double delta) {
+        for (int b = 0; b < blocks(); ++b) {
+            auto &block = blocks_[b];
+            const auto &x = block.x.at;
+            // Corner tetrahedra as in CORNER_TETRAHEDRA, neighbours' beginning with the node.
+            own(block.holds[0], x[3], x[4], x[1]);
+            neighbours(block.holds[1], x[1], x[5], x[2]);
+            neighbours(block.holds[2], x[3], x[2], x[7]);
+            neighbours(block.holds[3], x[4], x[7], x[5]);
+            block.rest = apart<soft>(x[2], x[1], x[6], x[3], delta) + apart<soft>(x[5], x[4], x[6], x[1], delta) +
+                         apart<soft>(x[6], x[5], x[7], x[2], delta) + apart<soft>(x[7], x[6], x[4], x[3], delta);
+        }
+    }
+
+    // Look along a direction: `value_along` displaces the node by alpha times it.
+    void aim(const V3<double> &direction) {
+        V3<T> d{all<T>(direction.x), all<T>(direction.y), all<T>(direction.z)};
+        far_ = dot(direction, direction);
+        for (int b = 0; b < blocks(); ++b)
+            for (auto &t : blocks_[b].holds) t.along_g = dot(t.g, d), t.along_b = dot(t.b, d);
+    }
+
+    // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
+    template <bool soft> double value_along(double alpha, double delta, Power power) const {
+        double far = alpha * alpha * far_, total = 0;
+        for (int b = 0; b < blocks(); ++b) {
+            const auto &block = blocks_[b];
+            T eta = block.rest;
+            for (int j = 0; j < 4; ++j) {
+                const auto &t = block.holds[j];
+                T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
+                eta += energy_at<soft>(sigma, squared, delta).eta();
+            }
+            total += sum_of_powers(eta, power, b);
+        }
+        return total;
+    }
+
+    // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
+    template <bool soft> Visit value_and_gradient(double delta, Power power) {
+        Visit answer{};
+        for (int b = 0; b < blocks(); ++b) {
+            auto &block = blocks_[b];
+            T eta = block.rest;
+            V3<T> g{};
+            for (auto &t : block.holds) {
+                t.energy = energy_at<soft>(t.sigma, t.square, delta);
+                eta += t.energy.eta();
+                // d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ], the first of which is f b . y
+                g += t.energy.f * t.b - t.energy.eta() * (2.0 / 3.0) / t.energy.r * t.g;
+            }
+            block.eta = eta * 0.125 - power.offset;
+            block.gradient = all<T>(0.125) * g;
+            answer.value += sum_of_powers(eta, power, b);
+            block.weights = BlockWeights<T>(block.eta, power.p);
+            V3<T> weighted = block.weights.first * block.gradient;
+            answer.gradient += V3<double>{sum(weighted.x, b), sum(weighted.y, b), sum(weighted.z, b)};
+        }
+        return answer;
+    }
+
+    // Second derivatives of the value where the node is: (B.19) mended, (B.22); as `value_and_gradient` has left it.
+    // d2 sigma vanishes, a determinant being linear in the place of one node (B.1).
+    Symmetric hessian() const {
+        Symmetric answer{};
+        for (int b = 0; b < blocks(); ++b) {
+            const auto &block = blocks_[b];
+            T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+            for (int j = 0; j < 4; ++j) {
+                const auto &t = block.holds[j];
+                T over_r = 1.0 / t.energy.r;
+                T a = (4.0 / 3.0) * t.energy.f * over_r, k = (j ? 2.0 : 6.0) * t.energy.f;
+                T c = (2.0 / 3.0) * t.energy.eta() * over_r * over_r * (2.0 / 3.0 + t.sigma * over_r);
+                V3<T> s = all<T>(0.5) * t.b, g = t.g;
+                xx += k - 2.0 * a * s.x * g.x + c * g.x * g.x;
+                yy += k - 2.0 * a * s.y * g.y + c * g.y * g.y;
+                zz += k - 2.0 * a * s.z * g.z + c * g.z * g.z;
+                xy += c * g.x * g.y - a * (s.x * g.y + s.y * g.x);
+                xz += c * g.x * g.z - a * (s.x * g.z + s.z * g.x);
+                yz += c * g.y * g.z - a * (s.y * g.z + s.z * g.y);
+            }
+            T first = 0.125 * block.weights.first, second = block.weights.second;
+            const V3<T> &e = block.gradient;
+            answer.xx += sum(first * xx + second * e.x * e.x, b);
+            answer.xy += sum(first * xy + second * e.x * e.y, b);
+            answer.xz += sum(first * xz + second * e.x * e.z, b);
+            answer.yy += sum(first * yy + second * e.y * e.y, b);
+            answer.yz += sum(first * yz + second * e.y * e.z, b);
+            answer.zz += sum(first * zz + second * e.z * e.z, b);
+        }
+        return answer;
+    }
+
+  private:
+    struct Holding {
+        T sigma, square;
+        V3<T> g, b;
+        T along_g, along_b;
+        Energy<T> energy;
+    };
+
+    struct Block {
+        Corners<T> x;
+        Holding holds[4];
+        T rest, eta;
+        V3<T> gradient;
+        BlockWeights<T> weights;
+    };
+
+    std::vector<Block> blocks_;
+    int size_ = 0;
+    double far_ = 0;
+
+    int blocks() const { return (size_ + width<T> - 1) / width<T>; }
+
+    // Sum over the hexes of block b.
+    double sum(const T &x, int b) const {
+        int count = size_ - b * width<T>;
+        if constexpr (width<T> > 1) {
+            if (count >= width<T>) return sum_of_lanes(x);
+        }
+        double total = 0;
+        for (int i = 0; i < width<T> && i < count; ++i) total += lane(x, i);
+        return total;
+    }
+
+    // Of the sums of eta(T) of the hexes of block b.
+    double sum_of_powers(T sum_of_eta, Power power, int b) const {
+        T energy = energy_of_sum(sum_of_eta, power.offset);
+        if (power.p == 2) return sum(energy * energy, b);
+        double total = 0;
+        for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), power.p);
+        return total;
+    }
+
+    template <bool soft> static Energy<T> energy_at(T sigma, T squared, double delta) {
+        auto [h, r] = barrier<soft>(sigma, delta);
+        return {power_minus_two_thirds(h) * (1.0 / 3.0), squared, sigma, r};
+    }
+
+    // The node's own tetrahedron: S = [u - y, v - y, w - y].
+    static void own(Holding &t, const V3<T> &u, const V3<T> &v, const V3<T> &w) {
+        M3<T> s{u, v, w};
+        t.sigma = determinant(s);
+        t.g = -(cross(v, w) + cross(w, u) + cross(u, v));
+        t.square = square(s);
+        t.b = all<T>(-2.0) * (u + v + w);
+    }
+
+    // A neighbour's tetrahedron: S = [y - a, b - a, c - a].
+    static void neighbours(Holding &t, const V3<T> &a, const V3<T> &b, const V3<T> &c) {
+        V3<T> u = b - a, v = c - a;
+        t.g = cross(u, v);
+        t.sigma = -dot(a, t.g);
+        t.square = square(a) + square(u) + square(v);
+        t.b = all<T>(-2.0) * a;
+    }
+
+    // eta of a tetrahedron that does not hold the node.
+    template <bool soft> static T apart(const V3<T> &a, const V3<T> &b, const V3<T> &c, const V3<T> &d, double delta) {
+        M3<T> s{b - a, c - a, d - a};
+        return energy_at<soft>(determinant(s), square(s), delta).eta();
+    }
+};
+
+}  // namespace hexmend

@@ -1,0 +1,123 @@
+// The formulas of a corner tetrahedron, S = [u, v, w]: eta(T), its first and its second derivative.
+//
+// With V and W directions of S, C the cofactors of S, so that d sigma(V) = (C, V), r = sqrt(sigma^2 + 4 delta^2) and
+// f = h^(-2/3)/3, so that eta = f |S|^2:
+//
+//     d eta(V)    = 2 f [ (V, S) - |S|^2 (C, V)/(3 r) ]                                                       (B.3)
+//     d2 eta(V,W) = 2 f [ (V, W) - 2/(3 r) ((V, S)(C, W) + (C, V)(W, S))
+//                         - |S|^2/(3 r) d2 sigma(V, W) + |S|^2/(3 r^2) (2/3 + sigma/r) (C, V)(C, W) ]
+//
+// The second is (B.19), mended, with (B.3) put in for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing is
+// divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
+//
+// A tetrahedron that is not `counted` is left out: f, to which energy and derivatives are in proportion, is 0.
+#pragma once
+
+#include "simd/vectors.hpp"
+
+namespace hexmend {
+
+constexpr double TINY = std::numeric_limits<double>::min(), HUGE_ = std::numeric_limits<double>::max();
+
+// h^(-2/3); +inf for h <= 0, for less than the least normal float and for what is no number.
+//
+// A guess from the upper bits of h, then twice the series of q (1 - y)^(-1/3), y = 1 - h^2 q^3, to its fourth term: an
+// error of 0.04 becomes one of 3e-5, and then rounding is all that is left.
+template <class T> inline T power_minus_two_thirds(T h) {
+    using B = bits_of<T>;
+    // The upper half of the bits of 2^52 (1023 + 1023 * 2/3 - 0.0446): makes those of h^(-2/3) right to 4 %.
+    constexpr double MAGIC = static_cast<double>(7678276173719137280LL >> 32);
+    // Beside 2^52 a float's lower bits are those of an integer: this turns one into the other.
+    constexpr double WHOLE = 0x1p52;
+    constexpr std::int64_t WHOLE_BITS = 0x4330000000000000LL;
+    T upper = as<T>((as<B>(h) >> 32 & 0xffffffffLL) | WHOLE_BITS) - WHOLE;
+    T q = as<T>(as<B>((MAGIC + WHOLE) - upper * (2.0 / 3.0)) << 32);
+    for (int i = 0; i < 2; ++i) {
+        T cube_root = h * q;  // neither it nor its square leaves the range of floats
+        T y = 1.0 - cube_root * cube_root * q;
+        q += q * y * (1.0 / 3.0 + y * (2.0 / 9.0 + y * (14.0 / 81.0)));
+    }
+    q = h >= TINY ? q : all<T>(INF);
+    return h > HUGE_ ? all<T>(0.0) : q;
+}
+
+// eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one
+// that has no number, because corners coincide or overflow, is infinitely bad.
+template <class T> inline T energy_of_sum(T sum, double offset) {
+    T energy = sum * 0.125 - offset;
+    return energy > 0.0 ? energy : energy <= 0.0 ? all<T>(0.0) : all<T>(INF);
+}
+
+template <class T> struct Barrier {
+    T h, r;
+};
+
+// h(sigma) of (3.2) and r = sqrt(sigma^2 + 4 delta^2). For sigma < 0 it is 2 delta^2/(r - sigma), the same number
+// without cancellation. Where delta is 0 there is neither root nor quotient, and sigma^2 may overflow.
+template <bool soft, class T> inline Barrier<T> barrier(T sigma, double delta) {
+    if constexpr (!soft) return {greatest(sigma, all<T>(0.0)), magnitude(sigma)};
+    T r = root(sigma * sigma + 4 * delta * delta);
+    T u = magnitude(sigma) + r;
+    return {sigma >= 0.0 ? 0.5 * u : 2 * delta * delta / u, r};
+}
+
+template <class T> struct Energy {
+    T f, square, sigma, r;
+    T eta() const { return f * square; }  // (3.1)
+};
+
+template <bool soft, class T> inline Energy<T> energy_of(const M3<T> &s, T sigma, double delta, auto counted) {
+    auto [h, r] = barrier<soft>(sigma, delta);
+    T f = power_minus_two_thirds(h) * (1.0 / 3.0);
+    return {counted ? f : all<T>(0.0), square(s), sigma, r};
+}
+
+template <bool soft, class T> inline Energy<T> energy(const M3<T> &s, double delta, auto counted) {
+    return energy_of<soft>(s, determinant(s), delta, counted);
+}
+
+// What first and second derivatives are made of, for eta/8, the mean of eight being eta(H).
+//
+// The gradient is k S - c C. The second derivative has k (V, W), -c d2 sigma(V, W), and, with P = mixed S + half C,
+// (C, V)(P, W) + (P, V)(C, W).
+template <class T> struct Derivatives {
+    T eta, k, c, mixed, half;
+};
+
+template <bool soft, class T>
+inline Derivatives<T> derivatives(const M3<T> &s, const M3<T> &cof, double delta, auto counted) {
+    // Without delta, whether an element is inverted is asked of the determinant that all kernels share.
+    T sigma = soft ? dot(s.u, cof.u) : determinant(s);
+    auto e = energy_of<soft>(s, sigma, delta, counted);
+    T over_r = counted ? 1.0 / e.r : all<T>(0.0);
+    T k = 0.25 * e.f, c = e.eta() * over_r * (1.0 / 12.0);
+    return {e.eta(), k, c, (-2.0 / 3.0) * k * over_r, c * over_r * (1.0 / 3.0 + 0.5 * sigma * over_r)};
+}
+
+// The gradient of eta/8 by the columns of S: (B.3).
+template <class T> inline M3<T> gradient(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof) {
+    return {d.k * s.u - d.c * cof.u, d.k * s.v - d.c * cof.v, d.k * s.w - d.c * cof.w};
+}
+
+// What the columns of S and of C are along a direction A: (A, S) and (A, C).
+template <class T> struct Along {
+    T s, c;
+
+    // d eta(A)/8, (B.3).
+    T slope(const Derivatives<T> &d) const { return d.k * s - d.c * c; }
+};
+
+// Second derivative of eta/8 along A, by the columns of S: (B.19).
+template <class T>
+inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a, const Along<T> &along) {
+    T p = d.mixed * along.c;                           // what multiplies S
+    T q = d.mixed * along.s + 2.0 * d.half * along.c;  // what multiplies C
+    // dC: its columns are av x w + v x aw, and so on round.
+    return {
+        p * s.u + q * cof.u + d.k * a.u - d.c * (cross(a.v, s.w) + cross(s.v, a.w)),
+        p * s.v + q * cof.v + d.k * a.v - d.c * (cross(a.w, s.u) + cross(s.w, a.u)),
+        p * s.w + q * cof.w + d.k * a.w - d.c * (cross(a.u, s.v) + cross(s.u, a.v)),
+    };
+}
+
+}  // namespace hexmend

@@ -1,0 +1,133 @@
+// A symmetric matrix of 3 x 3 blocks by slots, as an assembled Hessian is, and what is done with its rows.
+#pragma once
+
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "linear/symmetric.hpp"
+#include "mesh/rows.hpp"
+#include "simd/threads.hpp"
+
+namespace hexmend {
+
+// Vectors by slots have four numbers a slot, the fourth being 0: a row of a block is loaded as four numbers, the last
+// of which belongs to the row behind it, or to nobody, meets that 0 and counts nowhere. The array of blocks has one
+// block more than it needs.
+template <class Real> struct Four {
+    typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
+};
+template <class Real> using Vector = typename Four<Real>::type;
+
+template <class Real> inline Vector<Real> loaded(const Real *from) {
+    Vector<Real> x;
+    std::memcpy(&x, from, sizeof x);
+    return x;
+}
+
+// A symmetric block, by its columns: times a vector without a sum across.
+template <class Real> struct Block {
+    Vector<Real> x, y, z;
+
+    Vector<Real> operator*(const Vector<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
+};
+
+template <class Real> Block<Real> block(const Symmetric &a) {
+    auto column = [](double x, double y, double z) {
+        return Vector<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
+    };
+    return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
+}
+
+template <class Real> Symmetric widened(const std::array<Real, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+
+// A matrix of blocks of one precision, for vectors of the same or another.
+template <class Real, class Number = Real> class System {
+  public:
+    using V = Vector<Number>;
+
+    System(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
+        : bounds_(bounds),
+          row_start_(row_start),
+          columns_(columns),
+          off_(off.data()->data()),
+          parts_(static_cast<int>(bounds.size()) / 2),
+          size_(bounds.back()) {}
+
+    std::int64_t size() const { return size_; }
+
+    // Sum of what body(begin, end, range) returns for the parts, or for the separators, taken side by side; in order.
+    template <class Body> double over_parts(const Body &body) { return over(0, parts_, body); }
+    template <class Body> double over_separators(const Body &body) { return over(parts_, 2 * parts_ - 1, body); }
+
+    // The sum of the blocks of a row times t of their columns; the nearest, known last, comes last.
+    V row_times(std::int32_t i, const V *t) const {
+        V x{}, y{}, z{};
+        for (auto s = row_start_[i + 1] - 1; s >= row_start_[i]; --s) {
+            const V &of = t[columns_[s]];
+            x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
+        }
+        // Sums across, of the three at once.
+        V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
+        V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
+        return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
+    }
+
+    // The blocks of a row, transposed, times p: added to w in the slots of their columns.
+    void add_transposed(std::int32_t i, const V &p, V *w) const {
+        V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
+        for (auto s = row_start_[i]; s < row_start_[i + 1]; ++s)
+            w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
+    }
+
+    // From the first slot to the last: body(i, sum of the blocks left of the diagonal times what it returned there)
+    // returns that for slot i, and what is to be summed over all. `w` is zero before and after; what two parts add to
+    // one separator has a vector each.
+    template <class Body> double forward(V *const (&w)[2], const Body &body) {
+        double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
+            V *below = w[part % 2];
+            double sum = 0;
+            for (auto i = begin; i < end; ++i) {
+                auto [p, square] = body(i, std::exchange(below[i], V{}));
+                add_transposed(i, p, below);
+                sum += square;
+            }
+            return sum;
+        });
+        return total + over_separators([&](std::int32_t begin, std::int32_t end, int) {
+                   V *below = w[0], *other = w[1];
+                   double sum = 0;
+                   for (auto i = begin; i < end; ++i) {
+                       auto [p, square] = body(i, std::exchange(below[i], V{}) + std::exchange(other[i], V{}));
+                       add_transposed(i, p, below);
+                       sum += square;
+                   }
+                   return sum;
+               });
+    }
+
+  private:
+    Indices bounds_, row_start_, columns_;
+    const Real *off_;
+    int parts_;
+    std::int64_t size_;
+    std::vector<double> sums_ = std::vector<double>(2 * parts_);
+
+    V row(std::int32_t s, int k) const {
+        auto four = loaded(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
+        if constexpr (std::is_same_v<Real, Number>) return four;
+        else return __builtin_convertvector(four, V);
+    }
+
+    template <class Body> double over(int first, int last, const Body &body) {
+        parallel(last - first, [&](std::int64_t k) {
+            int range = first + static_cast<int>(k);
+            sums_[range] = body(bounds_[range], bounds_[range + 1], range);
+        });
+        double total = 0;
+        for (int range = first; range < last; ++range) total += sums_[range];
+        return total;
+    }
+};
+
+}  // namespace hexmend

@@ -1,0 +1,29 @@
+#include "linear/eigenvalues.hpp"
+
+#include "smoothers/visit.hpp"
+
+namespace hexmend {
+namespace {
+
+Symmetric symmetric(const std::array<double, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+V3<double> vector(const std::array<double, 3> &a) { return {a[0], a[1], a[2]}; }
+
+}  // namespace
+
+std::pair<double, double> extremes_of(std::array<double, 6> a) {
+    auto [least, greatest] = extreme_eigenvalues(symmetric(a));
+    return {least, greatest};
+}
+
+std::array<double, 3> solution_of(std::array<double, 6> a, std::array<double, 3> b) {
+    auto x = solve(symmetric(a), vector(b));
+    return {x.x, x.y, x.z};
+}
+
+std::array<double, 3> newton_step(std::array<double, 6> hessian, std::array<double, 3> gradient, bool modified) {
+    Symmetric matrix = symmetric(hessian);
+    auto p = newton(matrix, vector(gradient), modified ? shift_of(matrix) : 0.0);
+    return {p.x, p.y, p.z};
+}
+
+}  // namespace hexmend

@@ -1,0 +1,126 @@
+#include "linear/ordering.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace hexmend {
+namespace {
+
+// Free nodes that are joined by edges: the graph that is walked.
+class Graph {
+  public:
+    Graph(Indices start, Indices items, std::span<const bool> free)
+        : start_(start), items_(items), free_(free), degree_(free.size()) {
+        for (Node i = 0; i < nodes(); ++i)
+            for (auto s = start[i]; s < start[i + 1]; ++s) degree_[i] += free[items[s]];
+    }
+
+    Node nodes() const { return static_cast<Node>(free_.size()); }
+    bool has(Node i) const { return free_[i]; }
+
+    int degree(Node i) const { return degree_[i]; }
+
+    // Walk breadth first from the last node of `order`, appending what is not `seen`, of each node's neighbours those
+    // of fewer neighbours first. Returns where the last level begins.
+    std::size_t walk(std::vector<Node> &order, std::vector<bool> &seen) const {
+        std::vector<std::pair<int, Node>> next;
+        std::size_t at = order.size() - 1, level = at;
+        seen[order[at]] = true;
+        for (std::size_t end = order.size(); at < order.size(); end = order.size()) {
+            level = at;
+            for (; at < end; ++at) {
+                next.clear();
+                for (auto s = start_[order[at]]; s < start_[order[at] + 1]; ++s) {
+                    Node j = items_[s];
+                    if (!free_[j] || seen[j]) continue;
+                    seen[j] = true;
+                    next.emplace_back(degree(j), j);
+                }
+                std::sort(next.begin(), next.end());
+                for (auto [degree, j] : next) order.push_back(j);
+            }
+        }
+        return level;
+    }
+
+  private:
+    Indices start_, items_;
+    std::span<const bool> free_;
+    std::vector<int> degree_;
+};
+
+// Cuthill and McKee 1969: breadth first from a node at the rim. It knows no coordinates: a mesh that is turned is
+// smoothed as it was before.
+std::vector<Node> near_each_other(const Graph &graph) {
+    std::vector<Node> order, trial;
+    std::vector<bool> seen(graph.nodes()), tried(graph.nodes());
+    for (Node i = 0; i < graph.nodes(); ++i) {
+        if (!graph.has(i) || seen[i]) continue;
+        trial.assign(1, i);
+        auto last = graph.walk(trial, tried);
+        // Of those that are farthest from anywhere one is at the rim.
+        Node rim = *std::min_element(trial.begin() + last, trial.end(), [&](Node a, Node b) {
+            return std::pair(graph.degree(a), a) < std::pair(graph.degree(b), b);
+        });
+        order.push_back(rim);
+        graph.walk(order, seen);
+    }
+    return order;
+}
+
+// The least and greatest of some numbers.
+struct Span {
+    int least = std::numeric_limits<int>::max(), greatest = -1;
+
+    void take(int number) { least = std::min(least, number), greatest = std::max(greatest, number); }
+    bool none() const { return greatest < 0; }
+    bool one() const { return least == greatest; }
+};
+
+// The part (from 0), or separator (from `parts`), of each node, -1 if it is fixed; none if so many parts are too thin.
+std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, std::size_t nodes, int parts) {
+    std::vector<int> part(nodes, -1);
+    for (std::size_t k = 0; k < order.size(); ++k) part[order[k]] = static_cast<int>(k * parts / order.size());
+    std::vector<int> range = part;
+    for (const Hex &hex : hexes) {
+        Span met;
+        for (Node i : hex)
+            if (part[i] >= 0) met.take(part[i]);
+        if (met.none() || met.one()) continue;
+        for (Node i : hex)
+            if (part[i] == met.greatest) range[i] = parts + met.greatest - 1;
+    }
+    // A hex may hold nodes of one part and of one separator at its side, no others.
+    for (const Hex &hex : hexes) {
+        Span part_met, separator_met;
+        for (Node i : hex)
+            if (range[i] >= 0) (range[i] < parts ? part_met : separator_met).take(range[i]);
+        int side = separator_met.greatest - parts - part_met.greatest;
+        bool sound = (part_met.none() || part_met.one()) && (separator_met.none() || separator_met.one()) &&
+                     (part_met.none() || separator_met.none() || side == 0 || side == -1);
+        if (!sound) return {};
+    }
+    return range;
+}
+
+}  // namespace
+
+std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
+                                                        std::span<const bool> free, int parts) {
+    auto order = near_each_other({ring_start, ring, free});
+    std::vector<int> range;
+    parts = std::max(parts, 1);
+    while (parts > 1 && (range = ranges(order, hexes, free.size(), parts)).empty()) --parts;
+    std::vector<std::int32_t> bounds(2 * parts);
+    if (parts == 1) {
+        bounds[1] = static_cast<std::int32_t>(order.size());
+    } else {
+        std::stable_sort(order.begin(), order.end(), [&](Node a, Node b) { return range[a] < range[b]; });
+        for (Node i : order) ++bounds[range[i] + 1];
+        std::partial_sum(bounds.begin(), bounds.end(), bounds.begin());
+    }
+    return {{std::move(order)}, {std::move(bounds)}};
+}
+
+}  // namespace hexmend

@@ -1,0 +1,14 @@
+// In what order an assembled Hessian keeps the free nodes: neighbours near each other, in parts that share no hex, each
+// two of them with a separator between them, and the separators behind the parts.
+#pragma once
+
+#include <utility>
+
+#include "mesh/rows.hpp"
+
+namespace hexmend {
+
+std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
+                                                        std::span<const bool> free, int parts);
+
+}  // namespace hexmend

@@ -1,0 +1,59 @@
+// Symmetric 3 x 3 matrices.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "simd/vectors.hpp"
+
+namespace hexmend {
+
+struct Symmetric {
+    double xx, xy, xz, yy, yz, zz;
+
+    void raise(double shift) { xx += shift, yy += shift, zz += shift; }
+};
+
+struct Extremes {
+    double least, greatest;
+};
+
+// Least and greatest eigenvalue, by the trigonometric solution of the characteristic equation (Smith 1961).
+inline Extremes extreme_eigenvalues(const Symmetric &a) {
+    double mean = (a.xx + a.yy + a.zz) / 3;
+    double x = a.xx - mean, y = a.yy - mean, z = a.zz - mean;
+    double spread = std::sqrt((x * x + y * y + z * z + 2 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz)) / 6);
+    if (!(spread > 0)) return {mean, mean};
+    double half = (x * (y * z - a.yz * a.yz) - a.xy * (a.xy * z - a.yz * a.xz) + a.xz * (a.xy * a.yz - y * a.xz)) /
+                  (2 * spread * spread * spread);
+    double angle = std::acos(std::clamp(half, -1.0, 1.0)) / 3;
+    return {mean + 2 * spread * std::cos(angle + 2 * std::numbers::pi / 3), mean + 2 * spread * std::cos(angle)};
+}
+
+inline Symmetric operator*(double k, const Symmetric &a) {
+    return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
+}
+
+struct Adjugate {
+    Symmetric adjugate;
+    double det;
+};
+
+// The cofactors, and the determinant by which they are divided in the inverse.
+inline Adjugate adjugate_of(const Symmetric &a) {
+    double xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
+    double yy = a.xx * a.zz - a.xz * a.xz, yz = a.xy * a.xz - a.xx * a.yz, zz = a.xx * a.yy - a.xy * a.xy;
+    return {{xx, xy, xz, yy, yz, zz}, a.xx * xx + a.xy * xy + a.xz * xz};
+}
+
+// Solution of the linear system; zero where the matrix is singular.
+inline V3<double> solve(const Symmetric &a, const V3<double> &b) {
+    auto [c, det] = adjugate_of(a);
+    if (det == 0) return {};
+    return {(c.xx * b.x + c.xy * b.y + c.xz * b.z) / det, (c.xy * b.x + c.yy * b.y + c.yz * b.z) / det,
+            (c.xz * b.x + c.yz * b.y + c.zz * b.z) / det};
+}
+
+}  // namespace hexmend

@@ -1,0 +1,93 @@
+// Compressed rows whose lengths nobody knows beforehand: made in chunks side by side, then put one behind the other.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "mesh/rows.hpp"
+#include "simd/threads.hpp"
+
+namespace hexmend {
+
+// Rows that one thread takes at a time.
+constexpr std::int64_t ROWS = 1024;
+
+// Put an item at its place in an ascending row of `size` unless there is one of its key; returns where it is.
+template <class Item, class Key> inline Item *placed(Item *begin, int &size, const Item &item, const Key &key) {
+    int j = size;
+    while (j > 0 && key(begin[j - 1]) > key(item)) --j;
+    if (j > 0 && key(begin[j - 1]) == key(item)) return begin + j - 1;
+    for (int t = size++; t > j; --t) begin[t] = begin[t - 1];  // a few: a call of memmove costs more
+    begin[j] = item;
+    return begin + j;
+}
+
+inline int *placed(int *begin, int &size, int item) {
+    return placed(begin, size, item, [](int i) { return i; });
+}
+
+// The longest of some compressed rows.
+inline int widest(Indices start) {
+    int most = 0;
+    for (std::size_t i = 1; i < start.size(); ++i) most = std::max(most, start[i] - start[i - 1]);
+    return most;
+}
+
+// The most items that rows may have: their ends are numbers of 32 bits.
+constexpr std::int64_t MOST_ITEMS = std::numeric_limits<std::int32_t>::max();
+
+// Turn counts, start[i] being that of row i, into the ends of the rows. Throws where there are more than `most` items.
+inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_ITEMS) {
+    std::int64_t total = 0;
+    for (auto count : start) total += count;
+    if (total > most)
+        throw std::overflow_error("there are " + std::to_string(total) + " items: expected " + std::to_string(most) +
+                                  " at most");
+    for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+}
+
+template <class Item> class CompressedRows {
+  public:
+    // row(i, items) writes row i, of at most `width` items, and returns how many they are; all rows together may have
+    // `most`.
+    template <class Row> CompressedRows(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
+        start_.resize(count + 1);
+        chunks_.resize((count + ROWS - 1) / ROWS);
+        parallel_chunks(count, ROWS, [&](std::int64_t begin, std::int64_t end) {
+            std::vector<Item> items(width), &chunk = chunks_[begin / ROWS];
+            for (std::int64_t i = begin; i < end; ++i) {
+                int size = start_[i + 1] = row(i, items.data());
+                chunk.insert(chunk.end(), items.data(), items.data() + size);
+            }
+        });
+        accumulate(start_, most);
+    }
+
+    std::int64_t size() const { return start_.back(); }
+
+    // body(i, k, item) for each item of row i, which is number k of all, in any order.
+    template <class Body> void each(const Body &body) const {
+        parallel_chunks(start_.size() - 1, ROWS, [&](std::int64_t begin, std::int64_t end) {
+            const Item *item = chunks_[begin / ROWS].data();
+            for (std::int64_t i = begin; i < end; ++i)
+                for (std::int64_t k = start_[i]; k < start_[i + 1]; ++k) body(i, k, *item++);
+        });
+    }
+
+    std::vector<std::int32_t> &&start() && { return std::move(start_); }
+
+  private:
+    std::vector<std::int32_t> start_;
+    std::vector<std::vector<Item>> chunks_;
+};
+
+// (start, items), as arrays.
+inline std::pair<Made<std::int32_t>, Made<std::int32_t>> arrays(CompressedRows<std::int32_t> &&rows) {
+    std::vector<std::int32_t> items(rows.size());
+    rows.each([&](std::int64_t, std::int64_t k, std::int32_t item) { items[k] = item; });
+    return {{std::move(rows).start()}, {std::move(items)}};
+}
+
+}  // namespace hexmend

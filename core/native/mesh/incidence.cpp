@@ -1,0 +1,197 @@
+#include "mesh/incidence.hpp"
+
+#include <bit>
+#include <numeric>
+
+#include "mesh/compressed.hpp"
+
+namespace hexmend {
+
+RowsMade node_corners(Hexes hexes, std::int64_t nodes) {
+    std::vector<std::int32_t> start(nodes + 1), corners(8 * hexes.size());
+    for (const Hex &hex : hexes)
+        for (Node i : hex) ++start[i];
+    accumulate(start);
+    // From the last to the first, so that each row's end comes down to where it begins.
+    for (std::int64_t k = corners.size() - 1; k >= 0; --k) corners[--start[hexes[k / 8][k % 8]]] = k;
+    return {{std::move(start)}, {std::move(corners)}};
+}
+
+namespace {
+
+// What a face is to one of its corners: the three other corners, and which of these come after it in the face.
+struct Beside {
+    int face, corner[3], after[3];
+};
+
+constexpr auto BESIDE = [] {
+    std::array<std::array<Beside, 3>, 8> beside{};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k) {
+            Beside &to = beside[c][k];
+            to.face = CORNER_FACES[c][k];
+            int size = 0, after = 0;
+            for (int corner : FACES[to.face]) {
+                if (corner == c) after = 1;
+                else to.corner[size] = corner, to.after[size++] = after;
+            }
+        }
+    return beside;
+}();
+
+// A face at its lowest node: the other three, ascending; how many hexes are met behind it, and the last of them.
+struct Face {
+    Node a, b, c;
+    std::int32_t number, met, hex;
+
+    void meet(Face &other) {
+        if (a != other.a || b != other.b || c != other.c) return;
+        ++met, ++other.met;
+        hex = other.number / 6, other.hex = number / 6;
+    }
+};
+
+}  // namespace
+
+std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners) {
+    std::vector<std::int32_t> neighbours(6 * hexes.size());
+    const std::int64_t nodes = start.size() - 1;
+    std::vector<std::int64_t> crowded((nodes + ROWS - 1) / ROWS);
+    parallel_chunks(nodes, ROWS, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Face> faces;  // those whose lowest node is i: half a dozen
+        for (std::int64_t i = begin; i < end; ++i) {
+            faces.clear();
+            for (auto s = start[i]; s < start[i + 1]; ++s) {
+                int h = corners[s] / 8;
+                for (auto &[f, corner, after] : BESIDE[corners[s] % 8]) {
+                    Node a = hexes[h][corner[0]], b = hexes[h][corner[1]], c = hexes[h][corner[2]];
+                    // Of corners that are one node, the first stands for the face.
+                    if (!((a + after[0] > i) & (b + after[1] > i) & (c + after[2] > i))) continue;
+                    if (a > b) std::swap(a, b);
+                    if (b > c) std::swap(b, c);
+                    if (a > b) std::swap(a, b);
+                    faces.push_back({a, b, c, 6 * h + f, 0, -1});
+                }
+            }
+            for (std::size_t s = 0; s < faces.size(); ++s)
+                for (std::size_t t = 0; t < s; ++t) faces[s].meet(faces[t]);
+            for (const Face &face : faces) {
+                neighbours[face.number] = face.met == 1 ? face.hex : -1;
+                crowded[begin / ROWS] += face.met > 1;
+            }
+        }
+    });
+    return {{std::move(neighbours)}, std::reduce(crowded.begin(), crowded.end())};
+}
+
+std::int64_t parts(Hexes hexes, std::span<const bool> used) {
+    std::vector<Node> parent(used.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    // The node that stands for the part of node i; the way there is halved for those who come after.
+    auto root = [&](Node i) {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    for (const Hex &hex : hexes) {
+        Node first = root(hex[0]);
+        for (Node i : hex) {
+            if (parent[i] == first) continue;
+            Node other = root(i);
+            parent[std::max(first, other)] = std::min(first, other);
+            first = std::min(first, other);
+        }
+    }
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) count += used[i] && parent[i] == static_cast<Node>(i);
+    return count;
+}
+
+RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
+    return arrays(CompressedRows<Node>(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Node *ring) {
+        int size = 0;
+        for (auto s = start[i]; s < start[i + 1]; ++s)
+            for (int k = 1; k < 4; ++k) {
+                Node j = hexes[corners[s] / 8][CORNER_TETRAHEDRA[corners[s] % 8][k]];
+                if (j != i) placed(ring, size, j);
+            }
+        return size;
+    }));
+}
+
+Made<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
+    std::vector<std::int32_t> colour(chosen.size(), -1);
+    std::vector<std::uint64_t> taken;  // of each hex, the colours of its nodes: 64 of them at a time
+    bool more = true;
+    for (int first = 0; more; first += 64) {
+        more = false;
+        taken.assign(corners.size() / 8, 0);
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (!chosen[i] || colour[i] >= 0) continue;
+            std::uint64_t seen = 0;
+            for (auto s = start[i]; s < start[i + 1]; ++s) seen |= taken[corners[s] / 8];
+            int k = std::countr_one(seen);
+            if (k == 64) {  // its colour is above those of this round, whatever the later nodes take
+                more = true;
+                continue;
+            }
+            colour[i] = first + k;
+            for (auto s = start[i]; s < start[i + 1]; ++s) taken[corners[s] / 8] |= std::uint64_t{1} << k;
+        }
+    }
+    return {std::move(colour)};
+}
+
+RowsMade grouped(Indices colour, std::int64_t count) {
+    std::vector<std::int32_t> start(count + 1);
+    for (auto k : colour)
+        if (k >= 0) ++start[k];
+    accumulate(start);
+    std::vector<std::int32_t> nodes(start[count]);
+    for (std::int64_t i = colour.size() - 1; i >= 0; --i)
+        if (colour[i] >= 0) nodes[--start[colour[i]]] = i;
+    return {{std::move(start)}, {std::move(nodes)}};
+}
+
+Made<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours) {
+    const std::int64_t m = neighbours.size();
+    std::vector<std::int32_t> layer(m, -1), queue;
+    queue.reserve(m);
+    for (std::int64_t h = 0; h < m; ++h)
+        if (std::any_of(neighbours[h].begin(), neighbours[h].end(), [](auto other) { return other < 0; })) {
+            layer[h] = 0;
+            queue.push_back(h);
+        }
+    std::int32_t deepest = -1;
+    for (std::size_t at = 0; at < queue.size(); ++at) {
+        deepest = layer[queue[at]];
+        for (auto other : neighbours[queue[at]])
+            if (other >= 0 && layer[other] < 0) {
+                layer[other] = deepest + 1;
+                queue.push_back(other);
+            }
+    }
+    std::replace(layer.begin(), layer.end(), -1, deepest + 1);  // no way leads there
+    return {std::move(layer)};
+}
+
+Made<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
+    std::vector<std::uint8_t> reached(hexes.size()), seen(start.size() - 1);
+    std::vector<std::int32_t> queue;
+    auto reach = [&](std::int32_t h) {
+        if (reached[h]) return;
+        reached[h] = true;
+        queue.push_back(h);
+    };
+    for (auto h : chosen) reach(h);
+    std::size_t at = 0;
+    for (int ring = 0; ring < rings; ++ring)
+        for (std::size_t last = queue.size(); at < last; ++at)
+            for (Node i : hexes[queue[at]]) {
+                if (seen[i]) continue;
+                seen[i] = true;
+                for (auto s = start[i]; s < start[i + 1]; ++s) reach(corners[s] / 8);
+            }
+    return {std::move(reached)};
+}
+
+}  // namespace hexmend

@@ -1,0 +1,106 @@
+// How regular hexes are, and whether they are sound: q(T), (2.8), and q(H), (2.10).
+//
+// Lanes hold hexes where many are judged; where one is, they hold its corner tetrahedra: see `OneHex`.
+#pragma once
+
+#include "energy/tetrahedron.hpp"
+#include "simd/blocks.hpp"
+
+namespace hexmend {
+
+// What a comparison of T gives: bool, or a mask for each lane.
+template <class T> using Truth = decltype(T{} > T{});
+
+// q(T) = 3 sigma^(2/3)/|S|^2, (2.8); 0 where sigma <= 0.
+template <class T> inline T quality(const M3<T> &s, T sigma) {
+    return sigma > 0.0 ? 3.0 / (square(s) * power_minus_two_thirds(sigma)) : all<T>(0.0);
+}
+
+// q(H), the mean of the q(T), and whether no corner is inverted.
+template <class T> struct Quality {
+    T q;
+    Truth<T> sound;
+};
+
+template <class T> inline Quality<T> quality(const Corners<T> &x) {
+    T total{};
+    Truth<T> sound = all<T>(0.0) == 0.0;
+    unrolled<8>([&](auto t) {
+        auto s = x.template edges<t>();
+        T sigma = determinant(s);
+        total += quality(s, sigma);
+        sound = sound & (sigma > 0.0);
+    });
+    return {total * 0.125, sound};
+}
+
+// One hex, its corners side by side: corner c in lane c % LANES of register c / LANES.
+class OneHex {
+  public:
+    OneHex(Points points, const Hex &hex) {
+        for (int c = 0; c < 8; c += LANES)
+            corners_[c / LANES] = side_by_side<Lanes>([&](int i) -> const Point & { return points[hex[c + i]]; });
+    }
+
+    Quality<double> quality() const {
+        Lanes total{};
+        bool sound = true;
+        unrolled<8 / LANES>([&](auto k) {
+            auto s = edges<k * LANES>();
+            Lanes sigma = determinant(s);
+            total += hexmend::quality(s, sigma);
+            sound &= positive(sigma);
+        });
+        return {sum(total) * 0.125, sound};
+    }
+
+    // Whether no corner is inverted.
+    bool sound() const {
+        bool sound = true;
+        unrolled<8 / LANES>([&](auto k) { sound &= positive(determinant(edges<k * LANES>())); });
+        return sound;
+    }
+
+  private:
+    // The columns of S at the corner tetrahedra from `first` on.
+    template <int first> M3<Lanes> edges() const {
+        auto apex = ends<first, 0>();
+        return {ends<first, 1>() - apex, ends<first, 2>() - apex, ends<first, 3>() - apex};
+    }
+
+    // Node number `end` of the corner tetrahedra from `first` on.
+    template <int first, int end> V3<Lanes> ends() const {
+        return {picked<first, end>([](auto &v) { return v.x; }), picked<first, end>([](auto &v) { return v.y; }),
+                picked<first, end>([](auto &v) { return v.z; })};
+    }
+
+    template <int first, int end, class Component> Lanes picked(const Component &of) const {
+        constexpr auto c = [](int i) { return CORNER_TETRAHEDRA[first + i][end]; };
+        constexpr int last = 8 / LANES - 1;
+        if constexpr (LANES == 8) {
+            Lanes all = of(corners_[0]);
+            return __builtin_shufflevector(all, all, c(0), c(1), c(2), c(3), c(4), c(5), c(6), c(7));
+        } else if constexpr (LANES == 4) {
+            return __builtin_shufflevector(of(corners_[0]), of(corners_[last]), c(0), c(1), c(2), c(3));
+        } else {
+            return __builtin_shufflevector(of(corners_[c(0) / 2]), of(corners_[c(1) / 2]), c(0) % 2, 2 + c(1) % 2);
+        }
+    }
+
+    static bool positive(Lanes sigma) {
+        Bits yes = sigma > 0.0;
+        std::int64_t every = yes[0];
+        for (int i = 1; i < LANES; ++i) every &= yes[i];
+        return every != 0;
+    }
+
+    static double sum(Lanes x) {
+        double total = x[0];
+        for (int i = 1; i < LANES; ++i) total += x[i];
+        return total;
+    }
+
+    V3<Lanes> corners_[8 / LANES];
+};
+
+}  // namespace hexmend

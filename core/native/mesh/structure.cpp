@@ -1,0 +1,59 @@
+#include "mesh/structure.hpp"
+
+#include "mesh/compressed.hpp"
+
+namespace hexmend {
+namespace {
+
+// The two faces that meet in the edge from each corner to the k-th of its three neighbours.
+constexpr auto SIDES = [] {
+    std::array<std::array<std::array<int, 2>, 3>, 8> sides{};
+    for (int c = 0; c < 8; ++c)
+        for (int k = 0; k < 3; ++k) {
+            int size = 0;
+            for (int f : CORNER_FACES[c])
+                for (int corner : FACES[f])
+                    if (corner == CORNER_TETRAHEDRA[c][k + 1]) sides[c][k][size++] = f;
+        }
+    return sides;
+}();
+
+// An edge from the node whose row it is in to a higher one.
+struct Edge {
+    Node end;
+    std::int32_t valence, last;  // hexes around it, and the one that was counted last
+    bool outside;
+};
+
+}  // namespace
+
+std::tuple<Made<Node, 2>, Made<std::int32_t>, Made<bool>> edges(Hexes hexes, Indices start, Indices corners,
+                                                                std::span<const std::array<std::int32_t, 6>> neighbours,
+                                                                std::int64_t most) {
+    CompressedRows<Edge> rows(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Edge *row) {
+        int size = 0;
+        for (auto s = start[i]; s < start[i + 1]; ++s) {
+            int h = corners[s] / 8, c = corners[s] % 8;
+            for (int k = 0; k < 3; ++k) {
+                Node j = hexes[h][CORNER_TETRAHEDRA[c][k + 1]];
+                if (j <= i) continue;
+                Edge *edge = placed(row, size, {j, 0, -1, false}, [](const Edge &e) { return e.end; });
+                edge->valence += edge->last != h;
+                edge->last = h;
+                edge->outside |= neighbours[h][SIDES[c][k][0]] < 0 || neighbours[h][SIDES[c][k][1]] < 0;
+            }
+        }
+        return size;
+    });
+    std::vector<Node> ends(2 * rows.size());
+    std::vector<std::int32_t> valence(rows.size());
+    std::vector<std::uint8_t> outside(rows.size());
+    rows.each([&](std::int64_t i, std::int64_t k, const Edge &edge) {
+        ends[2 * k] = i, ends[2 * k + 1] = edge.end;
+        valence[k] = edge.valence;
+        outside[k] = edge.outside;
+    });
+    return {{std::move(ends)}, {std::move(valence)}, {std::move(outside)}};
+}
+
+}  // namespace hexmend

@@ -1,0 +1,14 @@
+// How many hexes meet in an edge: what tells where the blocks of a mesh join.
+#pragma once
+
+#include <tuple>
+
+#include "mesh/rows.hpp"
+
+namespace hexmend {
+
+std::tuple<Made<Node, 2>, Made<std::int32_t>, Made<bool>> edges(Hexes hexes, Indices start, Indices corners,
+                                                                std::span<const std::array<std::int32_t, 6>> neighbours,
+                                                                std::int64_t most);
+
+}  // namespace hexmend

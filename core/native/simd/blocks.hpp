@@ -1,0 +1,184 @@
+// A block of hexes side by side, one in each lane.
+#pragma once
+
+#include "energy/power.hpp"
+#include "mesh/rows.hpp"
+#include "simd/threads.hpp"
+
+namespace hexmend {
+
+// Hexes that one thread takes at a time: whole blocks, however wide they are.
+constexpr std::int64_t CHUNK = 256;
+
+namespace detail {
+
+#if defined(__AVX512VL__)
+inline __m256d three_numbers(const Point &p) { return _mm256_maskz_loadu_pd(0b0111, p.data()); }
+#elif defined(__AVX__)
+inline __m256d three_numbers(const Point &p) { return _mm256_maskload_pd(p.data(), _mm256_set_epi64x(0, -1, -1, -1)); }
+#endif
+
+}  // namespace detail
+
+// The vectors at(0), at(1)... side by side, one in each lane.
+template <class T, class At> inline __attribute__((always_inline)) V3<T> side_by_side(const At &at) {
+    if constexpr (width<T> == 1) {
+        const Point &p = at(0);
+        return {p[0], p[1], p[2]};
+    } else {
+#if defined(__AVX512F__)
+        auto two = [&](int i) __attribute__((always_inline)) {
+            return __builtin_shufflevector(detail::three_numbers(at(i)), detail::three_numbers(at(i + 4)),  //
+                                           0, 1, 2, 3, 4, 5, 6, 7);
+        };
+        Lanes a = two(0), b = two(1), c = two(2), d = two(3);  // x0 y0 z0 - x4 y4 z4 -, ...
+        Lanes xz = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+        Lanes y = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+        Lanes more_xz = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+        Lanes more_y = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+        return {__builtin_shufflevector(xz, more_xz, 0, 1, 8, 9, 4, 5, 12, 13),
+                __builtin_shufflevector(y, more_y, 0, 1, 8, 9, 4, 5, 12, 13),
+                __builtin_shufflevector(xz, more_xz, 2, 3, 10, 11, 6, 7, 14, 15)};
+#elif defined(__AVX__)
+        Lanes a = detail::three_numbers(at(0)), b = detail::three_numbers(at(1));
+        Lanes c = detail::three_numbers(at(2)), d = detail::three_numbers(at(3));
+        Lanes xz = __builtin_shufflevector(a, b, 0, 4, 2, 6), more_xz = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+        Lanes y = __builtin_shufflevector(a, b, 1, 5, 3, 7), more_y = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        return {__builtin_shufflevector(xz, more_xz, 0, 1, 4, 5), __builtin_shufflevector(y, more_y, 0, 1, 4, 5),
+                __builtin_shufflevector(xz, more_xz, 2, 3, 6, 7)};
+#else
+        const Point &a = at(0), &b = at(1);
+        return {Lanes{a[0], b[0]}, Lanes{a[1], b[1]}, Lanes{a[2], b[2]}};
+#endif
+    }
+}
+
+// Rows of as many lanes as there are rows become columns.
+inline void transpose(Lanes (&rows)[LANES]) {
+#if defined(__AVX512F__)
+    Lanes a[8], b[8];
+    for (int k = 0; k < 8; k += 2) {
+        a[k] = __builtin_shufflevector(rows[k], rows[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        a[k + 1] = __builtin_shufflevector(rows[k], rows[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int k = 0; k < 8; k += 4)
+        for (int j = 0; j < 2; ++j) {
+            b[k + j] = __builtin_shufflevector(a[k + j], a[k + j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            b[k + j + 2] = __builtin_shufflevector(a[k + j], a[k + j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int k = 0; k < 4; ++k) {
+        rows[k] = __builtin_shufflevector(b[k], b[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[k + 4] = __builtin_shufflevector(b[k], b[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+#elif defined(__AVX__)
+    Lanes a = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6),
+          b = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+    Lanes c = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6),
+          d = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+    rows[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5), rows[1] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+    rows[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7), rows[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+#else
+    Lanes a = rows[0], b = rows[1];
+    rows[0] = Lanes{a[0], b[0]}, rows[1] = Lanes{a[1], b[1]};
+#endif
+}
+
+// Corners of `count` hexes from `first` on; further lanes repeat the last.
+template <class T> inline Corners<T> gathered(Points points, Hexes hexes, std::int64_t first, int count) {
+    const Hex *hex[width<T>];
+    for (int i = 0; i < width<T>; ++i) hex[i] = &hexes[first + (i < count ? i : count - 1)];
+    Corners<T> x;
+    for (int c = 0; c < 8; ++c) x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
+    return x;
+}
+
+// The same of values that some corners have, by their slot; zero where it is below 0.
+template <class T> inline Corners<T> gathered_or_zero(Points values, Hexes slots, std::int64_t first, int count) {
+    static constexpr Point ZERO{};
+    const Hex *hex[width<T>];
+    for (int i = 0; i < width<T>; ++i) hex[i] = &slots[first + (i < count ? i : count - 1)];
+    Corners<T> x;
+    for (int c = 0; c < 8; ++c)
+        x.at[c] = side_by_side<T>([&](int i) -> const Point & {
+            auto slot = (*hex[i])[c];
+            return slot >= 0 ? values[slot] : ZERO;
+        });
+    return x;
+}
+
+// Write vectors at corners, 24 numbers a hex.
+template <class T>
+inline void put(const Corners<T> &x, std::int64_t first, int count, std::span<std::array<double, 24>> values) {
+    T numbers[24], rows[width<T>];
+    std::memcpy(numbers, &x, sizeof x);
+    for (int k = 0; k < 24; k += width<T>) {
+        std::memcpy(rows, numbers + k, sizeof rows);
+        if constexpr (width<T> > 1) transpose(rows);
+        for (int i = 0; i < count; ++i) std::memcpy(&values[first + i][k], &rows[i], sizeof(T));
+    }
+}
+
+// The same corners less the first: sums of them are as exact far from the origin.
+template <class T> inline Corners<T> from_first_corner(const Corners<T> &x) {
+    Corners<T> less;
+    for (int c = 0; c < 8; ++c) less.at[c] = x.at[c] - x.at[0];
+    return less;
+}
+
+// Write the lanes of a block, a number of each hex.
+inline void put(const Lanes &x, std::int64_t first, int count, std::span<double> values) {
+    for (int i = 0; i < count; ++i) values[first + i] = x[i];
+}
+
+// Which corner tetrahedra count: bit t of a hex is set where number t is left out, as if it were perfect.
+template <class T> struct Counted {
+    bits_of<T> left_out;
+
+    Counted(Left bits, std::int64_t first, int count) {
+        alignas(64) std::int64_t buffer[width<T>] = {};
+        for (int i = 0; i < count; ++i) buffer[i] = bits[first + i];
+        std::memcpy(&left_out, buffer, sizeof left_out);
+    }
+
+    auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
+};
+
+// body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do,
+// which the compiler is told.
+template <class T, class Body>
+inline __attribute__((always_inline)) void with_counted(Left left_out, std::int64_t first, int count,
+                                                        const Body &body) {
+    bool some = false;
+    for (int i = 0; i < count; ++i) some |= left_out[first + i] != 0;
+    if (some) body(Counted<T>(left_out, first, count));
+    else body([](int) { return std::true_type{}; });
+}
+
+// First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.
+template <class T> struct BlockWeights {
+    T first{}, second{};
+
+    BlockWeights() = default;
+
+    BlockWeights(T energy, double p) {
+        if (p == 2) {
+            auto perfect = energy < 0.0;
+            first = perfect ? all<T>(0.0) : 2.0 * energy, second = perfect ? all<T>(0.0) : all<T>(2.0);
+            return;
+        }
+        for (int i = 0; i < width<T>; ++i) {
+            auto [one, two] = weights(lane(energy, i), p);
+            set_lane(first, i, one), set_lane(second, i, two);
+        }
+    }
+};
+
+// body(first, count) for every block of the hexes, on all threads.
+template <class T, class Body> inline void blocks_of(std::int64_t hexes, const Body &body) {
+    parallel_chunks(hexes, CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t first = begin; first < end; first += width<T>)
+            body(first, static_cast<int>(end - first < width<T> ? end - first : width<T>));
+    });
+}
+
+}  // namespace hexmend

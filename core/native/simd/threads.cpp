@@ -1,0 +1,185 @@
+#include "simd/threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace hexmend {
+namespace {
+
+// More threads than this are asked for by mistake.
+constexpr int MOST = 1024;
+
+// How often a thread looks before it sleeps: some ten microseconds.
+constexpr int LOOKS = 400;
+
+void breathe() {
+#if defined(__x86_64__)
+    _mm_pause();
+#else
+    std::this_thread::yield();
+#endif
+}
+
+// Wait until `number` is no longer `old`.
+void await(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
+    for (int i = 0; i < LOOKS; ++i) {
+        if (number.load(std::memory_order_acquire) != old) return;
+        breathe();
+    }
+    number.wait(old, std::memory_order_acquire);
+}
+
+// Whether this thread is in a loop that is shared: a loop inside of it is not.
+thread_local bool at_work = false;
+
+class Team {
+  public:
+    explicit Team(int wanted) : wanted_(wanted) {
+        helpers_.reserve(wanted);
+        try {
+            for (int i = 0; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
+        } catch (const std::exception &) {  // as many as the system gives
+        }
+    }
+
+    ~Team() {
+        over_ = true;
+        call();
+        for (auto &helper : helpers_) helper.join();
+    }
+
+    int wanted() const { return wanted_; }
+
+    void share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
+        body_ = body, context_ = context, pieces_ = pieces;
+        next_.store(0, std::memory_order_relaxed);
+        gate_.store(OPEN, std::memory_order_release);
+        call();
+        work();
+        // Nobody waits for a helper that has not yet come: on a busy machine that may take long.
+        gate_.fetch_and(~OPEN, std::memory_order_acq_rel);
+        for (std::uint32_t inside; (inside = gate_.load(std::memory_order_acquire)) != 0;) await(gate_, inside);
+        if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+    }
+
+  private:
+    void call() {
+        turn_.fetch_add(1, std::memory_order_release);
+        turn_.notify_all();
+    }
+
+    void work() {
+        try {
+            for (std::int64_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < pieces_;) body_(context_, i);
+        } catch (...) {
+            std::lock_guard lock(guard_);
+            error_ = std::current_exception();
+        }
+    }
+
+    bool enter() {
+        std::uint32_t gate = gate_.load(std::memory_order_relaxed);
+        while (gate & OPEN)
+            if (gate_.compare_exchange_weak(gate, gate + 1, std::memory_order_acq_rel)) return true;
+        return false;
+    }
+
+    void help() {
+        at_work = true;
+        for (std::uint32_t turn = 0;;) {
+            await(turn_, turn);
+            turn = turn_.load(std::memory_order_acquire);
+            if (over_) return;
+            if (!enter()) continue;
+            work();
+            if (gate_.fetch_sub(1, std::memory_order_acq_rel) == 1) gate_.notify_all();
+        }
+    }
+
+    static constexpr std::uint32_t OPEN = 1u << 31;
+
+    int wanted_;
+    std::vector<std::thread> helpers_;
+    std::atomic<std::uint32_t> turn_{0};
+    std::atomic<std::uint32_t> gate_{0};  // whether the loop may be joined, and how many helpers are at it
+    std::atomic<std::int64_t> next_{0};
+    std::int64_t pieces_ = 0;
+    void (*body_)(const void *, std::int64_t) = nullptr;
+    const void *context_ = nullptr;
+    std::atomic<bool> over_{false};
+    std::mutex guard_;
+    std::exception_ptr error_;
+};
+
+long process() {
+#if defined(__unix__) || defined(__APPLE__)
+    return static_cast<long>(getpid());
+#else
+    return 0;
+#endif
+}
+
+std::atomic<int> by_default{1};
+
+struct Own {
+    int count = 0;  // 0: the default
+    long made_in = 0;
+    std::unique_ptr<Team> team;
+
+    ~Own() {
+#if defined(_WIN32)
+        (void)team.release();  // whose helpers could not end while Windows ends this thread
+#else
+        forget();
+#endif
+    }
+
+    void forget() {
+        // A process that was forked has the memory of its parent's helpers, but not the helpers.
+        if (team && made_in != process()) (void)team.release();
+    }
+};
+
+thread_local Own own;
+
+}  // namespace
+
+int threads() { return own.count ? own.count : by_default.load(); }
+
+void set_threads(int count) { own.count = std::clamp(count, 1, MOST); }
+
+void set_default_threads(int count) { by_default = std::clamp(count, 1, MOST); }
+
+void detail::share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
+    int helpers = threads() - 1;
+    if (pieces <= 1 || helpers == 0 || at_work) {
+        for (std::int64_t i = 0; i < pieces; ++i) body(context, i);
+        return;
+    }
+    own.forget();
+    if (!own.team || own.team->wanted() != helpers) {
+        own.team.reset();
+        own.team = std::make_unique<Team>(helpers);
+        own.made_in = process();
+    }
+    at_work = true;
+    struct Done {
+        ~Done() { at_work = false; }
+    } done;
+    own.team->share(pieces, body, context);
+}
+
+}  // namespace hexmend

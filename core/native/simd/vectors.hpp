@@ -1,0 +1,58 @@
+// Vectors of three, each component a number or a register of lanes.
+#pragma once
+
+#include "simd/lanes.hpp"
+
+namespace hexmend {
+
+template <class T> struct V3 {
+    T x{}, y{}, z{};
+
+    V3 &operator+=(const V3 &b) {
+        x += b.x, y += b.y, z += b.z;
+        return *this;
+    }
+    V3 &operator-=(const V3 &b) {
+        x -= b.x, y -= b.y, z -= b.z;
+        return *this;
+    }
+};
+
+template <class T> inline V3<T> operator+(const V3<T> &a, const V3<T> &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+template <class T> inline V3<T> operator-(const V3<T> &a, const V3<T> &b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class T> inline V3<T> operator-(const V3<T> &a) { return {-a.x, -a.y, -a.z}; }
+template <class T> inline V3<T> operator*(T k, const V3<T> &a) { return {k * a.x, k * a.y, k * a.z}; }
+template <class T> inline T dot(const V3<T> &a, const V3<T> &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class T> inline T square(const V3<T> &a) { return dot(a, a); }
+template <class T> inline T length(const V3<T> &a) { return root(dot(a, a)); }
+
+template <class T> inline V3<T> cross(const V3<T> &a, const V3<T> &b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+// Columns u, v, w: the edges of a corner tetrahedron from its apex, and what is derived by them.
+template <class T> struct M3 {
+    V3<T> u, v, w;
+};
+
+template <class T> inline T dot(const M3<T> &a, const M3<T> &b) {
+    return dot(a.u, b.u) + dot(a.v, b.v) + dot(a.w, b.w);
+}
+template <class T> inline T square(const M3<T> &a) { return dot(a, a); }
+
+// The derivative of the determinant of [u, v, w]: columns v x w, w x u, u x v.
+template <class T> inline M3<T> cofactors(const M3<T> &s) {
+    return {cross(s.v, s.w), cross(s.w, s.u), cross(s.u, s.v)};
+}
+
+// sigma = det [u, v, w] = u . (v x w), (2.9). Every product is rounded on its own, so that a flat corner is flat to
+// every kernel and to whoever writes the same formula in plain arithmetic.
+template <class T> inline T determinant(const M3<T> &s) {
+    const auto &[u, v, w] = s;
+    T x = rounded(v.y * w.z) - rounded(v.z * w.y);
+    T y = rounded(v.z * w.x) - rounded(v.x * w.z);
+    T z = rounded(v.x * w.y) - rounded(v.y * w.x);
+    return rounded(u.x * x) + rounded(u.y * y) + rounded(u.z * z);
+}
+
+}  // namespace hexmend

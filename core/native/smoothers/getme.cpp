@@ -1,0 +1,57 @@
+#include "smoothers/getme.hpp"
+
+#include "mesh/quality.hpp"
+
+namespace hexmend {
+
+void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, Indices start, Indices corners,
+                    Indices nodes, std::span<Point> targets) {
+    parallel_chunks(nodes.size(), CHUNK, [&](std::int64_t begin, std::int64_t end) {
+        for (Node i : nodes.subspan(begin, end - begin)) {
+            double total = 0;
+            Point sum{};
+            for (auto s = start[i]; s < start[i + 1]; ++s) {
+                int h = corners[s] / 8, c = corners[s] % 8;
+                total += weights[h];
+                for (int k = 0; k < 3; ++k) sum[k] += weights[h] * places[h][3 * c + k];
+            }
+            targets[i] = {sum[0] / total, sum[1] / total, sum[2] / total};
+        }
+    });
+}
+
+// Share of a node's step that is left after so many halvings: the last gives it up.
+constexpr double SHARES[] = {1, 0.5, 0.25, 0.125, 0};
+constexpr int HALVINGS = 4;
+
+std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, std::span<const bool> sound,
+                   Indices harmed, std::span<Point> moved) {
+    std::vector<std::uint8_t> level(points.size());
+    std::vector<std::int32_t> node_round(points.size()), hex_round(hexes.size());
+    std::vector<Point> step(moved.begin(), moved.end());
+    std::vector<std::int32_t> queue(harmed.begin(), harmed.end()), changed;
+    std::int64_t relaxed = 0;
+    for (int round = 1; !queue.empty(); ++round) {
+        changed.clear();
+        for (auto h : queue)
+            for (Node i : hexes[h]) {
+                if (node_round[i] == round || level[i] == HALVINGS) continue;
+                node_round[i] = round;
+                relaxed += level[i] == 0;
+                double share = SHARES[++level[i]];
+                for (int k = 0; k < 3; ++k) moved[i][k] = points[i][k] + share * (step[i][k] - points[i][k]);
+                changed.push_back(i);
+            }
+        queue.clear();
+        for (Node i : changed)
+            for (auto s = start[i]; s < start[i + 1]; ++s) {
+                int h = corners[s] / 8;
+                if (hex_round[h] == round || !sound[h]) continue;
+                hex_round[h] = round;
+                if (!OneHex(moved, hexes[h]).sound()) queue.push_back(h);
+            }
+    }
+    return relaxed;
+}
+
+}  // namespace hexmend

@@ -1,0 +1,90 @@
+#include "smoothers/laplacian.hpp"
+
+#include "mesh/compressed.hpp"
+#include "mesh/quality.hpp"
+
+namespace hexmend {
+namespace {
+
+inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) {
+    Point sum{};
+    for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
+        for (int k = 0; k < 3; ++k) sum[k] += points[ring[s]][k];
+    double count = ring_start[i + 1] - ring_start[i];
+    return {sum[0] / count, sum[1] / count, sum[2] / count};
+}
+
+// Where node i goes: to the mean, put back if it slides.
+inline Point goal(Points points, Indices ring_start, Indices ring, Node i, const Ground *ground) {
+    Point mean = ring_mean(points, ring_start, ring, i);
+    return ground && ground->slides(i) ? ground->led(points, i, mean) : mean;
+}
+
+// What is asked of a hex; never inlined, so that a hex that did not move is what it was to the last bit.
+template <bool by_quality> __attribute__((noinline)) Quality<double> judged(Points points, const Hex &hex) {
+    OneHex x(points, hex);
+    if constexpr (by_quality) return x.quality();
+    else return {0.0, x.sound()};
+}
+
+template <bool by_quality>
+std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
+                           Indices ring, Indices nodes, const Ground *ground) {
+    // Hexes as they are now, once somebody has asked: a move that is kept has judged them already.
+    std::vector<Quality<double>> now(hexes.size()), after(widest(start));
+    std::vector<std::uint8_t> known(hexes.size());
+    std::int64_t taken_back = 0;
+    for (Node i : nodes) {
+        auto attached = corners.subspan(start[i], start[i + 1] - start[i]);
+        double least = INF;
+        for (auto corner : attached) {
+            int h = corner / 8;
+            if (!known[h]) now[h] = judged<by_quality>(points, hexes[h]), known[h] = true;
+            least = std::min(least, now[h].q);
+        }
+        Point before = points[i];
+        points[i] = goal(points, ring_start, ring, i, ground);
+        bool harm = false;
+        for (std::size_t s = 0; s < attached.size() && !harm; ++s) {
+            int h = attached[s] / 8;
+            after[s] = judged<by_quality>(points, hexes[h]);
+            harm = (now[h].sound && !after[s].sound) || after[s].q < least;
+        }
+        if (harm) {
+            points[i] = before;
+            ++taken_back;
+        } else {
+            for (std::size_t s = 0; s < attached.size(); ++s) now[attached[s] / 8] = after[s];
+        }
+    }
+    return taken_back;
+}
+
+}  // namespace
+
+void in_place_on(const Ground *ground, std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
+    for (Node i : nodes) points[i] = goal(points, ring_start, ring, i, ground);
+}
+
+void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
+    in_place_on(nullptr, points, ring_start, ring, nodes);
+}
+
+void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
+    parallel_chunks(nodes.size(), ROWS, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k) moved[nodes[k]] = ring_mean(points, ring_start, ring, nodes[k]);
+    });
+}
+
+std::int64_t guarded_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
+                        Indices ring_start, Indices ring, Indices nodes, bool keep_least_quality) {
+    return (keep_least_quality ? guarded_sweep<true> : guarded_sweep<false>)(points, hexes, start, corners, ring_start,
+                                                                             ring, nodes, ground);
+}
+
+std::int64_t guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
+                     Indices ring, Indices nodes, bool keep_least_quality) {
+    return guarded_on(nullptr, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
+}
+
+}  // namespace hexmend

@@ -1,0 +1,88 @@
+#include "view/skin.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace hexmend {
+namespace {
+
+// Whether a face can be seen: no kept hex is behind it.
+bool open(Node behind, Kept keep) { return behind < 0 || !keep[behind]; }
+
+}  // namespace
+
+Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep) {
+    Made<Node> used, owners;
+    Made<Node, 4> quads;
+    std::vector<Node> place(nodes, -1);  // of a node among those that are used
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        if (!keep[h]) continue;
+        for (int f = 0; f < 6; ++f) {
+            if (!open(neighbours[h][f], keep)) continue;
+            std::array<Node, 4> quad;
+            for (int k = 0; k < 4; ++k) {
+                Node node = hexes[h][FACES[f][k]];
+                if (place[node] < 0) {
+                    place[node] = static_cast<Node>(used.values.size());
+                    used.values.push_back(node);
+                }
+                quad[k] = place[node];
+            }
+            quads.values.insert(quads.values.end(), quad.begin(), quad.end());
+            owners.values.push_back(static_cast<Node>(h));
+        }
+    }
+    return {std::move(used), std::move(quads), std::move(owners)};
+}
+
+Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool hidden) {
+    Made<Node> nodes, owners;
+    Made<Node, 4> quads;
+    for (std::size_t h = 0; h < hexes.size(); ++h) {
+        if (!chosen[h]) continue;
+        Node first = static_cast<Node>(nodes.values.size());
+        nodes.values.insert(nodes.values.end(), hexes[h].begin(), hexes[h].end());
+        for (int f = 0; f < 6; ++f) {
+            if (!hidden && !open(neighbours[h][f], keep)) continue;
+            auto [a, b, c, d] = FACES[f];
+            quads.values.insert(quads.values.end(), {first + a, first + b, first + c, first + d});
+            owners.values.push_back(static_cast<Node>(h));
+        }
+    }
+    return {std::move(nodes), std::move(quads), std::move(owners)};
+}
+
+void outer(Neighbours neighbours, Kept keep, std::span<bool> answer) {
+    for (std::size_t h = 0; h < keep.size(); ++h) {
+        bool seen = false;
+        if (keep[h])
+            for (Node behind : neighbours[h]) seen |= open(behind, keep);
+        answer[h] = seen;
+    }
+}
+
+void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places) {
+    for (std::size_t first = 0; first + 8 <= nodes.size(); first += 8)
+        for (int k = 0; k < 3; ++k) {
+            double mean = 0;
+            for (int c = 0; c < 8; ++c) mean += points[nodes[first + c]][k];
+            mean /= 8;
+            for (int c = 0; c < 8; ++c) {
+                double x = points[nodes[first + c]][k];
+                places[first + c][k] = shrink * mean + (1 - shrink) * x;
+            }
+        }
+}
+
+void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2> edges, Kept keep,
+                std::span<bool> answer) {
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        auto [one, other] = edges[e];
+        answer[e] = std::any_of(corners.begin() + start[one], corners.begin() + start[one + 1], [&](Node corner) {
+            const Hex &hex = hexes[corner / 8];
+            return keep[corner / 8] && std::find(hex.begin(), hex.end(), other) != hex.end();
+        });
+    }
+}
+
+}  // namespace hexmend
