@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.kernels import sides
+from hexmend.kernels import clip_planes
 from hexmend.mesh.validation import as_hexes, as_points, real_numbers
 
 
@@ -31,7 +31,7 @@ def centres_kept(
     """
     points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
     kept = np.empty(len(hexes), bool)
-    sides.centres_kept(points, hexes, normals, offsets, notch, kept)
+    clip_planes.centres_kept(points, hexes, normals, offsets, notch, kept)
     return kept
 
 
@@ -46,7 +46,7 @@ def touched(points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets:
     """
     points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
     answer = np.empty((len(hexes), len(offsets)), bool)
-    sides.touched(points, hexes, normals, offsets, notch, answer.ravel())
+    clip_planes.touched(points, hexes, normals, offsets, notch, answer.ravel())
     return answer
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.kernels import closest
+from hexmend.kernels import closest_point
 from hexmend.mesh.fields import members
 from hexmend.mesh.validation import as_faces, as_points, points_like
 
@@ -50,7 +50,7 @@ class ClosestPointTrees:
     order : (k,) int64
         Where each piece, as `ClosestPoints.pieces` counts them, was in `pieces`.
     points, pieces, boxes, links, roots
-        What `hexmend.kernels.closest` takes.
+        What `hexmend.kernels.closest_point` takes.
 
     Raises
     ------
@@ -69,14 +69,14 @@ class ClosestPointTrees:
         order = np.argsort(group, kind="stable")
         start = np.searchsorted(group[order], np.arange(group.max(initial=-1) + 2)).astype(np.int32)
         pieces = np.ascontiguousarray(pieces[order], dtype=np.int32)
-        within, self.boxes, self.links, self.roots = closest.trees(points, pieces, start)
+        within, self.boxes, self.links, self.roots = closest_point.trees(points, pieces, start)
         self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
 
     def with_points(self, points: np.ndarray) -> ClosestPointTrees:
         """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other.boxes = points, np.empty_like(self.boxes)
-        closest.refit(points, self.pieces, self.links, other.boxes)
+        closest_point.refit(points, self.pieces, self.links, other.boxes)
         return other
 
     def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> ClosestPoints:
@@ -100,7 +100,9 @@ class ClosestPointTrees:
             raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
         piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
         roots = self.roots[group]
-        closest.closest(self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights)
+        closest_point.closest(
+            self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights
+        )
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
             raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")

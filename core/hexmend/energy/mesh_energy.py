@@ -14,7 +14,7 @@ from hexmend.energy.hex_energy import corners_left_out, energies
 from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
-from hexmend.kernels import assembly, reach, threads
+from hexmend.kernels import assembly, step_limits, threads
 from hexmend.kernels import objective as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -106,7 +106,7 @@ class MeshEnergy:
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """x (n, 3) with its free nodes displaced by alpha times step (k, 3)."""
         x, there = self._places(x), np.empty(x.shape)
-        reach.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, there)
+        step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, there)
         return there
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:

@@ -6,8 +6,8 @@ import itertools
 
 import numpy as np
 
-from hexmend.kernels import couplings as kernels
 from hexmend.kernels import ordering
+from hexmend.kernels import sparsity as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MOST_ITEMS, too_many
 

@@ -1,11 +1,12 @@
 """Compiled kernels: arrays in, arrays out, no classes. Written by scripts/kernel_stubs.py."""
 
 from hexmend.kernels import assembly as assembly
+from hexmend.kernels import barrier as barrier
 from hexmend.kernels import binning as binning
-from hexmend.kernels import closest as closest
+from hexmend.kernels import clip_planes as clip_planes
+from hexmend.kernels import closest_point as closest_point
 from hexmend.kernels import conjugate_gradients as conjugate_gradients
 from hexmend.kernels import corner_values as corner_values
-from hexmend.kernels import couplings as couplings
 from hexmend.kernels import decimals as decimals
 from hexmend.kernels import element_step as element_step
 from hexmend.kernels import elements as elements
@@ -14,22 +15,21 @@ from hexmend.kernels import getme as getme
 from hexmend.kernels import hexahedron as hexahedron
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
-from hexmend.kernels import large_patches as large_patches
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
 from hexmend.kernels import occlusion as occlusion
 from hexmend.kernels import ordering as ordering
-from hexmend.kernels import plain as plain
+from hexmend.kernels import patches as patches
 from hexmend.kernels import polygons as polygons
-from hexmend.kernels import reach as reach
-from hexmend.kernels import shape as shape
-from hexmend.kernels import sides as sides
+from hexmend.kernels import scalar_reference as scalar_reference
 from hexmend.kernels import skin as skin
 from hexmend.kernels import sliding as sliding
+from hexmend.kernels import sparsity as sparsity
+from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure
 from hexmend.kernels import symmetric as symmetric
-from hexmend.kernels import visiting as visiting
+from hexmend.kernels import wavefronts as wavefronts
 from hexmend.kernels import worst_first as worst_first
 
 BUILD: str

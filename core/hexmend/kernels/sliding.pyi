@@ -3,7 +3,7 @@ Sweeps in which nodes of the boundary slide: whatever place is tried, they are p
 patch first.
 
 slots (n,) int32 numbers the nodes that slide, -1 of others; roots (k,) int32 are their trees, and vertices,
-pieces, boxes, links those of `hexmend.kernels.closest`. quads (f, 4) int32 are the boundary's, outward (f, 3)
+pieces, boxes, links those of `hexmend.kernels.closest_point`. quads (f, 4) int32 are the boundary's, outward (f, 3)
 their normals at first, or 0; quads_at holds 4 * quad + corner of each node that slides, from quads_start
 (k + 1,) on. A step that turns a quad against that normal is none; one that is turned may be.
 """

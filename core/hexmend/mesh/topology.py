@@ -8,9 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
-from hexmend.kernels import incidence, structure, visiting
+from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.mesh.fields import members
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MOST_ITEMS, too_many
@@ -233,7 +232,7 @@ class Topology:
             For a node that does not exist.
         """
         rows, nodes = self.node_corners, members(sequence, "sequence", self.n)
-        return CSR(*visiting.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
+        return CSR(*wavefronts.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
 
     def levels(self, start: np.ndarray) -> np.ndarray:
         """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.
@@ -250,7 +249,4 @@ class Topology:
             For an array of another length or type.
         """
         rings = self.rings
-        return visiting.levels(rings.start, rings.items, as_bools(start, "start", self.n))
-
-
-__getattr__ = exports(__name__)
+        return wavefronts.levels(rings.start, rings.items, as_bools(start, "start", self.n))

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
-from hexmend.kernels.reach import shorten
+from hexmend.kernels.step_limits import shorten
 from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.search_direction import Direction, SearchDirection, steepest_descent
 

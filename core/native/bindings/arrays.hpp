@@ -14,8 +14,8 @@
 #include <unistd.h>
 #endif
 
-#include "energy/power.hpp"
-#include "mesh/rows.hpp"
+#include "energy/objective_norm.hpp"
+#include "mesh/array_views.hpp"
 
 namespace nanobind::detail {
 

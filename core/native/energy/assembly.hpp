@@ -4,8 +4,8 @@
 #pragma once
 
 #include "energy/objective.hpp"
-#include "energy/power.hpp"
-#include "linear/couplings.hpp"
+#include "energy/objective_norm.hpp"
+#include "linear/sparsity.hpp"
 
 namespace hexmend {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "energy/tetrahedron.hpp"
-#include "linear/couplings.hpp"
-#include "simd/blocks.hpp"
+#include "linear/sparsity.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 

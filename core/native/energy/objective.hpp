@@ -4,8 +4,8 @@
 // in the same order, so that results do not depend on the number of threads.
 #pragma once
 
-#include "energy/power.hpp"
-#include "mesh/rows.hpp"
+#include "energy/objective_norm.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -3,7 +3,7 @@
 
 #include "energy/objective.hpp"
 #include "energy/tetrahedron.hpp"
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linear/symmetric.hpp"
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {

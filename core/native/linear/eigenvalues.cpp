@@ -1,6 +1,6 @@
 #include "linear/eigenvalues.hpp"
 
-#include "smoothers/visit.hpp"
+#include "smoothers/node_step.hpp"
 
 namespace hexmend {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

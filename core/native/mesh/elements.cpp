@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "energy/tetrahedron.hpp"
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 namespace {

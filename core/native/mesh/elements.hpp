@@ -1,7 +1,7 @@
 // Figures of every hex in one pass over its eight corner tetrahedra.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 namespace {

@@ -1,7 +1,7 @@
 // Metrics of every hex by its six faces: angles, warpage, and the volume that they enclose.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <numeric>
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 

@@ -4,7 +4,7 @@
 // items[start[i]] to items[start[i + 1] - 1].
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -1,7 +1,7 @@
 #include "mesh/metrics.hpp"
 
 #include "energy/tetrahedron.hpp"
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 namespace {

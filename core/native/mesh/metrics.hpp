@@ -4,7 +4,7 @@
 // metrics that share its lengths. Angles, warpage and volume go by faces: faces.hpp.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -1,6 +1,6 @@
 #include "mesh/structure.hpp"
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 namespace {

@@ -5,7 +5,7 @@
 // with the old one by rho. Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.
 #pragma once
 
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 

@@ -3,7 +3,7 @@
 // Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

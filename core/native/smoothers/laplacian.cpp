@@ -1,6 +1,6 @@
 #include "smoothers/laplacian.hpp"
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 #include "mesh/quality.hpp"
 
 namespace hexmend {

@@ -1,7 +1,7 @@
 // Laplacian sweeps: a node goes to the mean of its edge neighbours.
 #pragma once
 
-#include "boundary/ground.hpp"
+#include "boundary/sliding_surface.hpp"
 
 namespace hexmend {
 

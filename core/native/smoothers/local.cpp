@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "smoothers/visit.hpp"
+#include "smoothers/node_step.hpp"
 
 namespace hexmend {
 namespace {

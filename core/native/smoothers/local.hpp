@@ -3,8 +3,8 @@
 
 #include <tuple>
 
-#include "energy/power.hpp"
-#include "mesh/rows.hpp"
+#include "energy/objective_norm.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -1,7 +1,7 @@
 #include "smoothers/sliding.hpp"
 
 #include "smoothers/laplacian.hpp"
-#include "smoothers/visit.hpp"
+#include "smoothers/node_step.hpp"
 #include "smoothers/worst_first.hpp"
 
 namespace hexmend {

@@ -1,8 +1,8 @@
 // The sweeps of nodes that slide on the boundary among those that do not: local optimisation, Laplacian, GETMe.
 #pragma once
 
-#include "boundary/ground.hpp"
-#include "energy/power.hpp"
+#include "boundary/sliding_surface.hpp"
+#include "energy/objective_norm.hpp"
 
 namespace hexmend {
 

@@ -1,6 +1,6 @@
 #include "smoothers/worst_first.hpp"
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 #include "mesh/quality.hpp"
 #include "smoothers/element_step.hpp"
 

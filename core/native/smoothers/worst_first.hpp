@@ -5,7 +5,7 @@
 // on the way from its leaf to the root.
 #pragma once
 
-#include "boundary/ground.hpp"
+#include "boundary/sliding_surface.hpp"
 
 namespace hexmend {
 

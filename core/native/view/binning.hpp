@@ -1,7 +1,7 @@
 // Counting values by bins; on one thread, because a window's thread asks.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

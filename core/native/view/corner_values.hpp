@@ -1,7 +1,7 @@
 // What values at nodes come to over the corners of each hex; on one thread, because a window's thread asks.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "view/planes.hpp"
+#include "view/plane.hpp"
 
 namespace hexmend {
 namespace {

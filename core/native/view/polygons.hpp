@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.errors import MeshError
-from hexmend.kernels import couplings, incidence, structure
+from hexmend.kernels import incidence, sparsity, structure
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
@@ -122,7 +122,7 @@ def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
 def test_two_corners_that_are_one_node_add_to_its_own_block():
     hexes = np.array([[4, 4, 5, 1, 1, 6, 7, 0]], np.int32)
     slots = np.array([[1, 1, -1, 0, 0, -1, -1, -1]], np.int32)
-    row_start, columns, target = couplings.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
+    row_start, columns, target = sparsity.pattern(slots, np.array([1, 4], np.int32), *incidence.node_corners(hexes, 8))
     assert (row_start.tolist(), columns.tolist()) == ([0, 1, 1], [1])
     assert Counter(target[0].tolist()) == {-3: 1, -2: 1, 0: 4, -1: 22}
 
@@ -140,7 +140,7 @@ def test_no_hexes_are_no_trouble():
         assert incidence.greedy_colours(start, corners, np.zeros(n, bool)).tolist() == [-1] * n
         ends, valence, outside = structure.edges(hexes, start, corners, neighbours)
         assert (ends.shape, valence.size, outside.dtype) == ((0, 2), 0, bool)
-    rows, columns, target = couplings.pattern(hexes, np.empty(0, np.int32), start, corners)
+    rows, columns, target = sparsity.pattern(hexes, np.empty(0, np.int32), start, corners)
     assert (rows.tolist(), columns.size, target.shape) == ([0], 0, (0, 28))
 
 
@@ -152,7 +152,7 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
     for make, items in [
         (lambda most: incidence.node_rings(hexes, start, corners, most), 40),
         (lambda most: structure.edges(hexes, start, corners, neighbours, most), 20),
-        (lambda most: couplings.pattern(slots, np.arange(12, dtype=np.int32), start, corners, most), 50),
+        (lambda most: sparsity.pattern(slots, np.arange(12, dtype=np.int32), start, corners, most), 50),
     ]:
         make(items)
         with pytest.raises(OverflowError, match=f"there are {items} items: expected {items - 1} at most"):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend import kernels
 from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
-from hexmend.kernels import LANES, element_step, local, objective, plain, reach
+from hexmend.kernels import LANES, element_step, local, objective, scalar_reference, step_limits
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
@@ -45,9 +45,9 @@ def test_energy_and_gradient_are_those_of_the_plain_loop(count, case, p, offset,
     shares, expected = np.full((2, count, 8, 3), np.nan)
     eta, plain_eta = np.full((2, count), np.nan)
     objective.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, shares)
-    plain.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, expected)
+    scalar_reference.gradient(points, hexes, delta, ObjectiveNorm(p, offset), left_out, expected)
     objective.energies(points, hexes, delta, offset, left_out, eta)
-    plain.energies(points, hexes, delta, offset, left_out, plain_eta)
+    scalar_reference.energies(points, hexes, delta, offset, left_out, plain_eta)
     np.testing.assert_allclose(eta, plain_eta, rtol=1e-12, atol=1e-14)
     for h in range(count):
         np.testing.assert_allclose(shares[h], expected[h], rtol=1e-11, atol=1e-12 * np.abs(expected[h]).max())
@@ -62,7 +62,7 @@ def test_the_product_is_that_of_the_plain_loop(count, case, p, offset, seed, sha
     slots[slots >= len(values)] = -1
     shares, expected = np.full((2, count, 8, 3), np.nan)
     objective.hessian_product(points, hexes, slots, values, delta, ObjectiveNorm(p, offset), left_out, shares)
-    plain.hessian_product(points, hexes, slots, values, delta, ObjectiveNorm(p, offset), left_out, expected)
+    scalar_reference.hessian_product(points, hexes, slots, values, delta, ObjectiveNorm(p, offset), left_out, expected)
     for h in range(count):
         size = max(np.abs(expected[h]).max(), 1e-300)
         np.testing.assert_allclose(shares[h], expected[h], rtol=1e-10, atol=1e-11 * size)
@@ -74,7 +74,7 @@ def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offse
     mesh = scrambled(grid(4), *(case[0], seed))
     corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
     moved, expected = mesh.points.copy(), mesh.points.copy()
-    for sweep, points in ((local.sweep, moved), (plain.sweep, expected)):
+    for sweep, points in ((local.sweep, moved), (scalar_reference.sweep, expected)):
         sweep(
             points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
             getattr(local, direction), case[1], ObjectiveNorm(p, offset), 1.0, 0.7, 1e-4, 60,
@@ -251,7 +251,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
                 local.NEWTON, 0.1, SQUARES, 1.0, 0.7, 1e-4, 60,
             )  # fmt: skip
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
-            reach.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
+            step_limits.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
             pattern = BlockSparsity(mesh, parts)
             found = matrix.off, matrix.diagonal, solved.x, swept, places, step, pattern.target, pattern.columns
             answers.append([array.tobytes() for array in (*found, matrix @ solved.x, pattern.slots)])

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.kernels import large_patches
+from hexmend.kernels.patches import colours, sweep
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import grown
 from hexmend.quality import measure
@@ -36,7 +36,7 @@ def hexes_at(mesh, nodes):
 def swept(mesh, patches, k, smoother, delta):
     """The points after the step of patch k alone, and how often its hexes were asked."""
     points = mesh.points.copy()
-    asked = large_patches.sweep(
+    asked = sweep(
         points, patches.hexes, patches.slots, patches.chosen.start, patches.nodes.start, patches.nodes.items,
         np.array([0, 1], np.int32), np.array([k], np.int32), delta, smoother.power, smoother.first_step, smoother.shrink,
         smoother.c1, smoother.max_cuts,
@@ -88,7 +88,7 @@ def test_patches_of_a_colour_share_no_hex(size, nodes, overlap):
 
 def test_more_colours_than_bits_are_no_trouble():
     hex_start = np.arange(101, dtype=np.int32)
-    start, patches = large_patches.colours(hex_start, np.zeros(100, np.int32), 1)  # all share the one hex
+    start, patches = colours(hex_start, np.zeros(100, np.int32), 1)  # all share the one hex
     np.testing.assert_array_equal(start, np.arange(101))
     np.testing.assert_array_equal(patches, np.arange(100))
 

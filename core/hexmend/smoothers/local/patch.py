@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.iteration import Step
-from hexmend.kernels import large_patches, local
+from hexmend.kernels import local
+from hexmend.kernels import patches as kernels
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import grown
@@ -58,7 +58,7 @@ class LocalPatch(LocalOptimiser):
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
-            energies, derivatives = large_patches.sweep(
+            energies, derivatives = kernels.sweep(
                 points,
                 patches.hexes,
                 patches.slots,

@@ -12,9 +12,8 @@ import numpy as np
 from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.gallery.gallery_mesh import scrambled
-from hexmend.kernels import elements, local, objective, plain, set_threads, threads
+from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.study.bench.section import BenchSection
 
 #: How often each is timed.
 _TIMES = 15
@@ -50,7 +49,7 @@ def _kernels() -> dict[str, Any]:
     rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [
         ("quality", lambda: elements.measure(x, hexes, *figures), None, 1),
         *(
-            (name, lambda call=call: call(objective), lambda call=call: call(plain), 1)
+            (name, lambda call=call: call(objective), lambda call=call: call(scalar_reference), 1)
             for name, call in (
                 ("energy", lambda by: by.energies(x, hexes, 0.0, 1.0, none, figures[0])),
                 ("gradient", lambda by: by.gradient(x, hexes, 0.0, ObjectiveNorm(), none, shares)),
@@ -63,7 +62,7 @@ def _kernels() -> dict[str, Any]:
         ("hessian product, assembled", lambda: matrix @ right, None, 1),
         ("hessian, assembling", hessian.assembled, None, 1),
         ("conjugate gradients, an iteration", lambda: matrix.solve(right, 0.0, 20), None, 20),
-        ("local sweep, steepest descent", lambda: sweep(local.sweep), lambda: sweep(plain.sweep), 1),
+        ("local sweep, steepest descent", lambda: sweep(local.sweep), lambda: sweep(scalar_reference.sweep), 1),
     ]
     all_threads, answer = threads(), {}
     try:

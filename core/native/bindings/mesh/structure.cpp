@@ -1,7 +1,7 @@
 #include "mesh/structure.hpp"
 
 #include "bindings/arrays.hpp"
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 

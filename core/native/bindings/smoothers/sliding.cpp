@@ -10,7 +10,8 @@ void bind_sliding(nb::module_ &m) {
         "or\n"
         "patch first.\n\n"
         "slots (n,) int32 numbers the nodes that slide, -1 of others; roots (k,) int32 are their trees, and vertices,\n"
-        "pieces, boxes, links those of `hexmend.kernels.closest`. quads (f, 4) int32 are the boundary's, outward (f, "
+        "pieces, boxes, links those of `hexmend.kernels.closest_point`. quads (f, 4) int32 are the boundary's, outward "
+        "(f, "
         "3)\n"
         "their normals at first, or 0; quads_at holds 4 * quad + corner of each node that slides, from quads_start\n"
         "(k + 1,) on. A step that turns a quad against that normal is none; one that is turned may be.";

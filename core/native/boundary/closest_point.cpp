@@ -1,4 +1,4 @@
-#include "boundary/closest.hpp"
+#include "boundary/closest_point.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
-#include "smoothers/reach.hpp"
+#include "smoothers/step_limits.hpp"
 
 #include <algorithm>
 
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 

@@ -16,7 +16,7 @@
 
 #include "energy/tetrahedron.hpp"
 #include "linear/symmetric.hpp"
-#include "simd/blocks.hpp"
+#include "simd/simd_hexes.hpp"
 
 namespace hexmend {
 

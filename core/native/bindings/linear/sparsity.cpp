@@ -1,11 +1,11 @@
-#include "linear/couplings.hpp"
+#include "linear/sparsity.hpp"
 
 #include "bindings/arrays.hpp"
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 
-void bind_couplings(nb::module_ &m) {
+void bind_sparsity(nb::module_ &m) {
     m.doc() = "Which free nodes share a hex: the pattern of a Hessian's 3 x 3 blocks above its diagonal.";
     m.attr("PAIRS") = PAIRS;
     m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, Unlocked(),

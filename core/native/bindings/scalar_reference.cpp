@@ -1,10 +1,10 @@
-#include "plain.hpp"
+#include "scalar_reference.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_plain(nb::module_ &m) {
+void bind_scalar_reference(nb::module_ &m) {
     m.doc() = "What kernels are measured against and compared with: the same formulas, one hex after another.";
     m.def("energies", &plain::energies, "points"_a, "hexes"_a, "delta"_a, "offset"_a, "left_out"_a, "eta"_a, Unlocked(),
           "As `objective.energies`.");

@@ -1,7 +1,7 @@
 // Steps of nodes: how far they may go, and where they lead.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -1,8 +1,8 @@
-#include "smoothers/visiting.hpp"
+#include "smoothers/wavefronts.hpp"
 
 #include <algorithm>
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 

@@ -1,8 +1,8 @@
 // Compiled so that the compiler finds no vectors by itself either.
-#include "plain.hpp"
+#include "scalar_reference.hpp"
 
 #include "energy/objective_loops.hpp"
-#include "smoothers/visit.hpp"
+#include "smoothers/node_step.hpp"
 
 namespace hexmend {
 

@@ -1,10 +1,10 @@
-#include "smoothers/visiting.hpp"
+#include "smoothers/wavefronts.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_visiting(nb::module_ &m) {
+void bind_wavefronts(nb::module_ &m) {
     m.doc() = "In what order a sweep visits nodes, and which of them it can visit at the same time.";
     m.def(
         "levels", &levels, "ring_start"_a, "ring"_a, "start"_a, Unlocked(),

@@ -1,7 +1,7 @@
 // The scalar formulas of a corner tetrahedron, for those who want to see them alone.
 #pragma once
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

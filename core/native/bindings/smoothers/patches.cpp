@@ -1,10 +1,10 @@
-#include "smoothers/patches/large_patches.hpp"
+#include "smoothers/patches/patch_sweep.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_large_patches(nb::module_ &m) {
+void bind_patches(nb::module_ &m) {
     m.doc() = "Patches that hold several free nodes, and a Newton step of each.";
     m.def("grow", &grow, "hexes"_a, "start"_a, "corners"_a, "free"_a, "size"_a, "overlap"_a, Unlocked(),
           "Divide the free nodes (n,) bool into patches of `size` nodes that hang together, breadth first from the\n"

@@ -1,10 +1,10 @@
-#include "boundary/closest.hpp"
+#include "boundary/closest_point.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_closest(nb::module_ &m) {
+void bind_closest_point(nb::module_ &m) {
     m.doc() =
         "The closest point of a surface, by a tree of boxes for each curve and patch of it.\n\n"
         "A piece, a row of pieces (k, 3) int32, is a triangle (a, b, c) of points (n, 3), or a segment (a, b, b).";

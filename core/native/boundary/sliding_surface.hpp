@@ -1,7 +1,7 @@
 // What nodes of the boundary slide on: each is put back on its own curve or patch, and may not turn a quad over.
 #pragma once
 
-#include "boundary/closest.hpp"
+#include "boundary/closest_point.hpp"
 #include "simd/vectors.hpp"
 
 namespace hexmend {

@@ -1,4 +1,4 @@
-#include "energy/shape.hpp"
+#include "energy/barrier.hpp"
 
 #include "energy/tetrahedron.hpp"
 

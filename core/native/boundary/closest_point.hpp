@@ -6,7 +6,7 @@
 
 #include <tuple>
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 
 namespace hexmend {
 

@@ -1,10 +1,10 @@
-#include "smoothers/reach.hpp"
+#include "smoothers/step_limits.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_reach(nb::module_ &m) {
+void bind_step_limits(nb::module_ &m) {
     m.doc() = "Steps of nodes: how far they may go, and where they lead.";
     m.def("shorten", &shorten, "step"_a, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "reach"_a, Unlocked(),
           "Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` mean lengths of their edges; changes\n"

@@ -1,10 +1,10 @@
-#include "energy/shape.hpp"
+#include "energy/barrier.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_shape(nb::module_ &m) {
+void bind_barrier(nb::module_ &m) {
     m.doc() = "The scalar formulas of a corner tetrahedron, as all kernels use them.";
     m.def("power_minus_two_thirds", &powers, "h"_a, "powers"_a, Unlocked(), "Write h^(-2/3) to powers.");
     m.def("barrier", &barriers, "sigma"_a, "delta"_a, "h"_a, "r"_a, Unlocked(),

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "energy/patch.hpp"
+#include "energy/node_patch.hpp"
 #include "smoothers/line_search.hpp"
 #include "smoothers/local.hpp"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mesh/rows.hpp"
+#include "mesh/array_views.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {

@@ -1,8 +1,8 @@
 // A block of hexes side by side, one in each lane.
 #pragma once
 
-#include "energy/power.hpp"
-#include "mesh/rows.hpp"
+#include "energy/objective_norm.hpp"
+#include "mesh/array_views.hpp"
 #include "simd/threads.hpp"
 
 namespace hexmend {

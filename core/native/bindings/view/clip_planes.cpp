@@ -1,10 +1,10 @@
-#include "view/sides.hpp"
+#include "view/clip_planes.hpp"
 
 #include "bindings/arrays.hpp"
 
 namespace hexmend {
 
-void bind_sides(nb::module_ &m) {
+void bind_clip_planes(nb::module_ &m) {
     m.doc() =
         "On which side of planes hexes lie; on one thread, because a window's thread asks.\n\n"
         "normals (k, 3) and offsets (k,) float64: a point lies beyond a plane where x . normal > offset.";

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-#include "energy/power.hpp"
+#include "energy/objective_norm.hpp"
 #include "mesh/incidence.hpp"
 
 namespace hexmend {

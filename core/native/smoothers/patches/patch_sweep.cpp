@@ -1,13 +1,13 @@
-#include "smoothers/patches/large_patches.hpp"
+#include "smoothers/patches/patch_sweep.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 #include "smoothers/line_search.hpp"
-#include "smoothers/patches/patch_system.hpp"
+#include "smoothers/patches/newton_system.hpp"
 
 namespace hexmend {
 namespace {

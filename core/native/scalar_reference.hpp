@@ -2,7 +2,7 @@
 #pragma once
 
 #include "energy/objective.hpp"
-#include "energy/power.hpp"
+#include "energy/objective_norm.hpp"
 
 namespace hexmend::plain {
 

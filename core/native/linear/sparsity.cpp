@@ -1,8 +1,8 @@
-#include "linear/couplings.hpp"
+#include "linear/sparsity.hpp"
 
 #include <algorithm>
 
-#include "mesh/compressed.hpp"
+#include "mesh/csr.hpp"
 
 namespace hexmend {
 namespace {

@@ -1,8 +1,8 @@
-#include "view/sides.hpp"
+#include "view/clip_planes.hpp"
 
 #include <algorithm>
 
-#include "view/planes.hpp"
+#include "view/plane.hpp"
 
 namespace hexmend {
 
