@@ -6,14 +6,15 @@
 
 namespace hexmend::plain {
 
-void energies(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares);
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+              CornerVectors shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
-                     Shares shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
+                     OmittedCorners left_out, CornerVectors shares);
 
 void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, Power power, double first, double shrink, double c1, int cuts);
+           int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts);
 
 }  // namespace hexmend::plain

@@ -23,7 +23,7 @@ def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8),
     counted once a hex. A face belongs to its lowest node; there those of equal nodes are paired.
     """
 
-def parts(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], used: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+def components(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], used: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
     """
     How many parts, hanging together by nodes, the used nodes (n,) bool are in.
     """

@@ -141,7 +141,7 @@ class Topology:
     @cached_property
     def parts(self) -> int:
         """Number of parts that hang together by nodes."""
-        return incidence.parts(self.hexes, self.used)
+        return incidence.components(self.hexes, self.used)
 
     @cached_property
     def rings(self) -> CSR:

@@ -59,9 +59,9 @@ template <class T> struct type_caster<std::span<T>> {
 };
 
 // (p, offset)
-template <> struct type_caster<hexmend::Power> {
+template <> struct type_caster<hexmend::ObjectiveNorm> {
     using Numbers = std::pair<double, double>;
-    NB_TYPE_CASTER(hexmend::Power, make_caster<Numbers>::Name)
+    NB_TYPE_CASTER(hexmend::ObjectiveNorm, make_caster<Numbers>::Name)
 
     bool from_python(handle source, uint8_t flags, cleanup_list *cleanup) noexcept {
         make_caster<Numbers> numbers;
@@ -72,14 +72,14 @@ template <> struct type_caster<hexmend::Power> {
     }
 };
 
-template <class T, std::size_t width> struct type_caster<hexmend::Made<T, width>> {
+template <class T, std::size_t width> struct type_caster<hexmend::OwnedArray<T, width>> {
     using Array =
         std::conditional_t<width == 1, ndarray<numpy, T, ndim<1>>, ndarray<numpy, T, shape<-1, (ssize_t)width>>>;
 
-    using Arrays = hexmend::Made<T, width>;
+    using Arrays = hexmend::OwnedArray<T, width>;
     NB_TYPE_CASTER(Arrays, make_caster<Array>::Name)
 
-    static handle from_cpp(hexmend::Made<T, width> &&made, rv_policy, cleanup_list *cleanup) noexcept {
+    static handle from_cpp(hexmend::OwnedArray<T, width> &&made, rv_policy, cleanup_list *cleanup) noexcept {
         using Values = decltype(made.values);
         auto *kept = new Values(std::move(made.values));
         capsule owner(kept, [](void *p) noexcept { delete static_cast<Values *>(p); });
@@ -102,13 +102,13 @@ using namespace nb::literals;
 // A thread that comes back from a kernel while the interpreter is being shut down never gets the lock again: Python
 // before 3.14 ends it by pthread_exit, whose unwinding would end the process with an error. It sleeps until the process
 // is gone instead, as it does from 3.14 on.
-class WithoutLock {
+class GilRelease {
   public:
-    WithoutLock() : state_(PyEval_SaveThread()) {}
-    WithoutLock(const WithoutLock &) = delete;
-    WithoutLock &operator=(const WithoutLock &) = delete;
+    GilRelease() : state_(PyEval_SaveThread()) {}
+    GilRelease(const GilRelease &) = delete;
+    GilRelease &operator=(const GilRelease &) = delete;
 #if defined(__GLIBCXX__) && defined(__linux__)
-    ~WithoutLock() {
+    ~GilRelease() {
         try {
             PyEval_RestoreThread(state_);
         } catch (abi::__forced_unwind &) {
@@ -116,7 +116,7 @@ class WithoutLock {
         }
     }
 #else
-    ~WithoutLock() { PyEval_RestoreThread(state_); }
+    ~GilRelease() { PyEval_RestoreThread(state_); }
 #endif
 
   private:
@@ -124,6 +124,6 @@ class WithoutLock {
 };
 
 // Kernels run without the interpreter's lock, so that a window stays alive beside them.
-using Unlocked = nb::call_guard<WithoutLock>;
+using ReleaseGil = nb::call_guard<GilRelease>;
 
 }  // namespace hexmend

@@ -12,11 +12,11 @@ using Vector = V3<double>;
 
 constexpr std::int32_t LEAF = 4;  // pieces that a leaf holds at most
 constexpr int DEEPEST = 64;       // halving 2^31 pieces goes half as deep
-constexpr std::int64_t POINTS_A_CHUNK = 256;
+constexpr std::int64_t POINTS_PER_CHUNK = 256;
 
 Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
 
-struct Builder {
+struct TreeBuilder {
     Points points;
     std::span<const Piece> pieces;
     std::vector<Point> centres;
@@ -24,7 +24,7 @@ struct Builder {
     std::vector<double> boxes;
     std::vector<std::int32_t> links;
 
-    Builder(Points points_, std::span<const Piece> pieces_)
+    TreeBuilder(Points points_, std::span<const Piece> pieces_)
         : points(points_), pieces(pieces_), centres(pieces_.size()), order(pieces_.size()) {
         std::iota(order.begin(), order.end(), 0);
         for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -80,7 +80,7 @@ double along(const Vector &d, const Vector &p) {
 }
 
 // Shares of the corners at the point of a triangle (a, a + u, a + v) that is closest to a + p.
-Shares nearest(const Vector &u, const Vector &v, const Vector &p) {
+Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
     Vector n = cross(u, v);
     double whole = square(n);
     if (whole > 0) {
@@ -89,14 +89,14 @@ Shares nearest(const Vector &u, const Vector &v, const Vector &p) {
     }
     // Beyond its edges, or a triangle that has no area: on one of its edges.
     double one = along(u, p), two = along(v, p), three = along(v - u, p - u);
-    Shares edges[3] = {{1 - one, one, 0}, {1 - two, 0, two}, {0, 1 - three, three}};
+    Barycentric edges[3] = {{1 - one, one, 0}, {1 - two, 0, two}, {0, 1 - three, three}};
     double far[3] = {square(one * u - p), square(two * v - p), square(u + three * (v - u) - p)};
     return edges[std::min_element(far, far + 3) - far];
 }
 
-void improve(Closest &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
+void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
     Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
-    Shares weights;
+    Barycentric weights;
     if (piece[1] == piece[2]) {
         double t = along(u, p);
         weights = {1 - t, t, 0};
@@ -114,8 +114,8 @@ void improve(Closest &best, Points points, const Piece &piece, std::int32_t numb
 
 }  // namespace
 
-Closest Pieces::closest(const Point &x, std::int32_t root, double enough) const {
-    Closest best;
+ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough) const {
+    ClosestPoint best;
     std::pair<std::int32_t, double> waiting[DEEPEST];
     int size = 0;
     waiting[size++] = {root, square_to(boxes[root], x)};
@@ -135,9 +135,9 @@ Closest Pieces::closest(const Point &x, std::int32_t root, double enough) const 
     return best;
 }
 
-std::tuple<Made<std::int32_t>, Made<double, 6>, Made<std::int32_t, 2>, Made<std::int32_t>> trees(
-    Points points, std::span<const Piece> pieces, Indices start) {
-    Builder builder(points, pieces);
+std::tuple<OwnedArray<std::int32_t>, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, OwnedArray<std::int32_t>>
+trees(Points points, std::span<const Piece> pieces, Indices start) {
+    TreeBuilder builder(points, pieces);
     std::vector<std::int32_t> roots;
     for (std::size_t t = 0; t + 1 < start.size(); ++t) {
         expect(start[t] >= 0 && start[t] < start[t + 1] && start[t + 1] <= static_cast<std::int64_t>(pieces.size()),
@@ -148,7 +148,7 @@ std::tuple<Made<std::int32_t>, Made<double, 6>, Made<std::int32_t, 2>, Made<std:
     return {{std::move(builder.order)}, {std::move(builder.boxes)}, {std::move(builder.links)}, {std::move(roots)}};
 }
 
-void refit(Points points, std::span<const Piece> pieces, std::span<const Link> links, std::span<Box> boxes) {
+void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLink> links, std::span<Box> boxes) {
     expect(links.size() == boxes.size(), "links and boxes have different lengths: expected a row a box");
     for (std::size_t at = links.size(); at-- > 0;) {  // children follow their parents
         auto [link, count] = links[at];
@@ -169,16 +169,16 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const Link> l
     }
 }
 
-void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const Link> links,
+void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const TreeLink> links,
              Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
-             std::span<Shares> weights) {
+             std::span<Barycentric> weights) {
     expect(
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
         "x, roots, piece, places and weights have different lengths: expected a row a point");
-    Pieces all{points, pieces, boxes, links};
-    parallel_chunks(x.size(), POINTS_A_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+    BoxTrees all{points, pieces, boxes, links};
+    parallel_chunks(x.size(), POINTS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            Closest found = all.closest(x[i], roots[i], enough * enough);
+            ClosestPoint found = all.closest(x[i], roots[i], enough * enough);
             piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
         }
     });

@@ -18,7 +18,7 @@ inline QuadPoints points_of(Points points, const Quad &quad) {
 constexpr double FLAT_QUAD = 1e-9;
 
 // Whether a quad's own normal is against that of the surface, or has no part along it. Where there is none none is.
-inline bool is_turned(const QuadPoints &x, const Point &outward) {
+inline bool is_inverted(const QuadPoints &x, const Point &outward) {
     V3<double> n{outward[0], outward[1], outward[2]};
     V3<double> a{x[2][0] - x[0][0], x[2][1] - x[0][1], x[2][2] - x[0][2]};
     V3<double> b{x[3][0] - x[1][0], x[3][1] - x[1][1], x[3][2] - x[1][2]};
@@ -33,35 +33,35 @@ struct Quads {
     Points outward;  // of each quad
 
     // Whether a quad that is not turned would be if the node of that slot were at `place`.
-    bool turns(Points points, Node slot, const Point &place) const {
+    bool inverted_by_move(Points points, Node slot, const Point &place) const {
         for (auto r = start[slot]; r < start[slot + 1]; ++r) {
             auto f = corners[r] / 4;
             auto now = points_of(points, quads[f]), then = now;
             then[corners[r] % 4] = place;
-            if (!is_turned(now, outward[f]) && is_turned(then, outward[f])) return true;
+            if (!is_inverted(now, outward[f]) && is_inverted(then, outward[f])) return true;
         }
         return false;
     }
 };
 
-struct Ground {
+struct SlidingSurface {
     Indices slots;  // of each node among those that slide, -1 of others
     Indices roots;  // of each of those its tree
-    Pieces pieces;
+    BoxTrees pieces;
     Quads quads;
 
     bool slides(Node i) const { return slots[i] >= 0; }
 
     // The closest place to x of what node i slides on; x itself where that is not finite.
-    Point put_back(Node i, const Point &x) const {
-        Closest found = pieces.closest(x, roots[slots[i]]);
+    Point project(Node i, const Point &x) const {
+        ClosestPoint found = pieces.closest(x, roots[slots[i]]);
         return found.piece < 0 ? x : found.place;
     }
 
     // The same, or where the node is if it would turn a quad from there.
-    Point led(Points points, Node i, const Point &x) const {
-        Point place = put_back(i, x);
-        return quads.turns(points, slots[i], place) ? points[i] : place;
+    Point project_unless_inverting(Points points, Node i, const Point &x) const {
+        Point place = project(i, x);
+        return quads.inverted_by_move(points, slots[i], place) ? points[i] : place;
     }
 };
 

@@ -15,18 +15,18 @@ template <class Real> using Mask = std::conditional_t<sizeof(Real) == 4, std::in
 template <class Real> inline void add_block(const Real *block, int transposed, std::array<Real, 9> &to) {
     asm("" : "+r"(transposed));  // else a branch would be made of it, which nobody can foresee
     typedef Real Vector __attribute__((vector_size(8 * sizeof(Real))));
-    typedef Mask<Real> Which __attribute__((vector_size(8 * sizeof(Real))));
+    typedef Mask<Real> MaskVector __attribute__((vector_size(8 * sizeof(Real))));
     Vector rows, there;
     std::memcpy(&rows, block, sizeof rows);
     std::memcpy(&there, to.data(), sizeof there);
     Vector columns = __builtin_shufflevector(rows, rows, 0, 3, 6, 1, 4, 7, 2, 5);
-    Which which = Which{} - static_cast<Mask<Real>>(transposed);
-    there += as<Vector>((as<Which>(columns) & which) | (as<Which>(rows) & ~which));
+    MaskVector which = MaskVector{} - static_cast<Mask<Real>>(transposed);
+    there += bit_cast<Vector>((bit_cast<MaskVector>(columns) & which) | (bit_cast<MaskVector>(rows) & ~which));
     std::memcpy(to.data(), &there, sizeof there);
     to[8] += block[8];
 }
 
-template <class Real> inline void add_own(const Real *own, std::array<Real, 6> &to) {
+template <class Real> inline void add_diagonal(const Real *own, std::array<Real, 6> &to) {
     typedef Real Vector __attribute__((vector_size(4 * sizeof(Real))));
     Vector four, there;
     std::memcpy(&four, own, sizeof four);
@@ -37,7 +37,7 @@ template <class Real> inline void add_own(const Real *own, std::array<Real, 6> &
 }
 
 // A block and its transpose, added to a symmetric one: of a hex that uses a node twice.
-template <class Real> void add_both_ways(const Real *block, std::array<Real, 6> &own) {
+template <class Real> void add_with_transpose(const Real *block, std::array<Real, 6> &own) {
     int at = 0;
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) own[at++] += block[3 * i + j] + block[3 * j + i];
@@ -55,38 +55,38 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
             auto s = target[pair], j = slots[b];
             auto row = std::min(i, j);
             if (s >= 0 && low <= row && row < high) add_block(values + 9 * pair, i > j, off[s]);
-            else if (s < -1 && mine) add_both_ways(values + 9 * pair, diagonal[i]);
+            else if (s < -1 && mine) add_with_transpose(values + 9 * pair, diagonal[i]);
         }
-        if (mine) add_own(values + OWN + 6 * a, diagonal[i]);
+        if (mine) add_diagonal(values + DIAGONAL_OFFSET + 6 * a, diagonal[i]);
     }
 }
 
 // The hexes of each share, one after another as they are taken: what is read of them lies in that order.
-struct Shared {
+struct HexShares {
     Indices bounds, start, chosen;
     Hexes hexes, slots;
-    Targets target;
+    BlockTargets target;
 };
 
 template <bool soft, class Real>
-void assemble_of(Points points, double delta, Power power, Left left_out, const Shared &shared,
+void assemble_of(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, const HexShares &shared,
                  std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
-        auto sums = std::make_unique<Sums>();
-        auto values = std::make_unique<Real[][ROOM]>(LANES);
+        auto sums = std::make_unique<HessianSums>();
+        auto values = std::make_unique<Real[][HEX_STRIDE]>(LANES);
         for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
             int count = std::min(LANES, shared.start[share + 1] - first);
-            auto x = gathered<Lanes>(points, shared.hexes, first, count);
+            auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
             Bits bits{};
             for (int i = 0; i < count; ++i) bits[i] = left_out[shared.chosen[first + i]];
             // Where the blocks of these hexes are is far apart: asked for now, it is there when they are ready.
             for (int i = 0; i < count; ++i)
                 for (auto s : shared.target[first + i])
                     if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);
-            *sums = Sums{};
-            unrolled<8>([&](auto t) { add<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
-            weigh<Real>(*sums, power, values.get());
+            *sums = HessianSums{};
+            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
+            weigh_hessian<Real>(*sums, power, values.get());
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off, diagonal);
         }
@@ -96,17 +96,17 @@ void assemble_of(Points points, double delta, Power power, Left left_out, const 
 }  // namespace
 
 template <class Real>
-void assemble(Points points, double delta, Power power, Left left_out, Indices bounds, Indices start, Indices chosen,
-              Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
+void assemble(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, Indices bounds, Indices start,
+              Indices chosen, Hexes hexes, Hexes slots, BlockTargets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal) {
-    Shared shared{bounds, start, chosen, hexes, slots, target};
+    HexShares shared{bounds, start, chosen, hexes, slots, target};
     (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, power, left_out, shared, off,
                                                                       diagonal);
 }
 
-#define FOR_REAL(Real)                                                                                          \
-    template void assemble<Real>(Points, double, Power, Left, Indices, Indices, Indices, Hexes, Hexes, Targets, \
-                                 std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
+#define FOR_REAL(Real)                                                                                            \
+    template void assemble<Real>(Points, double, ObjectiveNorm, OmittedCorners, Indices, Indices, Indices, Hexes, \
+                                 Hexes, BlockTargets, std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
 FOR_REAL(float)
 FOR_REAL(double)
 

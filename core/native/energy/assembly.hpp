@@ -9,11 +9,11 @@
 
 namespace hexmend {
 
-using Targets = std::span<const std::array<std::int32_t, PAIRS>>;
+using BlockTargets = std::span<const std::array<std::int32_t, PAIRS>>;
 
 template <class Real>
-void assemble(Points points, double delta, Power power, Left left_out, Indices bounds, Indices start, Indices chosen,
-              Hexes hexes, Hexes slots, Targets target, std::span<std::array<Real, 9>> off,
+void assemble(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, Indices bounds, Indices start,
+              Indices chosen, Hexes hexes, Hexes slots, BlockTargets target, std::span<std::array<Real, 9>> off,
               std::span<std::array<Real, 6>> diagonal);
 
 }  // namespace hexmend

@@ -9,14 +9,14 @@ namespace hexmend {
 
 // Values of a hex: the blocks of its 28 pairs of corners, by rows, then the symmetric ones of its 8 corners, xx xy xz
 // yy yz zz; and as many more as make whole vectors.
-constexpr int OWN = 9 * PAIRS, VALUES = OWN + 6 * 8, ROOM = (VALUES + 7) / 8 * 8;
+constexpr int DIAGONAL_OFFSET = 9 * PAIRS, HEX_VALUES = DIAGONAL_OFFSET + 6 * 8, HEX_STRIDE = (HEX_VALUES + 7) / 8 * 8;
 
 // Beyond it a value is cut, so that single precision holds sums of it.
-constexpr double CUT = 1e34;
+constexpr double SINGLE_LIMIT = 1e34;
 
 // The sums of a block of hexes.
-struct Sums {
-    Lanes at[OWN];
+struct HessianSums {
+    Lanes at[DIAGONAL_OFFSET];
     Corners<Lanes> g;
     Lanes eta{};
 
@@ -43,12 +43,13 @@ struct Sums {
 //
 // With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c,
 // the block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
-template <bool soft, int t> inline void add(const Corners<Lanes> &x, double delta, Bits counted, Sums &sums) {
+template <bool soft, int t>
+inline void add_tetrahedron(const Corners<Lanes> &x, double delta, Bits counted, HessianSums &sums) {
     constexpr auto &n = CORNER_TETRAHEDRA[t];
     auto s = x.edges<t>();
     auto c = cofactors(s);
     auto d = derivatives<soft>(s, c, delta, counted);
-    sums.eta += counted ? d.eta : all<Lanes>(1.0);
+    sums.eta += counted ? d.eta : broadcast<Lanes>(1.0);
     sums.g.scatter<t>(gradient(d, s, c));
     M3<Lanes> p{d.mixed * s.u + d.half * c.u, d.mixed * s.v + d.half * c.v, d.mixed * s.w + d.half * c.w};
     V3<Lanes> ca = -(c.u + c.v + c.w), pa = -(p.u + p.v + p.w);
@@ -62,7 +63,7 @@ template <bool soft, int t> inline void add(const Corners<Lanes> &x, double delt
 }
 
 // Write eight rows of numbers as a column of eight for each lane.
-inline void put(const Lanes (&rows)[8], int row, float (*out)[ROOM]) {
+inline void store(const Lanes (&rows)[8], int row, float (*out)[HEX_STRIDE]) {
 #if defined(__AVX512F__)
     typedef float Eight __attribute__((vector_size(32)));
     Eight a[8], b[8];
@@ -88,38 +89,40 @@ inline void put(const Lanes (&rows)[8], int row, float (*out)[ROOM]) {
 #endif
 }
 
-inline void put(const Lanes (&rows)[8], int row, double (*out)[ROOM]) {
+inline void store(const Lanes (&rows)[8], int row, double (*out)[HEX_STRIDE]) {
     for (int k = 0; k < 8; ++k)
         for (int i = 0; i < LANES; ++i) out[i][row + k] = rows[k][i];
 }
 
-inline Lanes cut(Lanes value) { return least(all<Lanes>(CUT), greatest(all<Lanes>(-CUT), value)); }
+inline Lanes clamp(Lanes value) {
+    return min(broadcast<Lanes>(SINGLE_LIMIT), max(broadcast<Lanes>(-SINGLE_LIMIT), value));
+}
 
 // first * values + second * g g', cut to what single precision holds; a hex after another.
 //
 // A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its
 // own.
-template <class Real> void weigh(const Sums &sums, Power power, Real (*out)[ROOM]) {
+template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm power, Real (*out)[HEX_STRIDE]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
-    auto [first, second] = BlockWeights<Lanes>(sums.eta * 0.125 - power.offset, power.p);
+    auto [first, second] = LanePowerDerivatives<Lanes>(sums.eta * 0.125 - power.offset, power.p);
     std::memcpy(g, &sums.g, sizeof g);
     for (int k = 0; k < 24; ++k) h[k] = second * g[k];
     int row = 0;
     auto next = [&](Lanes value) __attribute__((always_inline)) {
         rows[row % 8] = value;
-        if (++row % 8 == 0) put(rows, row - 8, out);
+        if (++row % 8 == 0) store(rows, row - 8, out);
     };
     for (int a = 0; a < 8; ++a)
         for (int b = a + 1; b < 8; ++b)
-            unrolled<9>([&](auto at) {
+            unroll<9>([&](auto at) {
                 constexpr int i = at / 3, j = at % 3;
-                Lanes value = cut(first * sums.at[row] + h[3 * a + i] * g[3 * b + j]);
+                Lanes value = clamp(first * sums.at[row] + h[3 * a + i] * g[3 * b + j]);
                 // xx xy xz yy yz zz: of the block as it stands for a, of its transpose for b.
                 if constexpr (i <= j) own[6 * a + i * (5 - i) / 2 + j] -= value;
                 if constexpr (i >= j) own[6 * b + j * (5 - j) / 2 + i] -= value;
                 next(value);
             });
-    for (Lanes value : own) next(cut(value));
+    for (Lanes value : own) next(clamp(value));
     while (row % 8) next(Lanes{});
 }
 

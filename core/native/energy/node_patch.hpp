@@ -21,14 +21,14 @@
 namespace hexmend {
 
 // A hex turned so that `corner` is its corner 0.
-inline Hex turned(const Hex &hex, int corner) {
+inline Hex rotated(const Hex &hex, int corner) {
     Hex there;
 #if defined(__AVX2__)
     auto from = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(hex.data()));
-    auto order = _mm256_load_si256(reinterpret_cast<const __m256i *>(TURNED[corner].data()));
+    auto order = _mm256_load_si256(reinterpret_cast<const __m256i *>(ROTATIONS[corner].data()));
     _mm256_storeu_si256(reinterpret_cast<__m256i *>(there.data()), _mm256_permutevar8x32_epi32(from, order));
 #else
-    for (int c = 0; c < 8; ++c) there[c] = hex[TURNED[corner][c]];
+    for (int c = 0; c < 8; ++c) there[c] = hex[ROTATIONS[corner][c]];
 #endif
     return there;
 }
@@ -36,15 +36,15 @@ inline Hex turned(const Hex &hex, int corner) {
 // Hexes at one node: 8 * hex + corner of each.
 using Star = std::span<const std::int32_t>;
 
-struct Visit {
+struct ValueAndGradient {
     double value;
     V3<double> gradient;
 };
 
-template <class T> class Patch {
+template <class T> class NodePatch {
   public:
     // Room for as many hexes as meet at any node.
-    explicit Patch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
+    explicit NodePatch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
 
     // How many hexes there are.
     int size() const { return size_; }
@@ -54,18 +54,18 @@ template <class T> class Patch {
     double load(Points points, Hexes hexes, Star star, double factor = 0) {
         size_ = static_cast<int>(star.size());
         const Point &node = points[hexes[star[0] / 8][star[0] % 8]];
-        V3<T> origin{all<T>(node[0]), all<T>(node[1]), all<T>(node[2])};
+        V3<T> origin{broadcast<T>(node[0]), broadcast<T>(node[1]), broadcast<T>(node[2])};
         double total = 0;
         for (int b = 0; b < blocks(); ++b) {
             Hex hex[width<T>];
             for (int i = 0; i < width<T>; ++i) {
                 int s = b * width<T> + i;
                 std::int32_t corner = star[s < size_ ? s : size_ - 1];
-                hex[i] = turned(hexes[corner / 8], corner % 8);
+                hex[i] = rotated(hexes[corner / 8], corner % 8);
             }
             auto &x = blocks_[b].x;
             for (int c = 0; c < 8; ++c)
-                x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
+                x.at[c] = load_lanes<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
             if (factor == 0) {
                 T lengths{};
                 for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
@@ -74,7 +74,7 @@ template <class T> class Patch {
         }
         if (factor == 0) factor = total > 0 ? 12 * size_ / total : 0.0;
         for (int b = 0; b < blocks(); ++b)
-            for (auto &corner : blocks_[b].x.at) corner = all<T>(factor) * corner;
+            for (auto &corner : blocks_[b].x.at) corner = broadcast<T>(factor) * corner;
         return factor;
     }
 
@@ -84,31 +84,32 @@ template <class T> class Patch {
             auto &block = blocks_[b];
             const auto &x = block.x.at;
             // Corner tetrahedra as in CORNER_TETRAHEDRA, neighbours' beginning with the node.
-            own(block.holds[0], x[3], x[4], x[1]);
-            neighbours(block.holds[1], x[1], x[5], x[2]);
-            neighbours(block.holds[2], x[3], x[2], x[7]);
-            neighbours(block.holds[3], x[4], x[7], x[5]);
-            block.rest = apart<soft>(x[2], x[1], x[6], x[3], delta) + apart<soft>(x[5], x[4], x[6], x[1], delta) +
-                         apart<soft>(x[6], x[5], x[7], x[2], delta) + apart<soft>(x[7], x[6], x[4], x[3], delta);
+            add_own_tetrahedron(block.incident[0], x[3], x[4], x[1]);
+            add_neighbour_tetrahedron(block.incident[1], x[1], x[5], x[2]);
+            add_neighbour_tetrahedron(block.incident[2], x[3], x[2], x[7]);
+            add_neighbour_tetrahedron(block.incident[3], x[4], x[7], x[5]);
+            block.constant =
+                constant_eta<soft>(x[2], x[1], x[6], x[3], delta) + constant_eta<soft>(x[5], x[4], x[6], x[1], delta) +
+                constant_eta<soft>(x[6], x[5], x[7], x[2], delta) + constant_eta<soft>(x[7], x[6], x[4], x[3], delta);
         }
     }
 
     // Look along a direction: `value_along` displaces the node by alpha times it.
-    void aim(const V3<double> &direction) {
-        V3<T> d{all<T>(direction.x), all<T>(direction.y), all<T>(direction.z)};
-        far_ = dot(direction, direction);
+    void set_direction(const V3<double> &direction) {
+        V3<T> d{broadcast<T>(direction.x), broadcast<T>(direction.y), broadcast<T>(direction.z)};
+        squared_length_ = dot(direction, direction);
         for (int b = 0; b < blocks(); ++b)
-            for (auto &t : blocks_[b].holds) t.along_g = dot(t.g, d), t.along_b = dot(t.b, d);
+            for (auto &t : blocks_[b].incident) t.along_g = dot(t.g, d), t.along_b = dot(t.b, d);
     }
 
     // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
-    template <bool soft> double value_along(double alpha, double delta, Power power) const {
-        double far = alpha * alpha * far_, total = 0;
+    template <bool soft> double value_along(double alpha, double delta, ObjectiveNorm power) const {
+        double far = alpha * alpha * squared_length_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
-            T eta = block.rest;
+            T eta = block.constant;
             for (int j = 0; j < 4; ++j) {
-                const auto &t = block.holds[j];
+                const auto &t = block.incident[j];
                 T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
             }
@@ -118,22 +119,22 @@ template <class T> class Patch {
     }
 
     // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
-    template <bool soft> Visit value_and_gradient(double delta, Power power) {
-        Visit answer{};
+    template <bool soft> ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
+        ValueAndGradient answer{};
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
-            T eta = block.rest;
+            T eta = block.constant;
             V3<T> g{};
-            for (auto &t : block.holds) {
+            for (auto &t : block.incident) {
                 t.energy = energy_at<soft>(t.sigma, t.square, delta);
                 eta += t.energy.eta();
                 // d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ], the first of which is f b . y
                 g += t.energy.f * t.b - t.energy.eta() * (2.0 / 3.0) / t.energy.r * t.g;
             }
             block.eta = eta * 0.125 - power.offset;
-            block.gradient = all<T>(0.125) * g;
+            block.gradient = broadcast<T>(0.125) * g;
             answer.value += sum_of_powers(eta, power, b);
-            block.weights = BlockWeights<T>(block.eta, power.p);
+            block.weights = LanePowerDerivatives<T>(block.eta, power.p);
             V3<T> weighted = block.weights.first * block.gradient;
             answer.gradient += V3<double>{sum(weighted.x, b), sum(weighted.y, b), sum(weighted.z, b)};
         }
@@ -142,17 +143,17 @@ template <class T> class Patch {
 
     // Second derivatives of the value where the node is: (B.19) mended, (B.22); as `value_and_gradient` has left it.
     // d2 sigma vanishes, a determinant being linear in the place of one node (B.1).
-    Symmetric hessian() const {
-        Symmetric answer{};
+    SymmetricMatrix hessian() const {
+        SymmetricMatrix answer{};
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
             T xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
             for (int j = 0; j < 4; ++j) {
-                const auto &t = block.holds[j];
+                const auto &t = block.incident[j];
                 T over_r = 1.0 / t.energy.r;
                 T a = (4.0 / 3.0) * t.energy.f * over_r, k = (j ? 2.0 : 6.0) * t.energy.f;
                 T c = (2.0 / 3.0) * t.energy.eta() * over_r * over_r * (2.0 / 3.0 + t.sigma * over_r);
-                V3<T> s = all<T>(0.5) * t.b, g = t.g;
+                V3<T> s = broadcast<T>(0.5) * t.b, g = t.g;
                 xx += k - 2.0 * a * s.x * g.x + c * g.x * g.x;
                 yy += k - 2.0 * a * s.y * g.y + c * g.y * g.y;
                 zz += k - 2.0 * a * s.z * g.z + c * g.z * g.z;
@@ -173,7 +174,7 @@ template <class T> class Patch {
     }
 
   private:
-    struct Holding {
+    struct TetTerms {
         T sigma, square;
         V3<T> g, b;
         T along_g, along_b;
@@ -182,15 +183,15 @@ template <class T> class Patch {
 
     struct Block {
         Corners<T> x;
-        Holding holds[4];
-        T rest, eta;
+        TetTerms incident[4];
+        T constant, eta;
         V3<T> gradient;
-        BlockWeights<T> weights;
+        LanePowerDerivatives<T> weights;
     };
 
     std::vector<Block> blocks_;
     int size_ = 0;
-    double far_ = 0;
+    double squared_length_ = 0;
 
     int blocks() const { return (size_ + width<T> - 1) / width<T>; }
 
@@ -206,8 +207,8 @@ template <class T> class Patch {
     }
 
     // Of the sums of eta(T) of the hexes of block b.
-    double sum_of_powers(T sum_of_eta, Power power, int b) const {
-        T energy = energy_of_sum(sum_of_eta, power.offset);
+    double sum_of_powers(T sum_of_eta, ObjectiveNorm power, int b) const {
+        T energy = hex_energy(sum_of_eta, power.offset);
         if (power.p == 2) return sum(energy * energy, b);
         double total = 0;
         for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), power.p);
@@ -220,25 +221,26 @@ template <class T> class Patch {
     }
 
     // The node's own tetrahedron: S = [u - y, v - y, w - y].
-    static void own(Holding &t, const V3<T> &u, const V3<T> &v, const V3<T> &w) {
+    static void add_own_tetrahedron(TetTerms &t, const V3<T> &u, const V3<T> &v, const V3<T> &w) {
         M3<T> s{u, v, w};
         t.sigma = determinant(s);
         t.g = -(cross(v, w) + cross(w, u) + cross(u, v));
         t.square = square(s);
-        t.b = all<T>(-2.0) * (u + v + w);
+        t.b = broadcast<T>(-2.0) * (u + v + w);
     }
 
     // A neighbour's tetrahedron: S = [y - a, b - a, c - a].
-    static void neighbours(Holding &t, const V3<T> &a, const V3<T> &b, const V3<T> &c) {
+    static void add_neighbour_tetrahedron(TetTerms &t, const V3<T> &a, const V3<T> &b, const V3<T> &c) {
         V3<T> u = b - a, v = c - a;
         t.g = cross(u, v);
         t.sigma = -dot(a, t.g);
         t.square = square(a) + square(u) + square(v);
-        t.b = all<T>(-2.0) * a;
+        t.b = broadcast<T>(-2.0) * a;
     }
 
     // eta of a tetrahedron that does not hold the node.
-    template <bool soft> static T apart(const V3<T> &a, const V3<T> &b, const V3<T> &c, const V3<T> &d, double delta) {
+    template <bool soft>
+    static T constant_eta(const V3<T> &a, const V3<T> &b, const V3<T> &c, const V3<T> &d, double delta) {
         M3<T> s{b - a, c - a, d - a};
         return energy_at<soft>(determinant(s), square(s), delta).eta();
     }

@@ -4,20 +4,21 @@
 
 namespace hexmend {
 
-void energies(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta) {
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta) {
     expect(left_out.size() == hexes.size() && eta.size() == hexes.size(),
            "left_out and eta: one for each hex is expected");
     (delta != 0 ? energies_of<true, Lanes> : energies_of<false, Lanes>)(points, hexes, delta, offset, left_out, eta);
 }
 
-void gradient(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares) {
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+              CornerVectors shares) {
     expect(left_out.size() == hexes.size() && shares.size() == hexes.size(),
            "left_out and shares: one for each hex is expected");
     (delta != 0 ? gradient_of<true, Lanes> : gradient_of<false, Lanes>)(points, hexes, delta, power, left_out, shares);
 }
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
-                     Shares shares) {
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
+                     OmittedCorners left_out, CornerVectors shares) {
     expect(left_out.size() == hexes.size() && slots.size() == hexes.size() && shares.size() == hexes.size(),
            "left_out, slots and shares: one for each hex is expected");
     (delta != 0 ? product_of<true, Lanes> : product_of<false, Lanes>)(points, hexes, slots, values, delta, power,
@@ -25,7 +26,7 @@ void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, dou
 }
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows) {
-    parallel_chunks(nodes.size(), 4 * CHUNK, [&](std::int64_t begin, std::int64_t end) {
+    parallel_chunks(nodes.size(), 4 * HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
             Point sum{};
             for (auto s = start[nodes[k]]; s < start[nodes[k] + 1]; ++s)

@@ -10,14 +10,15 @@
 namespace hexmend {
 
 // Vectors at the eight corners of each hex.
-using Shares = std::span<std::array<double, 24>>;
+using CornerVectors = std::span<std::array<double, 24>>;
 
-void energies(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares);
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+              CornerVectors shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
-                     Shares shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
+                     OmittedCorners left_out, CornerVectors shares);
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);
 

@@ -8,64 +8,66 @@
 namespace hexmend {
 
 template <bool soft, class T>
-void energies_of(Points points, Hexes hexes, double delta, double offset, Left left_out, std::span<double> eta) {
-    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<T>(points, hexes, first, count);
+void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out,
+                 std::span<double> eta) {
+    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<T>(points, hexes, first, count);
         T sum{};
-        with_counted<T>(left_out, first, count, [&](auto counted) {
-            unrolled<8>([&](auto t) {
+        with_corner_mask<T>(left_out, first, count, [&](auto counted) {
+            unroll<8>([&](auto t) {
                 auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
-                sum += counted(t) ? e.eta() : all<T>(1.0);
+                sum += counted(t) ? e.eta() : broadcast<T>(1.0);
             });
         });
-        sum = energy_of_sum(sum, offset);
+        sum = hex_energy(sum, offset);
         for (int i = 0; i < count; ++i) eta[first + i] = lane(sum, i);
     });
 }
 
 template <bool soft, class T>
-void gradient_of(Points points, Hexes hexes, double delta, Power power, Left left_out, Shares shares) {
-    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<T>(points, hexes, first, count);
-        Counted<T> counted(left_out, first, count);
+void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+                 CornerVectors shares) {
+    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<T>(points, hexes, first, count);
+        CornerMask<T> counted(left_out, first, count);
         Corners<T> g;
         T sum{};
-        unrolled<8>([&](auto t) {
+        unroll<8>([&](auto t) {
             auto s = x.template edges<t>();
             auto cof = cofactors(s);
             auto d = derivatives<soft>(s, cof, delta, counted(t));
-            sum += counted(t) ? d.eta : all<T>(1.0);
+            sum += counted(t) ? d.eta : broadcast<T>(1.0);
             g.template scatter<t>(gradient(d, s, cof));
         });
-        BlockWeights<T> by(sum * 0.125 - power.offset, power.p);
+        LanePowerDerivatives<T> by(sum * 0.125 - power.offset, power.p);
         for (auto &corner : g.at) corner = by.first * corner;
-        put(g, first, count, shares);
+        store(g, first, count, shares);
     });
 }
 
 template <bool soft, class T>
-void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, Power power, Left left_out,
-                Shares shares) {
-    blocks_of<T>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<T>(points, hexes, first, count);
-        auto v = gathered_or_zero<T>(values, slots, first, count);
-        Counted<T> counted(left_out, first, count);
+void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
+                OmittedCorners left_out, CornerVectors shares) {
+    for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<T>(points, hexes, first, count);
+        auto v = gather_corners_or_zero<T>(values, slots, first, count);
+        CornerMask<T> counted(left_out, first, count);
         Corners<T> g, h;
         T sum{}, slope{};
-        unrolled<8>([&](auto t) {
+        unroll<8>([&](auto t) {
             auto s = x.template edges<t>(), a = v.template edges<t>();
             auto cof = cofactors(s);
             auto d = derivatives<soft>(s, cof, delta, counted(t));
-            Along<T> along{dot(a, s), dot(a, cof)};
-            sum += counted(t) ? d.eta : all<T>(1.0);
+            DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
+            sum += counted(t) ? d.eta : broadcast<T>(1.0);
             slope += along.slope(d);
             g.template scatter<t>(gradient(d, s, cof));
             h.template scatter<t>(product(d, s, cof, a, along));
         });
-        BlockWeights<T> by(sum * 0.125 - power.offset, power.p);
+        LanePowerDerivatives<T> by(sum * 0.125 - power.offset, power.p);
         T along = by.second * slope;
         for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
-        put(h, first, count, shares);
+        store(h, first, count, shares);
     });
 }
 

@@ -6,16 +6,16 @@
 namespace hexmend {
 
 // eta(H)^p with eta(H) = mean eta(T) - offset: offset is 1 in (B.20) and 0 in chapter 4, 4.1.1.
-struct Power {
+struct ObjectiveNorm {
     double p = 2, offset = 1;
 };
 
 // First and second derivative of max(energy, 0)^p.
-struct Weights {
+struct PowerDerivatives {
     double first, second;
 };
 
-inline Weights weights(double energy, double p) {
+inline PowerDerivatives power_derivatives(double energy, double p) {
     if (energy < 0) return {0.0, 0.0};
     if (p == 2) return {2 * energy, 2.0};
     if (p == 1) return {1.0, 0.0};

@@ -17,7 +17,7 @@
 
 namespace hexmend {
 
-constexpr double TINY = std::numeric_limits<double>::min(), HUGE_ = std::numeric_limits<double>::max();
+constexpr double MIN_NORMAL = std::numeric_limits<double>::min(), MAX_FINITE = std::numeric_limits<double>::max();
 
 // h^(-2/3); +inf for h <= 0, for less than the least normal float and for what is no number.
 //
@@ -30,22 +30,22 @@ template <class T> inline T power_minus_two_thirds(T h) {
     // Beside 2^52 a float's lower bits are those of an integer: this turns one into the other.
     constexpr double WHOLE = 0x1p52;
     constexpr std::int64_t WHOLE_BITS = 0x4330000000000000LL;
-    T upper = as<T>((as<B>(h) >> 32 & 0xffffffffLL) | WHOLE_BITS) - WHOLE;
-    T q = as<T>(as<B>((MAGIC + WHOLE) - upper * (2.0 / 3.0)) << 32);
+    T upper = bit_cast<T>((bit_cast<B>(h) >> 32 & 0xffffffffLL) | WHOLE_BITS) - WHOLE;
+    T q = bit_cast<T>(bit_cast<B>((MAGIC + WHOLE) - upper * (2.0 / 3.0)) << 32);
     for (int i = 0; i < 2; ++i) {
         T cube_root = h * q;  // neither it nor its square leaves the range of floats
         T y = 1.0 - cube_root * cube_root * q;
         q += q * y * (1.0 / 3.0 + y * (2.0 / 9.0 + y * (14.0 / 81.0)));
     }
-    q = h >= TINY ? q : all<T>(INF);
-    return h > HUGE_ ? all<T>(0.0) : q;
+    q = h >= MIN_NORMAL ? q : broadcast<T>(INF);
+    return h > MAX_FINITE ? broadcast<T>(0.0) : q;
 }
 
 // eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one
 // that has no number, because corners coincide or overflow, is infinitely bad.
-template <class T> inline T energy_of_sum(T sum, double offset) {
+template <class T> inline T hex_energy(T sum, double offset) {
     T energy = sum * 0.125 - offset;
-    return energy > 0.0 ? energy : energy <= 0.0 ? all<T>(0.0) : all<T>(INF);
+    return energy > 0.0 ? energy : energy <= 0.0 ? broadcast<T>(0.0) : broadcast<T>(INF);
 }
 
 template <class T> struct Barrier {
@@ -55,9 +55,9 @@ template <class T> struct Barrier {
 // h(sigma) of (3.2) and r = sqrt(sigma^2 + 4 delta^2). For sigma < 0 it is 2 delta^2/(r - sigma), the same number
 // without cancellation. Where delta is 0 there is neither root nor quotient, and sigma^2 may overflow.
 template <bool soft, class T> inline Barrier<T> barrier(T sigma, double delta) {
-    if constexpr (!soft) return {greatest(sigma, all<T>(0.0)), magnitude(sigma)};
-    T r = root(sigma * sigma + 4 * delta * delta);
-    T u = magnitude(sigma) + r;
+    if constexpr (!soft) return {max(sigma, broadcast<T>(0.0)), abs(sigma)};
+    T r = sqrt(sigma * sigma + 4 * delta * delta);
+    T u = abs(sigma) + r;
     return {sigma >= 0.0 ? 0.5 * u : 2 * delta * delta / u, r};
 }
 
@@ -69,7 +69,7 @@ template <class T> struct Energy {
 template <bool soft, class T> inline Energy<T> energy_of(const M3<T> &s, T sigma, double delta, auto counted) {
     auto [h, r] = barrier<soft>(sigma, delta);
     T f = power_minus_two_thirds(h) * (1.0 / 3.0);
-    return {counted ? f : all<T>(0.0), square(s), sigma, r};
+    return {counted ? f : broadcast<T>(0.0), square(s), sigma, r};
 }
 
 template <bool soft, class T> inline Energy<T> energy(const M3<T> &s, double delta, auto counted) {
@@ -89,7 +89,7 @@ inline Derivatives<T> derivatives(const M3<T> &s, const M3<T> &cof, double delta
     // Without delta, whether an element is inverted is asked of the determinant that all kernels share.
     T sigma = soft ? dot(s.u, cof.u) : determinant(s);
     auto e = energy_of<soft>(s, sigma, delta, counted);
-    T over_r = counted ? 1.0 / e.r : all<T>(0.0);
+    T over_r = counted ? 1.0 / e.r : broadcast<T>(0.0);
     T k = 0.25 * e.f, c = e.eta() * over_r * (1.0 / 12.0);
     return {e.eta(), k, c, (-2.0 / 3.0) * k * over_r, c * over_r * (1.0 / 3.0 + 0.5 * sigma * over_r)};
 }
@@ -100,7 +100,7 @@ template <class T> inline M3<T> gradient(const Derivatives<T> &d, const M3<T> &s
 }
 
 // What the columns of S and of C are along a direction A: (A, S) and (A, C).
-template <class T> struct Along {
+template <class T> struct DirectionalTerms {
     T s, c;
 
     // d eta(A)/8, (B.3).
@@ -109,7 +109,8 @@ template <class T> struct Along {
 
 // Second derivative of eta/8 along A, by the columns of S: (B.19).
 template <class T>
-inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a, const Along<T> &along) {
+inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a,
+                     const DirectionalTerms<T> &along) {
     T p = d.mixed * along.c;                           // what multiplies S
     T q = d.mixed * along.s + 2.0 * d.half * along.c;  // what multiplies C
     // dC: its columns are av x w + v x aw, and so on round.

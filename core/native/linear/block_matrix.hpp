@@ -14,39 +14,41 @@ namespace hexmend {
 // Vectors by slots have four numbers a slot, the fourth being 0: a row of a block is loaded as four numbers, the last
 // of which belongs to the row behind it, or to nobody, meets that 0 and counts nowhere. The array of blocks has one
 // block more than it needs.
-template <class Real> struct Four {
+template <class Real> struct Vec4Type {
     typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
 };
-template <class Real> using Vector = typename Four<Real>::type;
+template <class Real> using Vec4 = typename Vec4Type<Real>::type;
 
-template <class Real> inline Vector<Real> loaded(const Real *from) {
-    Vector<Real> x;
+template <class Real> inline Vec4<Real> load(const Real *from) {
+    Vec4<Real> x;
     std::memcpy(&x, from, sizeof x);
     return x;
 }
 
 // A symmetric block, by its columns: times a vector without a sum across.
 template <class Real> struct Block {
-    Vector<Real> x, y, z;
+    Vec4<Real> x, y, z;
 
-    Vector<Real> operator*(const Vector<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
+    Vec4<Real> operator*(const Vec4<Real> &v) const { return x * v[0] + y * v[1] + z * v[2]; }
 };
 
-template <class Real> Block<Real> block(const Symmetric &a) {
+template <class Real> Block<Real> block(const SymmetricMatrix &a) {
     auto column = [](double x, double y, double z) {
-        return Vector<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
+        return Vec4<Real>{static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z), 0};
     };
     return {column(a.xx, a.xy, a.xz), column(a.xy, a.yy, a.yz), column(a.xz, a.yz, a.zz)};
 }
 
-template <class Real> Symmetric widened(const std::array<Real, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
+    return {a[0], a[1], a[2], a[3], a[4], a[5]};
+}
 
 // A matrix of blocks of one precision, for vectors of the same or another.
-template <class Real, class Number = Real> class System {
+template <class Real, class Number = Real> class BlockMatrix {
   public:
-    using V = Vector<Number>;
+    using V = Vec4<Number>;
 
-    System(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
+    BlockMatrix(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
         : bounds_(bounds),
           row_start_(row_start),
           columns_(columns),
@@ -114,7 +116,7 @@ template <class Real, class Number = Real> class System {
     std::vector<double> sums_ = std::vector<double>(2 * parts_);
 
     V row(std::int32_t s, int k) const {
-        auto four = loaded(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
+        auto four = load(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
         if constexpr (std::is_same_v<Real, Number>) return four;
         else return __builtin_convertvector(four, V);
     }

@@ -11,7 +11,7 @@ namespace hexmend {
 namespace {
 
 // D: a diagonal block with its least eigenvalue raised as in Algorithm A.4; and D^-1.
-inline std::pair<Symmetric, Symmetric> positive(Symmetric a) {
+inline std::pair<SymmetricMatrix, SymmetricMatrix> make_positive_definite(SymmetricMatrix a) {
     {
         // Of most blocks no eigenvalue need be known: positive ones of sum t and product det are none below det/t^2.
         auto [adjugate, det] = adjugate_of(a);
@@ -19,11 +19,11 @@ inline std::pair<Symmetric, Symmetric> positive(Symmetric a) {
         if (a.xx > 0 && adjugate.zz > 0 && det >= 0.001 * t * t * t && std::isfinite(t))
             return {a, (1 / det) * adjugate};
     }
-    auto [least, greatest] = extreme_eigenvalues(a);
-    double size = std::max(std::abs(least), std::abs(greatest));
+    auto [smallest, largest] = extreme_eigenvalues(a);
+    double size = std::max(std::abs(smallest), std::abs(largest));
     if (size == 0) size = 1;
     // So small a D beside the blocks off the diagonal would make the triangular solves grow without bound.
-    a.raise(least < 0 ? 0.5 * size - least : std::max(0.001 * size - least, 0.0));
+    a.add_to_diagonal(smallest < 0 ? 0.5 * size - smallest : std::max(0.001 * size - smallest, 0.0));
     auto [adjugate, det] = adjugate_of(a);
     if (det > 0) return {a, (1 / det) * adjugate};
     double one = 1 / size;  // all but of rank 1 or 2: its scale alone
@@ -36,14 +36,15 @@ template <class V> inline double dot(const V &a, const V &b) {
 }
 
 // What an iteration works with.
-template <class Real> class Solver {
+template <class Real> class PreconditionedCG {
   public:
-    using V = Vector<Real>;
+    using V = Vec4<Real>;
 
     // Room that a system of so many slots needs, in numbers: three blocks and seven vectors a slot.
-    static constexpr std::int64_t room(std::int64_t slots) { return 64 * slots + 16; }
+    static constexpr std::int64_t workspace_size(std::int64_t slots) { return 64 * slots + 16; }
 
-    Solver(System<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping, std::span<Real> work)
+    PreconditionedCG(BlockMatrix<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping,
+                     std::span<Real> work)
         : system_(system) {
         void *free = work.data();
         std::size_t left = work.size_bytes();
@@ -55,10 +56,10 @@ template <class Real> class Solver {
         };
         take(positive_), take(inverse_), take(rest_);
         for (auto *vector : {&residual_, &scaled_, &v_, &t_, &product_, &w_[0], &w_[1]}) take(*vector);
-        everywhere([&](std::int32_t i) {
+        sum_over_slots([&](std::int32_t i) {
             v_[i] = w_[0][i] = w_[1][i] = V{};
-            Symmetric own = widened(diagonal[i]);
-            auto [d, inverse] = positive(own);
+            SymmetricMatrix own = widened(diagonal[i]);
+            auto [d, inverse] = make_positive_definite(own);
             positive_[i] = block<Real>((1 + damping) * d);
             inverse_[i] = block<Real>((1 / (1 + damping)) * inverse);
             double k = 2 + damping;
@@ -71,13 +72,13 @@ template <class Real> class Solver {
     // The first residual, (D + L)^-1 right; its square.
     double start(std::span<const std::array<Real, 4>> right) {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
-            residual_[i] = inverse_[i] * (loaded(right[i].data()) - below);
+            residual_[i] = inverse_[i] * (load(right[i].data()) - below);
             return std::pair{residual_[i], square_of_residual(i)};
         });
     }
 
     // The next direction, v = D residual + beta v, and the solution of (D + U) t = v.
-    void turn(Real beta) {
+    void next_direction(Real beta) {
         auto back = [&](std::int32_t begin, std::int32_t end, int) {
             for (auto i = end - 1; i >= begin; --i) {
                 V v = scaled_[i] + beta * v_[i];
@@ -101,8 +102,8 @@ template <class Real> class Solver {
 
     // One step on; the square of the residual.
     double advance(Real alpha, std::span<std::array<Real, 4>> x) {
-        return everywhere([&](std::int32_t i) {
-            V there = loaded(x[i].data()) + alpha * t_[i];
+        return sum_over_slots([&](std::int32_t i) {
+            V there = load(x[i].data()) + alpha * t_[i];
             std::memcpy(x[i].data(), &there, sizeof there);
             residual_[i] -= alpha * product_[i];
             return square_of_residual(i);
@@ -111,16 +112,16 @@ template <class Real> class Solver {
 
     // Where the first direction is one of negative curvature: that direction; or, M having left the range of numbers,
     // block Jacobi's.
-    void give_up(bool finite, std::span<const std::array<Real, 4>> right, std::span<std::array<Real, 4>> x) {
-        everywhere([&](std::int32_t i) {
-            V there = finite ? t_[i] : inverse_[i] * loaded(right[i].data());
+    void fall_back(bool finite, std::span<const std::array<Real, 4>> right, std::span<std::array<Real, 4>> x) {
+        sum_over_slots([&](std::int32_t i) {
+            V there = finite ? t_[i] : inverse_[i] * load(right[i].data());
             std::memcpy(x[i].data(), &there, sizeof there);
             return 0.0;
         });
     }
 
   private:
-    System<Real> &system_;
+    BlockMatrix<Real> &system_;
     Block<Real> *positive_, *inverse_, *rest_;
     V *residual_, *scaled_, *v_, *t_, *product_;
     // What rows have added to those below them; two parts that add to one separator have a vector each.
@@ -131,7 +132,7 @@ template <class Real> class Solver {
         return dot(residual_[i], scaled_[i]);
     }
 
-    template <class Body> double everywhere(const Body &body) {
+    template <class Body> double sum_over_slots(const Body &body) {
         auto over = [&](std::int32_t begin, std::int32_t end, int) {
             double total = 0;
             for (auto i = begin; i < end; ++i) total += body(i);
@@ -149,19 +150,19 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
                           std::span<const std::array<Real, 6>> diagonal, double damping,
                           std::span<const std::array<Real, 4>> right, double tolerance, int most,
                           std::span<std::array<Real, 4>> x, std::span<Real> work) {
-    System<Real> system(bounds, row_start, columns, off);
-    if (static_cast<std::int64_t>(work.size()) < Solver<Real>::room(system.size()))
+    BlockMatrix<Real> system(bounds, row_start, columns, off);
+    if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
         throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
-    Solver<Real> solver(system, diagonal, damping, work);
+    PreconditionedCG<Real> solver(system, diagonal, damping, work);
     std::fill(x.begin(), x.end(), std::array<Real, 4>{});
     double square = solver.start(right);
     if (square == 0) return {0, DONE};
     double goal = tolerance * tolerance * square, beta = 0;
     for (int count = 1; count <= most; ++count) {
-        solver.turn(static_cast<Real>(beta));
+        solver.next_direction(static_cast<Real>(beta));
         double curvature = solver.curvature();
         if (!(curvature > 0)) {
-            if (count == 1) solver.give_up(std::isfinite(curvature), right, x);
+            if (count == 1) solver.fall_back(std::isfinite(curvature), right, x);
             return {count, NEGATIVE_CURVATURE};
         }
         double before = square;
@@ -176,8 +177,8 @@ template <class Real>
 void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
              std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
              std::span<Point> y) {
-    using V = Vector<double>;
-    System<Real, double> system(bounds, row_start, columns, off);
+    using V = Vec4<double>;
+    BlockMatrix<Real, double> system(bounds, row_start, columns, off);
     std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
     V *const w[2] = {below[0].data(), below[1].data()};
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};

@@ -17,7 +17,7 @@
 namespace hexmend {
 
 // How a solve ended.
-enum End { DONE, NEGATIVE_CURVATURE, TOO_MANY };
+enum SolveStatus { DONE, NEGATIVE_CURVATURE, TOO_MANY };
 
 template <class Real>
 std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,

@@ -5,14 +5,14 @@
 namespace hexmend {
 namespace {
 
-Symmetric symmetric(const std::array<double, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+SymmetricMatrix symmetric(const std::array<double, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
 V3<double> vector(const std::array<double, 3> &a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace
 
 std::pair<double, double> extremes_of(std::array<double, 6> a) {
-    auto [least, greatest] = extreme_eigenvalues(symmetric(a));
-    return {least, greatest};
+    auto [smallest, largest] = extreme_eigenvalues(symmetric(a));
+    return {smallest, largest};
 }
 
 std::array<double, 3> solution_of(std::array<double, 6> a, std::array<double, 3> b) {
@@ -21,8 +21,8 @@ std::array<double, 3> solution_of(std::array<double, 6> a, std::array<double, 3>
 }
 
 std::array<double, 3> newton_step(std::array<double, 6> hessian, std::array<double, 3> gradient, bool modified) {
-    Symmetric matrix = symmetric(hessian);
-    auto p = newton(matrix, vector(gradient), modified ? shift_of(matrix) : 0.0);
+    SymmetricMatrix matrix = symmetric(hessian);
+    auto p = newton_direction(matrix, vector(gradient), modified ? eigenvalue_shift(matrix) : 0.0);
     return {p.x, p.y, p.z};
 }
 

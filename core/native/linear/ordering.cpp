@@ -52,7 +52,7 @@ class Graph {
 
 // Cuthill and McKee 1969: breadth first from a node at the rim. It knows no coordinates: a mesh that is turned is
 // smoothed as it was before.
-std::vector<Node> near_each_other(const Graph &graph) {
+std::vector<Node> cuthill_mckee(const Graph &graph) {
     std::vector<Node> order, trial;
     std::vector<bool> seen(graph.nodes()), tried(graph.nodes());
     for (Node i = 0; i < graph.nodes(); ++i) {
@@ -70,7 +70,7 @@ std::vector<Node> near_each_other(const Graph &graph) {
 }
 
 // The least and greatest of some numbers.
-struct Span {
+struct Range {
     int least = std::numeric_limits<int>::max(), greatest = -1;
 
     void take(int number) { least = std::min(least, number), greatest = std::max(greatest, number); }
@@ -79,12 +79,12 @@ struct Span {
 };
 
 // The part (from 0), or separator (from `parts`), of each node, -1 if it is fixed; none if so many parts are too thin.
-std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, std::size_t nodes, int parts) {
+std::vector<int> partition_slots(const std::vector<Node> &order, Hexes hexes, std::size_t nodes, int parts) {
     std::vector<int> part(nodes, -1);
     for (std::size_t k = 0; k < order.size(); ++k) part[order[k]] = static_cast<int>(k * parts / order.size());
     std::vector<int> range = part;
     for (const Hex &hex : hexes) {
-        Span met;
+        Range met;
         for (Node i : hex)
             if (part[i] >= 0) met.take(part[i]);
         if (met.none() || met.one()) continue;
@@ -93,7 +93,7 @@ std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, std::size_t
     }
     // A hex may hold nodes of one part and of one separator at its side, no others.
     for (const Hex &hex : hexes) {
-        Span part_met, separator_met;
+        Range part_met, separator_met;
         for (Node i : hex)
             if (range[i] >= 0) (range[i] < parts ? part_met : separator_met).take(range[i]);
         int side = separator_met.greatest - parts - part_met.greatest;
@@ -106,12 +106,12 @@ std::vector<int> ranges(const std::vector<Node> &order, Hexes hexes, std::size_t
 
 }  // namespace
 
-std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
-                                                        std::span<const bool> free, int parts) {
-    auto order = near_each_other({ring_start, ring, free});
+std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
+                                                                    std::span<const bool> free, int parts) {
+    auto order = cuthill_mckee({ring_start, ring, free});
     std::vector<int> range;
     parts = std::max(parts, 1);
-    while (parts > 1 && (range = ranges(order, hexes, free.size(), parts)).empty()) --parts;
+    while (parts > 1 && (range = partition_slots(order, hexes, free.size(), parts)).empty()) --parts;
     std::vector<std::int32_t> bounds(2 * parts);
     if (parts == 1) {
         bounds[1] = static_cast<std::int32_t>(order.size());

@@ -8,7 +8,7 @@
 
 namespace hexmend {
 
-std::pair<Made<std::int32_t>, Made<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
-                                                        std::span<const bool> free, int parts);
+std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
+                                                                    std::span<const bool> free, int parts);
 
 }  // namespace hexmend

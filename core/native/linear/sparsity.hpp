@@ -13,8 +13,7 @@ constexpr int PAIRS = 28;
 // Number of the pair of two corners, the lower one first.
 constexpr int pair_of(int a, int b) { return a * (15 - a) / 2 + b - a - 1; }
 
-std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes,
-                                                                                      Indices start, Indices corners,
-                                                                                      std::int64_t most);
+std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t, PAIRS>> pattern(
+    Hexes slots, Indices nodes, Indices start, Indices corners, std::int64_t most);
 
 }  // namespace hexmend

@@ -10,18 +10,18 @@
 
 namespace hexmend {
 
-struct Symmetric {
+struct SymmetricMatrix {
     double xx, xy, xz, yy, yz, zz;
 
-    void raise(double shift) { xx += shift, yy += shift, zz += shift; }
+    void add_to_diagonal(double shift) { xx += shift, yy += shift, zz += shift; }
 };
 
 struct Extremes {
-    double least, greatest;
+    double smallest, largest;
 };
 
 // Least and greatest eigenvalue, by the trigonometric solution of the characteristic equation (Smith 1961).
-inline Extremes extreme_eigenvalues(const Symmetric &a) {
+inline Extremes extreme_eigenvalues(const SymmetricMatrix &a) {
     double mean = (a.xx + a.yy + a.zz) / 3;
     double x = a.xx - mean, y = a.yy - mean, z = a.zz - mean;
     double spread = std::sqrt((x * x + y * y + z * z + 2 * (a.xy * a.xy + a.xz * a.xz + a.yz * a.yz)) / 6);
@@ -32,24 +32,24 @@ inline Extremes extreme_eigenvalues(const Symmetric &a) {
     return {mean + 2 * spread * std::cos(angle + 2 * std::numbers::pi / 3), mean + 2 * spread * std::cos(angle)};
 }
 
-inline Symmetric operator*(double k, const Symmetric &a) {
+inline SymmetricMatrix operator*(double k, const SymmetricMatrix &a) {
     return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
 }
 
 struct Adjugate {
-    Symmetric adjugate;
+    SymmetricMatrix adjugate;
     double det;
 };
 
 // The cofactors, and the determinant by which they are divided in the inverse.
-inline Adjugate adjugate_of(const Symmetric &a) {
+inline Adjugate adjugate_of(const SymmetricMatrix &a) {
     double xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
     double yy = a.xx * a.zz - a.xz * a.xz, yz = a.xy * a.xz - a.xx * a.yz, zz = a.xx * a.yy - a.xy * a.xy;
     return {{xx, xy, xz, yy, yz, zz}, a.xx * xx + a.xy * xy + a.xz * xz};
 }
 
 // Solution of the linear system; zero where the matrix is singular.
-inline V3<double> solve(const Symmetric &a, const V3<double> &b) {
+inline V3<double> solve(const SymmetricMatrix &a, const V3<double> &b) {
     auto [c, det] = adjugate_of(a);
     if (det == 0) return {};
     return {(c.xx * b.x + c.xy * b.y + c.xz * b.z) / det, (c.xy * b.x + c.yy * b.y + c.yz * b.z) / det,

@@ -13,7 +13,7 @@ namespace hexmend {
 
 // Row i of an (n, width) array is rows[i]. Read where T is const.
 template <class T, std::size_t width>
-using Rows = std::span<
+using ArrayView = std::span<
     std::conditional_t<std::is_const_v<T>, const std::array<std::remove_const_t<T>, width>, std::array<T, width>>>;
 
 using Points = std::span<const Point>;
@@ -27,10 +27,10 @@ inline void expect(bool fits, const char *what) {
 }
 
 // A byte a hex: bit t is set where its corner tetrahedron t is left out, as if it were perfect.
-using Left = std::span<const std::uint8_t>;
+using OmittedCorners = std::span<const std::uint8_t>;
 
 // What a kernel makes and hands over: an array (n,), or (n, width). Truths are bytes: std::vector<bool> is no array.
-template <class T, std::size_t width = 1> struct Made {
+template <class T, std::size_t width = 1> struct OwnedArray {
     std::vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>> values;
 };
 

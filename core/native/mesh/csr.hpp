@@ -12,7 +12,7 @@
 namespace hexmend {
 
 // Rows that one thread takes at a time.
-constexpr std::int64_t ROWS = 1024;
+constexpr std::int64_t ROWS_PER_CHUNK = 1024;
 
 // Put an item at its place in an ascending row of `size` unless there is one of its key; returns where it is.
 template <class Item, class Key> inline Item *placed(Item *begin, int &size, const Item &item, const Key &key) {
@@ -48,15 +48,15 @@ inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_I
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
 }
 
-template <class Item> class CompressedRows {
+template <class Item> class CSRBuilder {
   public:
     // row(i, items) writes row i, of at most `width` items, and returns how many they are; all rows together may have
     // `most`.
-    template <class Row> CompressedRows(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
+    template <class Row> CSRBuilder(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
         start_.resize(count + 1);
-        chunks_.resize((count + ROWS - 1) / ROWS);
-        parallel_chunks(count, ROWS, [&](std::int64_t begin, std::int64_t end) {
-            std::vector<Item> items(width), &chunk = chunks_[begin / ROWS];
+        chunks_.resize((count + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
+        parallel_chunks(count, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+            std::vector<Item> items(width), &chunk = chunks_[begin / ROWS_PER_CHUNK];
             for (std::int64_t i = begin; i < end; ++i) {
                 int size = start_[i + 1] = row(i, items.data());
                 chunk.insert(chunk.end(), items.data(), items.data() + size);
@@ -69,8 +69,8 @@ template <class Item> class CompressedRows {
 
     // body(i, k, item) for each item of row i, which is number k of all, in any order.
     template <class Body> void each(const Body &body) const {
-        parallel_chunks(start_.size() - 1, ROWS, [&](std::int64_t begin, std::int64_t end) {
-            const Item *item = chunks_[begin / ROWS].data();
+        parallel_chunks(start_.size() - 1, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+            const Item *item = chunks_[begin / ROWS_PER_CHUNK].data();
             for (std::int64_t i = begin; i < end; ++i)
                 for (std::int64_t k = start_[i]; k < start_[i + 1]; ++k) body(i, k, *item++);
         });
@@ -84,7 +84,7 @@ template <class Item> class CompressedRows {
 };
 
 // (start, items), as arrays.
-inline std::pair<Made<std::int32_t>, Made<std::int32_t>> arrays(CompressedRows<std::int32_t> &&rows) {
+inline std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> arrays(CSRBuilder<std::int32_t> &&rows) {
     std::vector<std::int32_t> items(rows.size());
     rows.each([&](std::int64_t, std::int64_t k, std::int32_t item) { items[k] = item; });
     return {{std::move(rows).start()}, {std::move(items)}};

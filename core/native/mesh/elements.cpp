@@ -25,54 +25,54 @@ constexpr auto AT_APEX = [] {
 
 void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> sigma, std::span<double> jacobian,
              std::span<double> eta) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<Lanes>(points, hexes, first, count);
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
         Lanes squares[12], lengths[12];  // each is of two corner tetrahedra
-        unrolled<12>([&](auto e) {
+        unroll<12>([&](auto e) {
             squares[e] = square(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]);
-            lengths[e] = root(squares[e]);
+            lengths[e] = sqrt(squares[e]);
         });
-        Lanes quality{}, energy{}, lowest = all<Lanes>(INF), worst = all<Lanes>(INF);
-        unrolled<8>([&](auto t) {
+        Lanes quality{}, energy{}, lowest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(INF);
+        unroll<8>([&](auto t) {
             constexpr auto u = AT_APEX[t][0], v = AT_APEX[t][1], w = AT_APEX[t][2];
             Lanes det = determinant(x.template edges<t>());
-            auto number = magnitude(det) < INF;  // no longer one where products overflow
+            auto number = abs(det) < INF;  // no longer one where products overflow
             auto sound = (det > 0.0) & number;
             Lanes shape = (squares[u] + squares[v] + squares[w]) * power_minus_two_thirds(det) * (1.0 / 3.0);
-            energy += sound ? shape : all<Lanes>(INF);         // eta(T), (3.1)
-            quality += sound ? 1.0 / shape : all<Lanes>(0.0);  // q(T), (2.8)
+            energy += sound ? shape : broadcast<Lanes>(INF);         // eta(T), (3.1)
+            quality += sound ? 1.0 / shape : broadcast<Lanes>(0.0);  // q(T), (2.8)
             Lanes product = lengths[u] * lengths[v] * lengths[w];
-            Lanes scaled = (product > 0.0) & number ? det / product : all<Lanes>(0.0);
-            lowest = least(det, lowest);
-            worst = least(scaled, worst);
+            Lanes scaled = (product > 0.0) & number ? det / product : broadcast<Lanes>(0.0);
+            lowest = min(det, lowest);
+            worst = min(scaled, worst);
         });
-        put(quality * 0.125, first, count, q);  // (2.10)
-        put(lowest, first, count, sigma);
-        put(worst, first, count, jacobian);
-        put(greatest(energy * 0.125 - 1.0, all<Lanes>(0.0)), first, count, eta);  // (B.20)
+        store(quality * 0.125, first, count, q);  // (2.10)
+        store(lowest, first, count, sigma);
+        store(worst, first, count, jacobian);
+        store(max(energy * 0.125 - 1.0, broadcast<Lanes>(0.0)), first, count, eta);  // (B.20)
     });
 }
 
 double mean_edge_length(Points points, Hexes hexes) {
-    std::vector<double> totals((hexes.size() + CHUNK - 1) / CHUNK);
-    parallel_chunks(hexes.size(), CHUNK, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<double> totals((hexes.size() + HEXES_PER_CHUNK - 1) / HEXES_PER_CHUNK);
+    parallel_chunks(hexes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         double total = 0;
         for (auto first = begin; first < end; first += LANES) {
             int count = static_cast<int>(std::min<std::int64_t>(LANES, end - first));
-            auto x = gathered<Lanes>(points, hexes, first, count);
+            auto x = gather_corners<Lanes>(points, hexes, first, count);
             Lanes lengths{};
             for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
             for (int i = 0; i < count; ++i) total += lengths[i];
         }
-        totals[begin / CHUNK] = total;
+        totals[begin / HEXES_PER_CHUNK] = total;
     });
     return hexes.empty() ? 0.0 : std::accumulate(totals.begin(), totals.end(), 0.0) / (12.0 * hexes.size());
 }
 
-void corner_determinants(Points points, Hexes hexes, Rows<double, 8> sigma) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<Lanes>(points, hexes, first, count);
-        unrolled<8>([&](auto t) {
+void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        unroll<8>([&](auto t) {
             Lanes det = determinant(x.template edges<t>());
             for (int i = 0; i < count; ++i) sigma[first + i][t] = det[i];
         });

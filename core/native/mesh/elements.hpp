@@ -10,6 +10,6 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
 
 double mean_edge_length(Points points, Hexes hexes);
 
-void corner_determinants(Points points, Hexes hexes, Rows<double, 8> sigma);
+void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma);
 
 }  // namespace hexmend

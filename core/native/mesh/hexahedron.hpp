@@ -53,7 +53,7 @@ constexpr int corner_at(int x, int y, int z) {
 }
 
 // The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0.
-constexpr std::array<int, 8> turned_corners(int corner) {
+constexpr std::array<int, 8> rotated_corners(int corner) {
     std::array<int, 8> places{};
     for (int c = 0; c < 8; ++c) {
         int at[3] = {};
@@ -70,15 +70,15 @@ constexpr std::array<int, 8> turned_corners(int corner) {
 
 }  // namespace detail
 
-alignas(32) constexpr std::array<std::array<int, 8>, 8> TURNED = [] {
+alignas(32) constexpr std::array<std::array<int, 8>, 8> ROTATIONS = [] {
     std::array<std::array<int, 8>, 8> all{};
-    for (int c = 0; c < 8; ++c) all[c] = detail::turned_corners(c);
+    for (int c = 0; c < 8; ++c) all[c] = detail::rotated_corners(c);
     return all;
 }();
 
 // body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
 template <int n> using constant = std::integral_constant<int, n>;
-template <int n, class Body> inline __attribute__((always_inline)) void unrolled(Body &&body) {
+template <int n, class Body> inline __attribute__((always_inline)) void unroll(Body &&body) {
     [&]<int... i>(std::integer_sequence<int, i...>)
         __attribute__((always_inline)) { (body(constant<i>{}), ...); }(std::make_integer_sequence<int, n>{});
 }

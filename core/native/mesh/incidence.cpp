@@ -7,7 +7,7 @@
 
 namespace hexmend {
 
-RowsMade node_corners(Hexes hexes, std::int64_t nodes) {
+CSR node_corners(Hexes hexes, std::int64_t nodes) {
     std::vector<std::int32_t> start(nodes + 1), corners(8 * hexes.size());
     for (const Hex &hex : hexes)
         for (Node i : hex) ++start[i];
@@ -20,15 +20,15 @@ RowsMade node_corners(Hexes hexes, std::int64_t nodes) {
 namespace {
 
 // What a face is to one of its corners: the three other corners, and which of these come after it in the face.
-struct Beside {
+struct FaceAtCorner {
     int face, corner[3], after[3];
 };
 
-constexpr auto BESIDE = [] {
-    std::array<std::array<Beside, 3>, 8> beside{};
+constexpr auto FACES_AT_CORNER = [] {
+    std::array<std::array<FaceAtCorner, 3>, 8> faces{};
     for (int c = 0; c < 8; ++c)
         for (int k = 0; k < 3; ++k) {
-            Beside &to = beside[c][k];
+            FaceAtCorner &to = faces[c][k];
             to.face = CORNER_FACES[c][k];
             int size = 0, after = 0;
             for (int corner : FACES[to.face]) {
@@ -36,34 +36,34 @@ constexpr auto BESIDE = [] {
                 else to.corner[size] = corner, to.after[size++] = after;
             }
         }
-    return beside;
+    return faces;
 }();
 
 // A face at its lowest node: the other three, ascending; how many hexes are met behind it, and the last of them.
 struct Face {
     Node a, b, c;
-    std::int32_t number, met, hex;
+    std::int32_t number, matches, hex;
 
-    void meet(Face &other) {
+    void match(Face &other) {
         if (a != other.a || b != other.b || c != other.c) return;
-        ++met, ++other.met;
+        ++matches, ++other.matches;
         hex = other.number / 6, other.hex = number / 6;
     }
 };
 
 }  // namespace
 
-std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners) {
+std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners) {
     std::vector<std::int32_t> neighbours(6 * hexes.size());
     const std::int64_t nodes = start.size() - 1;
-    std::vector<std::int64_t> crowded((nodes + ROWS - 1) / ROWS);
-    parallel_chunks(nodes, ROWS, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<std::int64_t> non_manifold((nodes + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
+    parallel_chunks(nodes, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         std::vector<Face> faces;  // those whose lowest node is i: half a dozen
         for (std::int64_t i = begin; i < end; ++i) {
             faces.clear();
             for (auto s = start[i]; s < start[i + 1]; ++s) {
                 int h = corners[s] / 8;
-                for (auto &[f, corner, after] : BESIDE[corners[s] % 8]) {
+                for (auto &[f, corner, after] : FACES_AT_CORNER[corners[s] % 8]) {
                     Node a = hexes[h][corner[0]], b = hexes[h][corner[1]], c = hexes[h][corner[2]];
                     // Of corners that are one node, the first stands for the face.
                     if (!((a + after[0] > i) & (b + after[1] > i) & (c + after[2] > i))) continue;
@@ -74,17 +74,17 @@ std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indi
                 }
             }
             for (std::size_t s = 0; s < faces.size(); ++s)
-                for (std::size_t t = 0; t < s; ++t) faces[s].meet(faces[t]);
+                for (std::size_t t = 0; t < s; ++t) faces[s].match(faces[t]);
             for (const Face &face : faces) {
-                neighbours[face.number] = face.met == 1 ? face.hex : -1;
-                crowded[begin / ROWS] += face.met > 1;
+                neighbours[face.number] = face.matches == 1 ? face.hex : -1;
+                non_manifold[begin / ROWS_PER_CHUNK] += face.matches > 1;
             }
         }
     });
-    return {{std::move(neighbours)}, std::reduce(crowded.begin(), crowded.end())};
+    return {{std::move(neighbours)}, std::reduce(non_manifold.begin(), non_manifold.end())};
 }
 
-std::int64_t parts(Hexes hexes, std::span<const bool> used) {
+std::int64_t components(Hexes hexes, std::span<const bool> used) {
     std::vector<Node> parent(used.size());
     std::iota(parent.begin(), parent.end(), 0);
     // The node that stands for the part of node i; the way there is halved for those who come after.
@@ -106,8 +106,8 @@ std::int64_t parts(Hexes hexes, std::span<const bool> used) {
     return count;
 }
 
-RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
-    return arrays(CompressedRows<Node>(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Node *ring) {
+CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
+    return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Node *ring) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s)
             for (int k = 1; k < 4; ++k) {
@@ -118,7 +118,7 @@ RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t mo
     }));
 }
 
-Made<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
+OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
     std::vector<std::int32_t> colour(chosen.size(), -1);
     std::vector<std::uint64_t> taken;  // of each hex, the colours of its nodes: 64 of them at a time
     bool more = true;
@@ -141,7 +141,7 @@ Made<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<cons
     return {std::move(colour)};
 }
 
-RowsMade grouped(Indices colour, std::int64_t count) {
+CSR grouped(Indices colour, std::int64_t count) {
     std::vector<std::int32_t> start(count + 1);
     for (auto k : colour)
         if (k >= 0) ++start[k];
@@ -152,7 +152,7 @@ RowsMade grouped(Indices colour, std::int64_t count) {
     return {{std::move(start)}, {std::move(nodes)}};
 }
 
-Made<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours) {
+OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours) {
     const std::int64_t m = neighbours.size();
     std::vector<std::int32_t> layer(m, -1), queue;
     queue.reserve(m);
@@ -174,7 +174,7 @@ Made<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbour
     return {std::move(layer)};
 }
 
-Made<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
+OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {
     std::vector<std::uint8_t> reached(hexes.size()), seen(start.size() - 1);
     std::vector<std::int32_t> queue;
     auto reach = [&](std::int32_t h) {

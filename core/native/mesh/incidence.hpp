@@ -8,22 +8,22 @@
 
 namespace hexmend {
 
-using RowsMade = std::pair<Made<std::int32_t>, Made<std::int32_t>>;
+using CSR = std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>>;
 
-RowsMade node_corners(Hexes hexes, std::int64_t nodes);
+CSR node_corners(Hexes hexes, std::int64_t nodes);
 
-std::pair<Made<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
+std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
-std::int64_t parts(Hexes hexes, std::span<const bool> used);
+std::int64_t components(Hexes hexes, std::span<const bool> used);
 
-RowsMade node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);
+CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);
 
-Made<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
+OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
 
-RowsMade grouped(Indices colour, std::int64_t count);
+CSR grouped(Indices colour, std::int64_t count);
 
-Made<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours);
+OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours);
 
-Made<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
+OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
 
 }  // namespace hexmend

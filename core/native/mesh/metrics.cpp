@@ -7,17 +7,17 @@ namespace hexmend {
 namespace {
 
 // The least and the greatest distance of pairs of corners.
-struct Extremes {
+struct DistanceRange {
     Lanes least, greatest;
 };
 
-template <std::size_t n> Extremes distances(const Corners<Lanes> &x, const int (&pairs)[n][2]) {
-    Lanes low = all<Lanes>(INF), high{};
-    unrolled<n>([&](auto i) {
+template <std::size_t n> DistanceRange distances(const Corners<Lanes> &x, const int (&pairs)[n][2]) {
+    Lanes low = broadcast<Lanes>(INF), high{};
+    unroll<n>([&](auto i) {
         Lanes d = square(x.at[pairs[i][1]] - x.at[pairs[i][0]]);
-        low = least(d, low), high = greatest(d, high);
+        low = min(d, low), high = max(d, high);
     });
-    return {root(low), root(high)};
+    return {sqrt(low), sqrt(high)};
 }
 
 // Where a corner lies from the centre along x, y or z: -1 or 1.
@@ -26,7 +26,7 @@ constexpr int side(int corner, int axis) { return 2 * UNIT_CUBE[corner][axis] - 
 // The principal axis X1, X2 or X3: the sum of the four edges along x, y or z, (6) of the manual.
 template <int i> V3<Lanes> axis(const Corners<Lanes> &x) {
     V3<Lanes> sum;
-    unrolled<8>([&](auto c) {
+    unroll<8>([&](auto c) {
         if constexpr (side(c, i) > 0) sum += x.at[c];
         else sum -= x.at[c];
     });
@@ -36,7 +36,7 @@ template <int i> V3<Lanes> axis(const Corners<Lanes> &x) {
 // The cross derivative X12, X23 or X31, (8) of the manual.
 template <int i> V3<Lanes> cross_derivative(const Corners<Lanes> &x) {
     V3<Lanes> sum;
-    unrolled<8>([&](auto c) {
+    unroll<8>([&](auto c) {
         if constexpr (side(c, i) * side(c, (i + 1) % 3) > 0) sum += x.at[c];
         else sum -= x.at[c];
     });
@@ -47,59 +47,59 @@ template <int i> V3<Lanes> cross_derivative(const Corners<Lanes> &x) {
 
 void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span<double> stretch,
              std::span<double> diagonal) {
-    const double ROOT_3 = root(3.0);
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<Lanes>(points, hexes, first, count);
+    const double ROOT_3 = sqrt(3.0);
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
         auto [shortest, longest] = distances(x, EDGES);
         auto [narrow, wide] = distances(x, DIAGONALS);
-        put(shortest > 0.0 ? longest / shortest : all<Lanes>(INF), first, count, edge_ratio);
-        put(shortest > 0.0 ? ROOT_3 * shortest / wide : all<Lanes>(0.0), first, count, stretch);
-        put(wide > 0.0 ? narrow / wide : all<Lanes>(0.0), first, count, diagonal);
+        store(shortest > 0.0 ? longest / shortest : broadcast<Lanes>(INF), first, count, edge_ratio);
+        store(shortest > 0.0 ? ROOT_3 * shortest / wide : broadcast<Lanes>(0.0), first, count, stretch);
+        store(wide > 0.0 ? narrow / wide : broadcast<Lanes>(0.0), first, count, diagonal);
     });
 }
 
 void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<double> skew, std::span<double> taper) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = from_first_corner(gathered<Lanes>(points, hexes, first, count));
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
         V3<Lanes> X[3] = {axis<0>(x), axis<1>(x), axis<2>(x)};
         Lanes crossing[3] = {length(cross_derivative<0>(x)), length(cross_derivative<1>(x)),
                              length(cross_derivative<2>(x))};
         Lanes l[3] = {length(X[0]), length(X[1]), length(X[2])};
-        Lanes low = least(l[0], least(l[1], l[2])), high = greatest(l[0], greatest(l[1], l[2]));
+        Lanes low = min(l[0], min(l[1], l[2])), high = max(l[0], max(l[1], l[2]));
         Lanes most_skew{}, most_taper{};
-        unrolled<3>([&](auto i) {
+        unroll<3>([&](auto i) {
             constexpr int j = (i + 1) % 3;
-            most_skew = greatest(magnitude(dot(X[i], X[j])) / (l[i] * l[j]), most_skew);
-            most_taper = greatest(crossing[i] / least(l[i], l[j]), most_taper);
+            most_skew = max(abs(dot(X[i], X[j])) / (l[i] * l[j]), most_skew);
+            most_taper = max(crossing[i] / min(l[i], l[j]), most_taper);
         });
         auto sound = (l[0] > 0.0) & (l[1] > 0.0) & (l[2] > 0.0) & (high < INF);
-        put(sound ? high / low : all<Lanes>(INF), first, count, aspect_ratio);
-        put(sound ? least(most_skew, all<Lanes>(1.0)) : all<Lanes>(1.0), first, count, skew);
-        put(sound ? most_taper : all<Lanes>(INF), first, count, taper);
+        store(sound ? high / low : broadcast<Lanes>(INF), first, count, aspect_ratio);
+        store(sound ? min(most_skew, broadcast<Lanes>(1.0)) : broadcast<Lanes>(1.0), first, count, skew);
+        store(sound ? most_taper : broadcast<Lanes>(INF), first, count, taper);
     });
 }
 
 void corners(Points points, Hexes hexes, std::span<double> shape, std::span<double> condition) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = gathered<Lanes>(points, hexes, first, count);
-        Lanes fullest = all<Lanes>(INF), worst = all<Lanes>(1.0);
-        unrolled<8>([&](auto t) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        Lanes fullest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(1.0);
+        unroll<8>([&](auto t) {
             auto s = x.template edges<t>();
             Lanes det = determinant(s);
-            Lanes length = root(square(s)), area = root(square(cofactors(s)));  // |S|, |S^-1| det S
+            Lanes length = sqrt(square(s)), area = sqrt(square(cofactors(s)));  // |S|, |S^-1| det S
             auto sound = (det > 0.0) & (det < INF);
-            fullest = least(sound ? det / (length * length * length) : all<Lanes>(0.0), fullest);
-            worst = greatest(sound ? length * area / (3.0 * det) : all<Lanes>(INF), worst);
+            fullest = min(sound ? det / (length * length * length) : broadcast<Lanes>(0.0), fullest);
+            worst = max(sound ? length * area / (3.0 * det) : broadcast<Lanes>(INF), worst);
         });
-        put(least(3.0 / power_minus_two_thirds(fullest), all<Lanes>(1.0)), first, count, shape);
-        put(worst, first, count, condition);
+        store(min(3.0 / power_minus_two_thirds(fullest), broadcast<Lanes>(1.0)), first, count, shape);
+        store(worst, first, count, condition);
     });
 }
 
 void centre(Points points, Hexes hexes, std::span<double> jacobian) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto x = from_first_corner(gathered<Lanes>(points, hexes, first, count));
-        put(determinant(M3<Lanes>{axis<0>(x), axis<1>(x), axis<2>(x)}) * (1.0 / 64), first, count, jacobian);
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = from_first_corner(gather_corners<Lanes>(points, hexes, first, count));
+        store(determinant(M3<Lanes>{axis<0>(x), axis<1>(x), axis<2>(x)}) * (1.0 / 64), first, count, jacobian);
     });
 }
 

@@ -9,23 +9,23 @@
 namespace hexmend {
 
 // What a comparison of T gives: bool, or a mask for each lane.
-template <class T> using Truth = decltype(T{} > T{});
+template <class T> using MaskOf = decltype(T{} > T{});
 
 // q(T) = 3 sigma^(2/3)/|S|^2, (2.8); 0 where sigma <= 0.
 template <class T> inline T quality(const M3<T> &s, T sigma) {
-    return sigma > 0.0 ? 3.0 / (square(s) * power_minus_two_thirds(sigma)) : all<T>(0.0);
+    return sigma > 0.0 ? 3.0 / (square(s) * power_minus_two_thirds(sigma)) : broadcast<T>(0.0);
 }
 
 // q(H), the mean of the q(T), and whether no corner is inverted.
 template <class T> struct Quality {
     T q;
-    Truth<T> sound;
+    MaskOf<T> sound;
 };
 
 template <class T> inline Quality<T> quality(const Corners<T> &x) {
     T total{};
-    Truth<T> sound = all<T>(0.0) == 0.0;
-    unrolled<8>([&](auto t) {
+    MaskOf<T> sound = broadcast<T>(0.0) == 0.0;
+    unroll<8>([&](auto t) {
         auto s = x.template edges<t>();
         T sigma = determinant(s);
         total += quality(s, sigma);
@@ -35,17 +35,17 @@ template <class T> inline Quality<T> quality(const Corners<T> &x) {
 }
 
 // One hex, its corners side by side: corner c in lane c % LANES of register c / LANES.
-class OneHex {
+class SingleHex {
   public:
-    OneHex(Points points, const Hex &hex) {
+    SingleHex(Points points, const Hex &hex) {
         for (int c = 0; c < 8; c += LANES)
-            corners_[c / LANES] = side_by_side<Lanes>([&](int i) -> const Point & { return points[hex[c + i]]; });
+            corners_[c / LANES] = load_lanes<Lanes>([&](int i) -> const Point & { return points[hex[c + i]]; });
     }
 
     Quality<double> quality() const {
         Lanes total{};
         bool sound = true;
-        unrolled<8 / LANES>([&](auto k) {
+        unroll<8 / LANES>([&](auto k) {
             auto s = edges<k * LANES>();
             Lanes sigma = determinant(s);
             total += hexmend::quality(s, sigma);
@@ -57,7 +57,7 @@ class OneHex {
     // Whether no corner is inverted.
     bool sound() const {
         bool sound = true;
-        unrolled<8 / LANES>([&](auto k) { sound &= positive(determinant(edges<k * LANES>())); });
+        unroll<8 / LANES>([&](auto k) { sound &= positive(determinant(edges<k * LANES>())); });
         return sound;
     }
 

@@ -7,8 +7,8 @@
 
 namespace hexmend {
 
-std::tuple<Made<Node, 2>, Made<std::int32_t>, Made<bool>> edges(Hexes hexes, Indices start, Indices corners,
-                                                                std::span<const std::array<std::int32_t, 6>> neighbours,
-                                                                std::int64_t most);
+std::tuple<OwnedArray<Node, 2>, OwnedArray<std::int32_t>, OwnedArray<bool>> edges(
+    Hexes hexes, Indices start, Indices corners, std::span<const std::array<std::int32_t, 6>> neighbours,
+    std::int64_t most);
 
 }  // namespace hexmend

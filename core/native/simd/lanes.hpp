@@ -36,7 +36,7 @@ template <class T> using bits_of = std::conditional_t<std::is_same_v<T, double>,
 
 constexpr double INF = std::numeric_limits<double>::infinity();
 
-template <class T> inline T all(double x) {
+template <class T> inline T broadcast(double x) {
     if constexpr (width<T> == 1) return x;
     else return x - Lanes{};
 }
@@ -51,9 +51,9 @@ template <class T> inline void set_lane(T &x, int i, double value) {
     else x[i] = value;
 }
 
-inline double root(double x) { return __builtin_sqrt(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
 
-inline Lanes root(Lanes x) {
+inline Lanes sqrt(Lanes x) {
 #if defined(__AVX512F__)
     return _mm512_sqrt_pd(x);
 #elif defined(__AVX__)
@@ -83,12 +83,12 @@ inline double sum_of_lanes(const Lanes &x) {
 }
 
 // Where one of the two is no number it is the second that counts.
-template <class T> inline T least(T a, T b) { return a < b ? a : b; }
-template <class T> inline T greatest(T a, T b) { return a > b ? a : b; }
-template <class T> inline T magnitude(T a) { return greatest(a, -a); }
+template <class T> inline T min(T a, T b) { return a < b ? a : b; }
+template <class T> inline T max(T a, T b) { return a > b ? a : b; }
+template <class T> inline T abs(T a) { return max(a, -a); }
 
 // A number or vector as the bits that it is made of, and back.
-template <class To, class From> inline To as(From x) {
+template <class To, class From> inline To bit_cast(From x) {
     static_assert(sizeof(To) == sizeof(From));
     To y;
     std::memcpy(&y, &x, sizeof y);
@@ -97,7 +97,7 @@ template <class To, class From> inline To as(From x) {
 
 // A product that is rounded on its own: never contracted with the sum that it stands in, so that the sum has the same
 // bits wherever it is computed. The compiler may look through anything but this.
-inline double rounded(double x) {
+inline double uncontracted(double x) {
 #if defined(__SSE2__)
     asm("" : "+x"(x));
 #elif defined(__ARM_NEON)
@@ -109,7 +109,7 @@ inline double rounded(double x) {
     return x;
 }
 
-inline Lanes rounded(Lanes x) {
+inline Lanes uncontracted(Lanes x) {
 #if defined(__AVX512F__)
     asm("" : "+v"(x));
 #elif defined(__SSE2__)
@@ -117,7 +117,7 @@ inline Lanes rounded(Lanes x) {
 #elif defined(__ARM_NEON)
     asm("" : "+w"(x));
 #else
-    for (int i = 0; i < LANES; ++i) x[i] = rounded(x[i]);
+    for (int i = 0; i < LANES; ++i) x[i] = uncontracted(x[i]);
 #endif
     return x;
 }

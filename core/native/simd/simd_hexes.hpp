@@ -8,7 +8,7 @@
 namespace hexmend {
 
 // Hexes that one thread takes at a time: whole blocks, however wide they are.
-constexpr std::int64_t CHUNK = 256;
+constexpr std::int64_t HEXES_PER_CHUNK = 256;
 
 namespace detail {
 
@@ -21,7 +21,7 @@ inline __m256d three_numbers(const Point &p) { return _mm256_maskload_pd(p.data(
 }  // namespace detail
 
 // The vectors at(0), at(1)... side by side, one in each lane.
-template <class T, class At> inline __attribute__((always_inline)) V3<T> side_by_side(const At &at) {
+template <class T, class At> inline __attribute__((always_inline)) V3<T> load_lanes(const At &at) {
     if constexpr (width<T> == 1) {
         const Point &p = at(0);
         return {p[0], p[1], p[2]};
@@ -84,22 +84,22 @@ inline void transpose(Lanes (&rows)[LANES]) {
 }
 
 // Corners of `count` hexes from `first` on; further lanes repeat the last.
-template <class T> inline Corners<T> gathered(Points points, Hexes hexes, std::int64_t first, int count) {
+template <class T> inline Corners<T> gather_corners(Points points, Hexes hexes, std::int64_t first, int count) {
     const Hex *hex[width<T>];
     for (int i = 0; i < width<T>; ++i) hex[i] = &hexes[first + (i < count ? i : count - 1)];
     Corners<T> x;
-    for (int c = 0; c < 8; ++c) x.at[c] = side_by_side<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
+    for (int c = 0; c < 8; ++c) x.at[c] = load_lanes<T>([&](int i) -> const Point & { return points[(*hex[i])[c]]; });
     return x;
 }
 
 // The same of values that some corners have, by their slot; zero where it is below 0.
-template <class T> inline Corners<T> gathered_or_zero(Points values, Hexes slots, std::int64_t first, int count) {
+template <class T> inline Corners<T> gather_corners_or_zero(Points values, Hexes slots, std::int64_t first, int count) {
     static constexpr Point ZERO{};
     const Hex *hex[width<T>];
     for (int i = 0; i < width<T>; ++i) hex[i] = &slots[first + (i < count ? i : count - 1)];
     Corners<T> x;
     for (int c = 0; c < 8; ++c)
-        x.at[c] = side_by_side<T>([&](int i) -> const Point & {
+        x.at[c] = load_lanes<T>([&](int i) -> const Point & {
             auto slot = (*hex[i])[c];
             return slot >= 0 ? values[slot] : ZERO;
         });
@@ -108,7 +108,7 @@ template <class T> inline Corners<T> gathered_or_zero(Points values, Hexes slots
 
 // Write vectors at corners, 24 numbers a hex.
 template <class T>
-inline void put(const Corners<T> &x, std::int64_t first, int count, std::span<std::array<double, 24>> values) {
+inline void store(const Corners<T> &x, std::int64_t first, int count, std::span<std::array<double, 24>> values) {
     T numbers[24], rows[width<T>];
     std::memcpy(numbers, &x, sizeof x);
     for (int k = 0; k < 24; k += width<T>) {
@@ -126,15 +126,15 @@ template <class T> inline Corners<T> from_first_corner(const Corners<T> &x) {
 }
 
 // Write the lanes of a block, a number of each hex.
-inline void put(const Lanes &x, std::int64_t first, int count, std::span<double> values) {
+inline void store(const Lanes &x, std::int64_t first, int count, std::span<double> values) {
     for (int i = 0; i < count; ++i) values[first + i] = x[i];
 }
 
 // Which corner tetrahedra count: bit t of a hex is set where number t is left out, as if it were perfect.
-template <class T> struct Counted {
+template <class T> struct CornerMask {
     bits_of<T> left_out;
 
-    Counted(Left bits, std::int64_t first, int count) {
+    CornerMask(OmittedCorners bits, std::int64_t first, int count) {
         alignas(64) std::int64_t buffer[width<T>] = {};
         for (int i = 0; i < count; ++i) buffer[i] = bits[first + i];
         std::memcpy(&left_out, buffer, sizeof left_out);
@@ -146,36 +146,37 @@ template <class T> struct Counted {
 // body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do,
 // which the compiler is told.
 template <class T, class Body>
-inline __attribute__((always_inline)) void with_counted(Left left_out, std::int64_t first, int count,
-                                                        const Body &body) {
+inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners left_out, std::int64_t first, int count,
+                                                            const Body &body) {
     bool some = false;
     for (int i = 0; i < count; ++i) some |= left_out[first + i] != 0;
-    if (some) body(Counted<T>(left_out, first, count));
+    if (some) body(CornerMask<T>(left_out, first, count));
     else body([](int) { return std::true_type{}; });
 }
 
 // First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.
-template <class T> struct BlockWeights {
+template <class T> struct LanePowerDerivatives {
     T first{}, second{};
 
-    BlockWeights() = default;
+    LanePowerDerivatives() = default;
 
-    BlockWeights(T energy, double p) {
+    LanePowerDerivatives(T energy, double p) {
         if (p == 2) {
             auto perfect = energy < 0.0;
-            first = perfect ? all<T>(0.0) : 2.0 * energy, second = perfect ? all<T>(0.0) : all<T>(2.0);
+            first = perfect ? broadcast<T>(0.0) : 2.0 * energy,
+            second = perfect ? broadcast<T>(0.0) : broadcast<T>(2.0);
             return;
         }
         for (int i = 0; i < width<T>; ++i) {
-            auto [one, two] = weights(lane(energy, i), p);
+            auto [one, two] = power_derivatives(lane(energy, i), p);
             set_lane(first, i, one), set_lane(second, i, two);
         }
     }
 };
 
 // body(first, count) for every block of the hexes, on all threads.
-template <class T, class Body> inline void blocks_of(std::int64_t hexes, const Body &body) {
-    parallel_chunks(hexes, CHUNK, [&](std::int64_t begin, std::int64_t end) {
+template <class T, class Body> inline void for_each_block(std::int64_t hexes, const Body &body) {
+    parallel_chunks(hexes, HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t first = begin; first < end; first += width<T>)
             body(first, static_cast<int>(end - first < width<T> ? end - first : width<T>));
     });

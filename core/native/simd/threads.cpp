@@ -20,12 +20,12 @@ namespace hexmend {
 namespace {
 
 // More threads than this are asked for by mistake.
-constexpr int MOST = 1024;
+constexpr int MAX_THREADS = 1024;
 
 // How often a thread looks before it sleeps: some ten microseconds.
-constexpr int LOOKS = 400;
+constexpr int SPINS = 400;
 
-void breathe() {
+void cpu_relax() {
 #if defined(__x86_64__)
     _mm_pause();
 #else
@@ -34,20 +34,20 @@ void breathe() {
 }
 
 // Wait until `number` is no longer `old`.
-void await(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
-    for (int i = 0; i < LOOKS; ++i) {
+void wait_while_equal(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
+    for (int i = 0; i < SPINS; ++i) {
         if (number.load(std::memory_order_acquire) != old) return;
-        breathe();
+        cpu_relax();
     }
     number.wait(old, std::memory_order_acquire);
 }
 
 // Whether this thread is in a loop that is shared: a loop inside of it is not.
-thread_local bool at_work = false;
+thread_local bool in_shared_loop = false;
 
-class Team {
+class ThreadTeam {
   public:
-    explicit Team(int wanted) : wanted_(wanted) {
+    explicit ThreadTeam(int wanted) : wanted_(wanted) {
         helpers_.reserve(wanted);
         try {
             for (int i = 0; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
@@ -55,8 +55,8 @@ class Team {
         }
     }
 
-    ~Team() {
-        over_ = true;
+    ~ThreadTeam() {
+        stopping_ = true;
         call();
         for (auto &helper : helpers_) helper.join();
     }
@@ -71,14 +71,15 @@ class Team {
         work();
         // Nobody waits for a helper that has not yet come: on a busy machine that may take long.
         gate_.fetch_and(~OPEN, std::memory_order_acq_rel);
-        for (std::uint32_t inside; (inside = gate_.load(std::memory_order_acquire)) != 0;) await(gate_, inside);
+        for (std::uint32_t inside; (inside = gate_.load(std::memory_order_acquire)) != 0;)
+            wait_while_equal(gate_, inside);
         if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     }
 
   private:
     void call() {
-        turn_.fetch_add(1, std::memory_order_release);
-        turn_.notify_all();
+        generation_.fetch_add(1, std::memory_order_release);
+        generation_.notify_all();
     }
 
     void work() {
@@ -98,11 +99,11 @@ class Team {
     }
 
     void help() {
-        at_work = true;
+        in_shared_loop = true;
         for (std::uint32_t turn = 0;;) {
-            await(turn_, turn);
-            turn = turn_.load(std::memory_order_acquire);
-            if (over_) return;
+            wait_while_equal(generation_, turn);
+            turn = generation_.load(std::memory_order_acquire);
+            if (stopping_) return;
             if (!enter()) continue;
             work();
             if (gate_.fetch_sub(1, std::memory_order_acq_rel) == 1) gate_.notify_all();
@@ -113,18 +114,18 @@ class Team {
 
     int wanted_;
     std::vector<std::thread> helpers_;
-    std::atomic<std::uint32_t> turn_{0};
+    std::atomic<std::uint32_t> generation_{0};
     std::atomic<std::uint32_t> gate_{0};  // whether the loop may be joined, and how many helpers are at it
     std::atomic<std::int64_t> next_{0};
     std::int64_t pieces_ = 0;
     void (*body_)(const void *, std::int64_t) = nullptr;
     const void *context_ = nullptr;
-    std::atomic<bool> over_{false};
+    std::atomic<bool> stopping_{false};
     std::mutex guard_;
     std::exception_ptr error_;
 };
 
-long process() {
+long process_id() {
 #if defined(__unix__) || defined(__APPLE__)
     return static_cast<long>(getpid());
 #else
@@ -132,14 +133,14 @@ long process() {
 #endif
 }
 
-std::atomic<int> by_default{1};
+std::atomic<int> default_count{1};
 
-struct Own {
+struct ThreadState {
     int count = 0;  // 0: the default
-    long made_in = 0;
-    std::unique_ptr<Team> team;
+    long process = 0;
+    std::unique_ptr<ThreadTeam> team;
 
-    ~Own() {
+    ~ThreadState() {
 #if defined(_WIN32)
         (void)team.release();  // whose helpers could not end while Windows ends this thread
 #else
@@ -149,35 +150,35 @@ struct Own {
 
     void forget() {
         // A process that was forked has the memory of its parent's helpers, but not the helpers.
-        if (team && made_in != process()) (void)team.release();
+        if (team && process != process_id()) (void)team.release();
     }
 };
 
-thread_local Own own;
+thread_local ThreadState own;
 
 }  // namespace
 
-int threads() { return own.count ? own.count : by_default.load(); }
+int threads() { return own.count ? own.count : default_count.load(); }
 
-void set_threads(int count) { own.count = std::clamp(count, 1, MOST); }
+void set_threads(int count) { own.count = std::clamp(count, 1, MAX_THREADS); }
 
-void set_default_threads(int count) { by_default = std::clamp(count, 1, MOST); }
+void set_default_threads(int count) { default_count = std::clamp(count, 1, MAX_THREADS); }
 
 void detail::share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
     int helpers = threads() - 1;
-    if (pieces <= 1 || helpers == 0 || at_work) {
+    if (pieces <= 1 || helpers == 0 || in_shared_loop) {
         for (std::int64_t i = 0; i < pieces; ++i) body(context, i);
         return;
     }
     own.forget();
     if (!own.team || own.team->wanted() != helpers) {
         own.team.reset();
-        own.team = std::make_unique<Team>(helpers);
-        own.made_in = process();
+        own.team = std::make_unique<ThreadTeam>(helpers);
+        own.process = process_id();
     }
-    at_work = true;
+    in_shared_loop = true;
     struct Done {
-        ~Done() { at_work = false; }
+        ~Done() { in_shared_loop = false; }
     } done;
     own.team->share(pieces, body, context);
 }

@@ -24,7 +24,7 @@ template <class T> inline V3<T> operator-(const V3<T> &a) { return {-a.x, -a.y, 
 template <class T> inline V3<T> operator*(T k, const V3<T> &a) { return {k * a.x, k * a.y, k * a.z}; }
 template <class T> inline T dot(const V3<T> &a, const V3<T> &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 template <class T> inline T square(const V3<T> &a) { return dot(a, a); }
-template <class T> inline T length(const V3<T> &a) { return root(dot(a, a)); }
+template <class T> inline T length(const V3<T> &a) { return sqrt(dot(a, a)); }
 
 template <class T> inline V3<T> cross(const V3<T> &a, const V3<T> &b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -49,10 +49,10 @@ template <class T> inline M3<T> cofactors(const M3<T> &s) {
 // every kernel and to whoever writes the same formula in plain arithmetic.
 template <class T> inline T determinant(const M3<T> &s) {
     const auto &[u, v, w] = s;
-    T x = rounded(v.y * w.z) - rounded(v.z * w.y);
-    T y = rounded(v.z * w.x) - rounded(v.x * w.z);
-    T z = rounded(v.x * w.y) - rounded(v.y * w.x);
-    return rounded(u.x * x) + rounded(u.y * y) + rounded(u.z * z);
+    T x = uncontracted(v.y * w.z) - uncontracted(v.z * w.y);
+    T y = uncontracted(v.z * w.x) - uncontracted(v.x * w.z);
+    T z = uncontracted(v.x * w.y) - uncontracted(v.y * w.x);
+    return uncontracted(u.x * x) + uncontracted(u.y * y) + uncontracted(u.z * z);
 }
 
 }  // namespace hexmend

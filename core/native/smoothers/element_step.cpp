@@ -4,17 +4,17 @@
 
 namespace hexmend {
 
-void element_steps(Points points, Hexes hexes, double s, double rho, Places places) {
-    blocks_of<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
-        auto y = element_step(gathered<Lanes>(points, hexes, first, count), s, rho);
-        put(y, first, count, places);
+void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto y = element_step(gather_corners<Lanes>(points, hexes, first, count), s, rho);
+        store(y, first, count, places);
     });
 }
 
-Made<double, 3> step_of_one(Points corners, double s, double rho) {
+OwnedArray<double, 3> step_of_one(Points corners, double s, double rho) {
     constexpr Hex ALL_EIGHT[] = {{0, 1, 2, 3, 4, 5, 6, 7}};
     if (corners.size() != 8) throw std::invalid_argument("a hex has 8 corners");
-    auto y = element_step(gathered<double>(corners, ALL_EIGHT, 0, 1), s, rho);
+    auto y = element_step(gather_corners<double>(corners, ALL_EIGHT, 0, 1), s, rho);
     std::vector<double> places(24);
     std::memcpy(places.data(), &y, sizeof y);
     return {std::move(places)};

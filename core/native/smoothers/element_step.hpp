@@ -12,36 +12,36 @@ namespace hexmend {
 // The sum of the lengths of the twelve edges.
 template <class T> inline T edge_lengths(const Corners<T> &x) {
     T total{};
-    unrolled<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
+    unroll<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
     return total;
 }
 
 template <class T> inline Corners<T> element_step(const Corners<T> &x, double s, double rho) {
     V3<T> f[6], middle;
-    unrolled<6>([&](auto i) {
+    unroll<6>([&](auto i) {
         auto [a, b, c, d] = FACES[i];
-        f[i] = all<T>(0.25) * (x.at[a] + x.at[b] + x.at[c] + x.at[d]);
+        f[i] = broadcast<T>(0.25) * (x.at[a] + x.at[b] + x.at[c] + x.at[d]);
     });
     Corners<T> y;
-    unrolled<8>([&](auto k) {
+    unroll<8>([&](auto k) {
         auto [a, b, c] = CORNER_FACES[k];
         auto n = cross(f[b] - f[a], f[c] - f[a]);
-        T r = root(length(n));
-        T along = r > 0.0 ? s / r : all<T>(0.0);
-        y.at[k] = all<T>(1.0 / 3.0) * (f[a] + f[b] + f[c]) + along * n;
-        middle += all<T>(0.125) * y.at[k];
+        T r = sqrt(length(n));
+        T along = r > 0.0 ? s / r : broadcast<T>(0.0);
+        y.at[k] = broadcast<T>(1.0 / 3.0) * (f[a] + f[b] + f[c]) + along * n;
+        middle += broadcast<T>(0.125) * y.at[k];
     });
     T before = edge_lengths(x), after = edge_lengths(y);
-    T zeta = after > 0.0 ? before / after : all<T>(0.0);
-    for (int c = 0; c < 8; ++c) y.at[c] = x.at[c] + all<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
+    T zeta = after > 0.0 ? before / after : broadcast<T>(0.0);
+    for (int c = 0; c < 8; ++c) y.at[c] = x.at[c] + broadcast<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
     return y;
 }
 
 // Places (m, 8, 3): a row for each hex.
-using Places = std::span<std::array<double, 24>>;
+using CornerVectors = std::span<std::array<double, 24>>;
 
-Made<double, 3> step_of_one(Points corners, double s, double rho);
+OwnedArray<double, 3> step_of_one(Points corners, double s, double rho);
 
-void element_steps(Points points, Hexes hexes, double s, double rho, Places places);
+void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places);
 
 }  // namespace hexmend

@@ -6,7 +6,7 @@ namespace hexmend {
 
 void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, Indices start, Indices corners,
                     Indices nodes, std::span<Point> targets) {
-    parallel_chunks(nodes.size(), CHUNK, [&](std::int64_t begin, std::int64_t end) {
+    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (Node i : nodes.subspan(begin, end - begin)) {
             double total = 0;
             Point sum{};
@@ -21,8 +21,8 @@ void weighted_means(std::span<const std::array<double, 24>> places, Numbers weig
 }
 
 // Share of a node's step that is left after so many halvings: the last gives it up.
-constexpr double SHARES[] = {1, 0.5, 0.25, 0.125, 0};
-constexpr int HALVINGS = 4;
+constexpr double STEP_FRACTIONS[] = {1, 0.5, 0.25, 0.125, 0};
+constexpr int MAX_HALVINGS = 4;
 
 std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, std::span<const bool> sound,
                    Indices harmed, std::span<Point> moved) {
@@ -35,10 +35,10 @@ std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, s
         changed.clear();
         for (auto h : queue)
             for (Node i : hexes[h]) {
-                if (node_round[i] == round || level[i] == HALVINGS) continue;
+                if (node_round[i] == round || level[i] == MAX_HALVINGS) continue;
                 node_round[i] = round;
                 relaxed += level[i] == 0;
-                double share = SHARES[++level[i]];
+                double share = STEP_FRACTIONS[++level[i]];
                 for (int k = 0; k < 3; ++k) moved[i][k] = points[i][k] + share * (step[i][k] - points[i][k]);
                 changed.push_back(i);
             }
@@ -48,7 +48,7 @@ std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, s
                 int h = corners[s] / 8;
                 if (hex_round[h] == round || !sound[h]) continue;
                 hex_round[h] = round;
-                if (!OneHex(moved, hexes[h]).sound()) queue.push_back(h);
+                if (!SingleHex(moved, hexes[h]).sound()) queue.push_back(h);
             }
     }
     return relaxed;

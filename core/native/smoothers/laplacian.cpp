@@ -15,55 +15,56 @@ inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) 
 }
 
 // Where node i goes: to the mean, put back if it slides.
-inline Point goal(Points points, Indices ring_start, Indices ring, Node i, const Ground *ground) {
+inline Point target(Points points, Indices ring_start, Indices ring, Node i, const SlidingSurface *surface) {
     Point mean = ring_mean(points, ring_start, ring, i);
-    return ground && ground->slides(i) ? ground->led(points, i, mean) : mean;
+    return surface && surface->slides(i) ? surface->project_unless_inverting(points, i, mean) : mean;
 }
 
 // What is asked of a hex; never inlined, so that a hex that did not move is what it was to the last bit.
-template <bool by_quality> __attribute__((noinline)) Quality<double> judged(Points points, const Hex &hex) {
-    OneHex x(points, hex);
+template <bool by_quality> __attribute__((noinline)) Quality<double> evaluate_hex(Points points, const Hex &hex) {
+    SingleHex x(points, hex);
     if constexpr (by_quality) return x.quality();
     else return {0.0, x.sound()};
 }
 
 template <bool by_quality>
 std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                           Indices ring, Indices nodes, const Ground *ground) {
+                           Indices ring, Indices nodes, const SlidingSurface *surface) {
     // Hexes as they are now, once somebody has asked: a move that is kept has judged them already.
     std::vector<Quality<double>> now(hexes.size()), after(widest(start));
     std::vector<std::uint8_t> known(hexes.size());
-    std::int64_t taken_back = 0;
+    std::int64_t rejected = 0;
     for (Node i : nodes) {
         auto attached = corners.subspan(start[i], start[i + 1] - start[i]);
         double least = INF;
         for (auto corner : attached) {
             int h = corner / 8;
-            if (!known[h]) now[h] = judged<by_quality>(points, hexes[h]), known[h] = true;
+            if (!known[h]) now[h] = evaluate_hex<by_quality>(points, hexes[h]), known[h] = true;
             least = std::min(least, now[h].q);
         }
         Point before = points[i];
-        points[i] = goal(points, ring_start, ring, i, ground);
+        points[i] = target(points, ring_start, ring, i, surface);
         bool harm = false;
         for (std::size_t s = 0; s < attached.size() && !harm; ++s) {
             int h = attached[s] / 8;
-            after[s] = judged<by_quality>(points, hexes[h]);
+            after[s] = evaluate_hex<by_quality>(points, hexes[h]);
             harm = (now[h].sound && !after[s].sound) || after[s].q < least;
         }
         if (harm) {
             points[i] = before;
-            ++taken_back;
+            ++rejected;
         } else {
             for (std::size_t s = 0; s < attached.size(); ++s) now[attached[s] / 8] = after[s];
         }
     }
-    return taken_back;
+    return rejected;
 }
 
 }  // namespace
 
-void in_place_on(const Ground *ground, std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
-    for (Node i : nodes) points[i] = goal(points, ring_start, ring, i, ground);
+void in_place_on(const SlidingSurface *surface, std::span<Point> points, Indices ring_start, Indices ring,
+                 Indices nodes) {
+    for (Node i : nodes) points[i] = target(points, ring_start, ring, i, surface);
 }
 
 void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
@@ -71,15 +72,15 @@ void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices
 }
 
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
-    parallel_chunks(nodes.size(), ROWS, [&](std::int64_t begin, std::int64_t end) {
+    parallel_chunks(nodes.size(), ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) moved[nodes[k]] = ring_mean(points, ring_start, ring, nodes[k]);
     });
 }
 
-std::int64_t guarded_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
-                        Indices ring_start, Indices ring, Indices nodes, bool keep_least_quality) {
+std::int64_t guarded_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
+                        Indices corners, Indices ring_start, Indices ring, Indices nodes, bool keep_least_quality) {
     return (keep_least_quality ? guarded_sweep<true> : guarded_sweep<false>)(points, hexes, start, corners, ring_start,
-                                                                             ring, nodes, ground);
+                                                                             ring, nodes, surface);
 }
 
 std::int64_t guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,

@@ -8,17 +8,18 @@ namespace hexmend {
 namespace {
 
 // How far a node is led to see where that is, in mean edge lengths of its patch.
-constexpr double NEAR = 1e-5;
+constexpr double PROBE_LENGTH = 1e-5;
 // How many quads a thread looks at in one go.
-constexpr std::int64_t QUADS = 4096;
+constexpr std::int64_t QUADS_PER_CHUNK = 4096;
 
 // One node on its patch, as a function of where it is on the surface.
-class Slider {
+class SlidingNode {
   public:
-    Slider(Patch<Lanes> &patch, const Ground &ground, Points points, Node node, double scale, const Tangents &along)
+    SlidingNode(NodePatch<Lanes> &patch, const SlidingSurface &surface, Points points, Node node, double scale,
+                const Tangents &along)
         : patch_(patch),
           points_(points),
-          ground_(ground),
+          surface_(surface),
           node_(node),
           from_(points[node]),
           scale_(scale),
@@ -30,20 +31,20 @@ class Slider {
     V3<double> tangential(const V3<double> &g) const { return {dot(t_, g), dot(u_, g), 0.0}; }
 
     // T'HT; a direction that there is not has the curvature of the first, and no part in any solution.
-    Symmetric tangential(const Symmetric &h) const {
+    SymmetricMatrix tangential(const SymmetricMatrix &h) const {
         V3<double> t = product(h, t_), u = product(h, u_);
         double one = dot(t_, t), other = curve_ ? one : dot(u_, u);
         return {one, dot(u_, t), 0.0, other, 0.0, one};
     }
 
     // Where the node ends that is led alpha times so far along the surface.
-    Point led(const V3<double> &d, double alpha) const {
+    Point trial_point(const V3<double> &d, double alpha) const {
         V3<double> far = alpha / scale_ * (d.x * t_ + d.y * u_);
-        return ground_.put_back(node_, {from_[0] + far.x, from_[1] + far.y, from_[2] + far.z});
+        return surface_.project(node_, {from_[0] + far.x, from_[1] + far.y, from_[2] + far.z});
     }
 
     // From where the node is to a place, in mean edge lengths of the patch.
-    V3<double> way(const Point &place) const {
+    V3<double> displacement(const Point &place) const {
         return scale_ * V3<double>{place[0] - from_[0], place[1] - from_[1], place[2] - from_[2]};
     }
 
@@ -51,135 +52,137 @@ class Slider {
     // tangent.
     double slope(const V3<double> &d, const V3<double> &gradient) const {
         double size = std::sqrt(dot(d, d));
-        return size > 0 ? dot(gradient, way(led(d, NEAR / size))) * (size / NEAR) : 0.0;
+        return size > 0 ? dot(gradient, displacement(trial_point(d, PROBE_LENGTH / size))) * (size / PROBE_LENGTH)
+                        : 0.0;
     }
 
     // Algorithm A.5 with every trial on the surface, none that turns a quad: the place that is accepted, or where the
     // node is.
     template <bool soft>
-    Point searched(const Visit &at, const V3<double> &d, double slope, const LocalStep &how, Mover &mover) const {
+    Point line_search(const ValueAndGradient &at, const V3<double> &d, double slope, const LocalStep &how,
+                      NodeMover &mover) const {
         double alpha = how.first;
         for (int cut = 0; cut <= how.cuts && !lost_in_rounding(alpha, slope, at.value); ++cut, alpha *= how.shrink) {
-            Point place = led(d, alpha);
-            if (ground_.quads.turns(points_, ground_.slots[node_], place)) continue;
-            patch_.aim(way(place));
+            Point place = trial_point(d, alpha);
+            if (surface_.quads.inverted_by_move(points_, surface_.slots[node_], place)) continue;
+            patch_.set_direction(displacement(place));
             double trial = patch_.template value_along<soft>(1, how.delta, how.power);
             double bound = at.value + how.c1 * alpha * slope;
-            mover.tries(patch_.size(), alpha, trial, bound);
+            mover.on_trial(patch_.size(), alpha, trial, bound);
             if (trial < bound) return place;
         }
         return from_;
     }
 
   private:
-    Patch<Lanes> &patch_;
+    NodePatch<Lanes> &patch_;
     Points points_;
-    const Ground &ground_;
+    const SlidingSurface &surface_;
     Node node_;
     Point from_;
     double scale_;
     V3<double> t_, u_;
     bool curve_;
 
-    static V3<double> product(const Symmetric &h, const V3<double> &v) {
+    static V3<double> product(const SymmetricMatrix &h, const V3<double> &v) {
         return {h.xx * v.x + h.xy * v.y + h.xz * v.z, h.xy * v.x + h.yy * v.y + h.yz * v.z,
                 h.xz * v.x + h.yz * v.y + h.zz * v.z};
     }
 };
 
 template <bool soft>
-void slide(Patch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star, const LocalStep &how,
-           const Ground &ground, std::span<const Tangents> tangents, Mover &mover) {
+void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star, const LocalStep &how,
+           const SlidingSurface &surface, std::span<const Tangents> tangents, NodeMover &mover) {
     double scale = patch.load(points, hexes, star);
     patch.tabulate<soft>(how.delta);
-    Visit at = patch.value_and_gradient<soft>(how.delta, how.power);
+    ValueAndGradient at = patch.value_and_gradient<soft>(how.delta, how.power);
     if (scale == 0 || at.value == 0 || !(at.value < INF)) return;
     Node node = node_of(hexes, star);
-    Slider slider(patch, ground, points, node, scale, tangents[ground.slots[node]]);
+    SlidingNode slider(patch, surface, points, node, scale, tangents[surface.slots[node]]);
     V3<double> gradient = slider.tangential(at.gradient);
     if (gradient.x == 0 && gradient.y == 0) return;
     V3<double> d{};
     double slope = 0;
     if (how.direction != STEEPEST_DESCENT) {
-        Symmetric hessian = slider.tangential(patch.hessian());
-        d = newton(hessian, gradient, how.direction == MODIFIED_NEWTON ? shift_of(hessian) : 0.0);
+        SymmetricMatrix hessian = slider.tangential(patch.hessian());
+        d = newton_direction(hessian, gradient, how.direction == MODIFIED_NEWTON ? eigenvalue_shift(hessian) : 0.0);
         slope = slider.slope(d, at.gradient);
     }
     if (!(slope < 0)) {  // no direction of descent
         d = steepest_descent(at.value, gradient, how.power.p);
         slope = slider.slope(d, at.gradient);
     }
-    if (slope < 0) points[node] = slider.template searched<soft>(at, d, slope, how, mover);
+    if (slope < 0) points[node] = slider.template line_search<soft>(at, d, slope, how, mover);
 }
 
 template <bool soft>
 std::int64_t sweep_sliding(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, const LocalStep &how, const Ground &ground,
+                           Indices nodes, const LocalStep &how, const SlidingSurface &surface,
                            std::span<const Tangents> tangents) {
-    std::int64_t most = most_at(start, nodes);
-    std::atomic<std::int64_t> asked = 0;
+    std::int64_t most = largest_star(start, nodes);
+    std::atomic<std::int64_t> evaluations = 0;
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
         auto group = nodes.subspan(groups[g], groups[g + 1] - groups[g]);
-        parallel_chunks(group.size(), NODES, [&](std::int64_t begin, std::int64_t end) {
-            Patch<Lanes> patch[1]{Patch<Lanes>(most)};
-            Mover mover{points};
+        parallel_chunks(group.size(), NODES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
+            NodePatch<Lanes> patch[1]{NodePatch<Lanes>(most)};
+            NodeMover mover{points};
             for (Node i : group.subspan(begin, end - begin)) {
                 Star star = corners.subspan(start[i], start[i + 1] - start[i]);
-                if (ground.slides(i)) slide<soft>(patch[0], points, hexes, star, how, ground, tangents, mover);
+                if (surface.slides(i)) slide<soft>(patch[0], points, hexes, star, how, surface, tangents, mover);
                 else visit<soft>(patch, points, hexes, {star}, how, mover);
             }
-            asked += mover.asked;
+            evaluations += mover.evaluations;
         });
     }
-    return asked;
+    return evaluations;
 }
 
 }  // namespace
 
 std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, int direction, double delta, Power power, double first, double shrink,
+                           Indices nodes, int direction, double delta, ObjectiveNorm power, double first, double shrink,
                            double c1, int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots,
                            Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                           std::span<const Link> links, Indices quads_start, Indices quads_at,
+                           std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
                            std::span<const Quad> quads, Points outward) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
+    SlidingSurface surface{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
     LocalStep how{direction, delta, power, first, shrink, c1, cuts};
     return (delta != 0 ? sweep_sliding<true> : sweep_sliding<false>)(points, hexes, start, corners, groups, nodes, how,
-                                                                     ground, tangents);
+                                                                     surface, tangents);
 }
 
 void sliding_laplacian(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, Indices slots,
                        Indices roots, Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                       std::span<const Link> links, Indices quads_start, Indices quads_at, std::span<const Quad> quads,
-                       Points outward) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
-    in_place_on(&ground, points, ring_start, ring, nodes);
+                       std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
+                       std::span<const Quad> quads, Points outward) {
+    SlidingSurface surface{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
+    in_place_on(&surface, points, ring_start, ring, nodes);
 }
 
 std::int64_t sliding_guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
                              Indices ring, Indices nodes, bool keep_least_quality, Indices slots, Indices roots,
                              Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                             std::span<const Link> links, Indices quads_start, Indices quads_at,
+                             std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
                              std::span<const Quad> quads, Points outward) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
-    return guarded_on(&ground, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
+    SlidingSurface surface{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
+    return guarded_on(&surface, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
 }
 
 std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices start, Indices corners,
                                  std::span<const bool> free, Indices candidates, std::span<double> q,
                                  std::span<bool> sound, double s, double rho, double penalty, double setback,
                                  Indices slots, Indices roots, Points vertices, std::span<const Piece> pieces,
-                                 std::span<const Box> boxes, std::span<const Link> links, Indices quads_start,
+                                 std::span<const Box> boxes, std::span<const TreeLink> links, Indices quads_start,
                                  Indices quads_at, std::span<const Quad> quads, Points outward) {
-    Ground ground{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
-    return sweep_on(&ground, points, hexes, start, corners, free, candidates, q, sound, s, rho, penalty, setback);
+    SlidingSurface surface{slots, roots, {vertices, pieces, boxes, links}, {quads_start, quads_at, quads, outward}};
+    return sweep_on(&surface, points, hexes, start, corners, free, candidates, q, sound, s, rho, penalty, setback);
 }
 
 void turned(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> is) {
-    parallel_chunks(quads.size(), QUADS, [&](std::int64_t begin, std::int64_t end) {
+    parallel_chunks(quads.size(), QUADS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t f = begin; f < end; ++f) {
-            is[f] = !is_turned(points_of(before, quads[f]), outward[f]) &&
-                    is_turned(points_of(after, quads[f]), outward[f]);
+            is[f] = !is_inverted(points_of(before, quads[f]), outward[f]) &&
+                    is_inverted(points_of(after, quads[f]), outward[f]);
         }
     });
 }

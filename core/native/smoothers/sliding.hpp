@@ -10,28 +10,28 @@ namespace hexmend {
 using Tangents = std::array<double, 6>;
 
 std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, int direction, double delta, Power power, double first, double shrink,
+                           Indices nodes, int direction, double delta, ObjectiveNorm power, double first, double shrink,
                            double c1, int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots,
                            Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                           std::span<const Link> links, Indices quads_start, Indices quads_at,
+                           std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
                            std::span<const Quad> quads, Points outward);
 
 void sliding_laplacian(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, Indices slots,
                        Indices roots, Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                       std::span<const Link> links, Indices quads_start, Indices quads_at, std::span<const Quad> quads,
-                       Points outward);
+                       std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
+                       std::span<const Quad> quads, Points outward);
 
 std::int64_t sliding_guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
                              Indices ring, Indices nodes, bool keep_least_quality, Indices slots, Indices roots,
                              Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                             std::span<const Link> links, Indices quads_start, Indices quads_at,
+                             std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
                              std::span<const Quad> quads, Points outward);
 
 std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices start, Indices corners,
                                  std::span<const bool> free, Indices candidates, std::span<double> q,
                                  std::span<bool> sound, double s, double rho, double penalty, double setback,
                                  Indices slots, Indices roots, Points vertices, std::span<const Piece> pieces,
-                                 std::span<const Box> boxes, std::span<const Link> links, Indices quads_start,
+                                 std::span<const Box> boxes, std::span<const TreeLink> links, Indices quads_start,
                                  Indices quads_at, std::span<const Quad> quads, Points outward);
 
 // Whether a quad was not turned before and is now, of each.

@@ -8,7 +8,7 @@ namespace hexmend {
 
 void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach) {
     auto vector = [](const Point &p) { return V3<double>{p[0], p[1], p[2]}; };
-    parallel_chunks(nodes.size(), CHUNK, [&](std::int64_t begin, std::int64_t end) {
+    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t k = begin; k < end; ++k) {
             Node i = nodes[k];
             double total = 0;

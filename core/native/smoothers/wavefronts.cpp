@@ -6,7 +6,7 @@
 
 namespace hexmend {
 
-Made<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from) {
+OwnedArray<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from) {
     const std::int64_t n = from.size();
     std::vector<std::int32_t> level(n, -1), queue;
     queue.reserve(n);
@@ -28,7 +28,7 @@ Made<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool
     return {std::move(level)};
 }
 
-RowsMade wavefronts(Indices start, Indices corners, Indices sequence) {
+CSR wavefronts(Indices start, Indices corners, Indices sequence) {
     std::vector<std::int32_t> next(corners.size() / 8);  // of each hex: one more than the group of its latest node
     std::vector<std::int32_t> group(sequence.size()), group_start(1);
     for (std::size_t k = 0; k < sequence.size(); ++k) {

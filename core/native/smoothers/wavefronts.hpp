@@ -5,8 +5,8 @@
 
 namespace hexmend {
 
-Made<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from);
+OwnedArray<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from);
 
-RowsMade wavefronts(Indices start, Indices corners, Indices sequence);
+CSR wavefronts(Indices start, Indices corners, Indices sequence);
 
 }  // namespace hexmend

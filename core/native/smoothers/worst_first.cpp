@@ -8,13 +8,13 @@ namespace hexmend {
 namespace {
 
 // The one of two hexes that has the lesser key; of equal ones, that of the lower number.
-inline std::int32_t match(Numbers key, std::int32_t a, std::int32_t b) {
+inline std::int32_t winner_of(Numbers key, std::int32_t a, std::int32_t b) {
     return key[a] < key[b] || (key[a] == key[b] && a < b) ? a : b;
 }
 
 // Ask for what is needed soon. The worst hex is anywhere, and its neighbourhood in no cache: to wait for one thing
 // after the other takes longer than all arithmetic.
-template <class... T> inline void fetch(const T *...it) { (__builtin_prefetch(it), ...); }
+template <class... T> inline void prefetch(const T *...it) { (__builtin_prefetch(it), ...); }
 
 // A move, to be undone.
 struct Move {
@@ -29,11 +29,11 @@ void undo(std::vector<Move> &moves, std::size_t count, std::span<Point> points) 
 
 }  // namespace
 
-Made<std::int32_t> tournament(Numbers key, Indices hexes) {
+OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes) {
     const std::size_t k = hexes.size();
     std::vector<std::int32_t> tree(2 * k);
     std::copy(hexes.begin(), hexes.end(), tree.begin() + k);
-    for (std::size_t i = k; i-- > 1;) tree[i] = match(key, tree[2 * i], tree[2 * i + 1]);
+    for (std::size_t i = k; i-- > 1;) tree[i] = winner_of(key, tree[2 * i], tree[2 * i + 1]);
     return {std::move(tree)};
 }
 
@@ -42,33 +42,33 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
     const auto h = tree[i];
     while (i > 1) {
         i /= 2;
-        auto winner = match(key, tree[2 * i], tree[2 * i + 1]);
+        auto winner = winner_of(key, tree[2 * i], tree[2 * i + 1]);
         if (winner == tree[i] && winner != h) break;  // h neither won this match nor wins it now: all above stands
         tree[i] = winner;
     }
 }
 
-std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
-                      std::span<const bool> free, Indices candidates, std::span<double> q, std::span<bool> sound,
-                      double s, double rho, double penalty, double setback) {
+std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
+                      Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
+                      std::span<bool> sound, double s, double rho, double penalty, double setback) {
     if (candidates.empty()) return 0;  // a queue of nothing has no first
     const std::size_t m = hexes.size();
     std::vector<double> key(q.begin(), q.end());
     for (std::size_t h = 0; h < m; ++h) key[h] -= !sound[h];  // inverted hexes come first
     std::vector<std::int32_t> leaf(m, -1), touched_in(m, -1);
     for (std::size_t i = 0; i < candidates.size(); ++i) leaf[candidates[i]] = i;
-    auto turn = tournament(key, candidates).values, least = tournament(q, candidates).values;
+    auto queue = tournament(key, candidates).values, least = tournament(q, candidates).values;
     double best = q[least[1]], gain = 0, best_gain = 0;
-    bool mended = false;
+    bool untangled = false;
 
     std::vector<std::int32_t> touched;
     std::vector<Quality<double>> after(8 * widest(start));
     std::vector<Move> moves;  // since the best state
-    std::int64_t taken_back = 0;
+    std::int64_t rejected = 0;
 
     for (std::size_t step = 0; step < candidates.size(); ++step) {
-        const auto h = turn[1];
-        auto y = element_step(gathered<double>(points, hexes, h, 1), s, rho);
+        const auto h = queue[1];
+        auto y = element_step(gather_corners<double>(points, hexes, h, 1), s, rho);
         const std::size_t moved_before = moves.size();
         touched.clear();
         for (int c = 0; c < 8; ++c) {
@@ -76,27 +76,27 @@ std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes
             if (!free[i]) continue;
             moves.push_back({i, points[i]});
             Point aim{y.at[c].x, y.at[c].y, y.at[c].z};
-            points[i] = ground && ground->slides(i) ? ground->led(points, i, aim) : aim;
+            points[i] = surface && surface->slides(i) ? surface->project_unless_inverting(points, i, aim) : aim;
             for (auto r = start[i]; r < start[i + 1]; ++r) {
                 auto g = corners[r] / 8;
                 if (touched_in[g] == static_cast<std::int32_t>(step)) continue;
                 touched_in[g] = step;
                 touched.push_back(g);
-                fetch(&hexes[g], &q[g], &key[g], &sound[g], &leaf[g]);
+                prefetch(&hexes[g], &q[g], &key[g], &sound[g], &leaf[g]);
             }
         }
         for (auto g : touched)
-            for (Node i : hexes[g]) fetch(&points[i]);
+            for (Node i : hexes[g]) prefetch(&points[i]);
         bool harm = false;
         for (std::size_t r = 0; r < touched.size() && !harm; ++r) {
-            after[r] = OneHex(points, hexes[touched[r]]).quality();
+            after[r] = SingleHex(points, hexes[touched[r]]).quality();
             harm = sound[touched[r]] && !after[r].sound;
         }
         if (harm) {
-            ++taken_back;
+            ++rejected;
             undo(moves, moved_before, points);
             key[h] += setback;
-            replay(turn, key, leaf[h]);
+            replay(queue, key, leaf[h]);
             continue;
         }
         key[h] += penalty;
@@ -107,20 +107,20 @@ std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes
             key[g] += rise;
             q[g] = after[r].q;
             if (after[r].sound && !sound[g]) {
-                sound[g] = mended = true;
+                sound[g] = untangled = true;
                 key[g] += 1;
             }
-            replay(turn, key, leaf[g]);
+            replay(queue, key, leaf[g]);
             replay(least, q, leaf[g]);
         }
         double now = q[least[1]];
-        if (mended || now > best || (now == best && gain > best_gain)) {
-            best = now, best_gain = gain, mended = false;
+        if (untangled || now > best || (now == best && gain > best_gain)) {
+            best = now, best_gain = gain, untangled = false;
             moves.clear();
         }
     }
     undo(moves, 0, points);
-    return taken_back;
+    return rejected;
 }
 
 std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,

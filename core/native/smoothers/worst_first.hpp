@@ -9,7 +9,7 @@
 
 namespace hexmend {
 
-Made<std::int32_t> tournament(Numbers key, Indices hexes);
+OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes);
 
 void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf);
 
@@ -18,8 +18,8 @@ std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices 
                    double setback);
 
 // The same with nodes that slide among them.
-std::int64_t sweep_on(const Ground *ground, std::span<Point> points, Hexes hexes, Indices start, Indices corners,
-                      std::span<const bool> free, Indices candidates, std::span<double> q, std::span<bool> sound,
-                      double s, double rho, double penalty, double setback);
+std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
+                      Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
+                      std::span<bool> sound, double s, double rho, double penalty, double setback);
 
 }  // namespace hexmend

@@ -26,7 +26,7 @@ class Lines {
 
 }  // namespace
 
-std::string decimal_lines(Numbers values, std::int64_t width, Wholes last) {
+std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
     expect(last.empty() || last.size() * width == values.size(), "last: a number for each row is expected");
     Lines lines;
     std::int64_t column = 0, row = 0;
@@ -39,7 +39,7 @@ std::string decimal_lines(Numbers values, std::int64_t width, Wholes last) {
     return std::move(lines).text();
 }
 
-std::string whole_lines(Wholes values, std::int64_t width) {
+std::string whole_lines(Integers values, std::int64_t width) {
     Lines lines;
     std::int64_t column = 0;
     for (auto value : values) lines.put(value, ++column % width ? ' ' : '\n');

@@ -7,10 +7,10 @@
 
 namespace hexmend {
 
-using Wholes = std::span<const std::int64_t>;
+using Integers = std::span<const std::int64_t>;
 
-std::string decimal_lines(Numbers values, std::int64_t width, Wholes last);
+std::string decimal_lines(Numbers values, std::int64_t width, Integers last);
 
-std::string whole_lines(Wholes values, std::int64_t width);
+std::string whole_lines(Integers values, std::int64_t width);
 
 }  // namespace hexmend

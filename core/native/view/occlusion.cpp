@@ -10,12 +10,12 @@ namespace hexmend {
 namespace {
 
 using Vector = V3<double>;
-using Flat = std::array<float, 3>;  // x and y in pixels, height towards the light
+using PixelPoint = std::array<float, 3>;  // x and y in pixels, height towards the light
 
 // Where a corner is looked at: a little inside its polygon, or its neighbour's wall would hide it; and so many pixels
 // before it along the normal. A surface that light grazes is that much steeper, but a point before it is then that much
 // higher above it: 0.71 pixels are enough at every angle.
-constexpr double INSIDE = 0.15, BEFORE = 1.0;
+constexpr double INSET = 0.15, OFFSET_PIXELS = 1.0;
 
 Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
 
@@ -34,14 +34,14 @@ class HeightMap {
         v_ = cross(w_, u_);
     }
 
-    Flat place(const Vector &p) const {
+    PixelPoint place(const Vector &p) const {
         Vector q = scale_ * (p - middle_);
         return {static_cast<float>(dot(q, u_) + 0.5 * side_), static_cast<float>(dot(q, v_) + 0.5 * side_),
                 static_cast<float>(dot(q, w_))};
     }
 
     // Draw the triangle: every pixel whose centre lies in it, row by row.
-    void draw(Flat a, Flat b, Flat c) {
+    void draw(PixelPoint a, PixelPoint b, PixelPoint c) {
         float area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
         if (area == 0) return;
         // Height as a function of the place: z = z_0 + x gx + y gy.
@@ -65,7 +65,7 @@ class HeightMap {
     }
 
     // Whether nothing is between a place and the light.
-    bool lit(const Flat &at) const {
+    bool lit(const PixelPoint &at) const {
         auto x = static_cast<std::int64_t>(at[0]), y = static_cast<std::int64_t>(at[1]);
         return x < 0 || y < 0 || x >= side_ || y >= side_ || heights_[y * side_ + x] <= at[2];
     }
@@ -81,7 +81,8 @@ class HeightMap {
 };
 
 // The places where corners are looked at.
-std::vector<Vector> looked_at(Points points, Places start, Places places, Points normals, double before) {
+std::vector<Vector> sample_points(Points points, PointNumbers start, PointNumbers places, Points normals,
+                                  double before) {
     std::vector<Vector> answer(places.size());
     for (std::size_t i = 0; i + 1 < start.size(); ++i) {
         Vector centre{}, away = before * vector(normals[i]);
@@ -89,7 +90,7 @@ std::vector<Vector> looked_at(Points points, Places start, Places places, Points
         centre = (1.0 / (start[i + 1] - start[i])) * centre;
         for (std::int64_t at = start[i]; at < start[i + 1]; ++at) {
             Vector corner = vector(points[places[at]]);
-            answer[at] = corner + INSIDE * (centre - corner) + away;
+            answer[at] = corner + INSET * (centre - corner) + away;
         }
     }
     return answer;
@@ -97,7 +98,7 @@ std::vector<Vector> looked_at(Points points, Places start, Places places, Points
 
 }  // namespace
 
-void normals(Points points, Places start, Places places, std::span<Point> answer) {
+void normals(Points points, PointNumbers start, PointNumbers places, std::span<Point> answer) {
     for (std::size_t i = 0; i + 1 < start.size(); ++i) {
         Vector first = vector(points[places[start[i]]]),
                sum{};  // seen from there, or rounding far from 0 is all there is
@@ -110,7 +111,7 @@ void normals(Points points, Places start, Places places, std::span<Point> answer
 }
 
 // Object-space ambient occlusion by a height map a direction, as HexaLab accumulates it (Bracci et al. 2019).
-void shine(Points points, Places start, Places places, Points normals, Points directions, std::int64_t side,
+void shine(Points points, PointNumbers start, PointNumbers places, Points normals, Points directions, std::int64_t side,
            std::span<double> light, std::span<double> whole) {
     if (places.empty()) return;
     Point low = points[places[0]], high = low;
@@ -121,13 +122,13 @@ void shine(Points points, Places start, Places places, Points normals, Points di
         }
     Vector middle = 0.5 * (vector(low) + vector(high));
     double radius = std::max(0.5 * length(vector(high) - vector(low)), 1e-300);
-    std::vector<Vector> looked = looked_at(points, start, places, normals, BEFORE * 2 * radius / (side - 4));
+    std::vector<Vector> looked = sample_points(points, start, places, normals, OFFSET_PIXELS * 2 * radius / (side - 4));
 
     std::vector<std::vector<bool>> reached(directions.size());
     parallel(directions.size(), [&](std::int64_t d) {
         Vector direction = vector(directions[d]);
         HeightMap map(direction, middle, radius, side);
-        std::vector<Flat> flat(points.size());
+        std::vector<PixelPoint> flat(points.size());
         for (std::size_t p = 0; p < points.size(); ++p) flat[p] = map.place(vector(points[p]));
         std::vector<std::int64_t> turned;  // to the light; the others lie behind these
         for (std::int64_t i = 0; i + 1 < std::int64_t(start.size()); ++i)

@@ -28,11 +28,10 @@ void cut_off(const std::vector<Point> &now, const Point &normal, double offset, 
 }  // namespace
 
 // Sutherland and Hodgman's walk around each polygon, plane after plane (Communications of the ACM 17, 1974).
-std::tuple<Made<double, 3>, Made<std::int64_t>, Made<std::int64_t>> before(Points points, Places start, Places places,
-                                                                           Places owner, Points normals,
-                                                                           Numbers offsets) {
-    Made<double, 3> kept;
-    Made<std::int64_t> begin{{0}}, whose;
+std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int64_t>> before(
+    Points points, PointNumbers start, PointNumbers places, PointNumbers owner, Points normals, Numbers offsets) {
+    OwnedArray<double, 3> kept;
+    OwnedArray<std::int64_t> begin{{0}}, whose;
     kept.values.reserve(3 * places.size());
     begin.values.reserve(owner.size() + 1), whose.values.reserve(owner.size());
     std::vector<Point> now, then;

@@ -7,10 +7,9 @@
 
 namespace hexmend {
 
-using Places = std::span<const std::int64_t>;
+using PointNumbers = std::span<const std::int64_t>;
 
-std::tuple<Made<double, 3>, Made<std::int64_t>, Made<std::int64_t>> before(Points points, Places start, Places places,
-                                                                           Places owner, Points normals,
-                                                                           Numbers offsets);
+std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int64_t>> before(
+    Points points, PointNumbers start, PointNumbers places, PointNumbers owner, Points normals, Numbers offsets);
 
 }  // namespace hexmend

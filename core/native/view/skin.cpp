@@ -7,13 +7,13 @@ namespace hexmend {
 namespace {
 
 // Whether a face can be seen: no kept hex is behind it.
-bool open(Node behind, Kept keep) { return behind < 0 || !keep[behind]; }
+bool open(Node behind, HexMask keep) { return behind < 0 || !keep[behind]; }
 
 }  // namespace
 
-Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep) {
-    Made<Node> used, owners;
-    Made<Node, 4> quads;
+Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep) {
+    OwnedArray<Node> used, owners;
+    OwnedArray<Node, 4> quads;
     std::vector<Node> place(nodes, -1);  // of a node among those that are used
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!keep[h]) continue;
@@ -35,9 +35,9 @@ Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep)
     return {std::move(used), std::move(quads), std::move(owners)};
 }
 
-Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool hidden) {
-    Made<Node> nodes, owners;
-    Made<Node, 4> quads;
+Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden) {
+    OwnedArray<Node> nodes, owners;
+    OwnedArray<Node, 4> quads;
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!chosen[h]) continue;
         Node first = static_cast<Node>(nodes.values.size());
@@ -52,7 +52,7 @@ Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool 
     return {std::move(nodes), std::move(quads), std::move(owners)};
 }
 
-void outer(Neighbours neighbours, Kept keep, std::span<bool> answer) {
+void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer) {
     for (std::size_t h = 0; h < keep.size(); ++h) {
         bool seen = false;
         if (keep[h])
@@ -74,7 +74,7 @@ void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places
         }
 }
 
-void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2> edges, Kept keep,
+void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer) {
     for (std::size_t e = 0; e < edges.size(); ++e) {
         auto [one, other] = edges[e];

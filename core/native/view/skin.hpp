@@ -7,22 +7,22 @@
 
 namespace hexmend {
 
-using Kept = std::span<const bool>;
+using HexMask = std::span<const bool>;
 
-using Neighbours = Rows<const Node, 6>;
+using Neighbours = ArrayView<const Node, 6>;
 
 // Nodes that faces use, faces as places among them, and the hex of each face.
-using Faces = std::tuple<Made<Node>, Made<Node, 4>, Made<Node>>;
+using Faces = std::tuple<OwnedArray<Node>, OwnedArray<Node, 4>, OwnedArray<Node>>;
 
-Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, Kept keep);
+Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep);
 
-Faces faces_of(Hexes hexes, Neighbours neighbours, Kept keep, Kept chosen, bool hidden);
+Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen, bool hidden);
 
-void outer(Neighbours neighbours, Kept keep, std::span<bool> answer);
+void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer);
 
 void shrunk(Points points, Indices nodes, double shrink, std::span<Point> places);
 
-void edges_kept(Hexes hexes, Indices start, Indices corners, Rows<const Node, 2> edges, Kept keep,
+void edges_kept(Hexes hexes, Indices start, Indices corners, ArrayView<const Node, 2> edges, HexMask keep,
                 std::span<bool> answer);
 
 }  // namespace hexmend

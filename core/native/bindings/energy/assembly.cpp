@@ -8,7 +8,7 @@ namespace {
 template <class Real> void bind_assemble(nb::module_ &m) {
     m.def(
         "assemble", &assemble<Real>, "points"_a, "delta"_a, "power"_a, "left_out"_a, "bounds"_a, "start"_a, "chosen"_a,
-        "hexes"_a, "slots"_a, "target"_a, "off"_a, "diagonal"_a, Unlocked(),
+        "hexes"_a, "slots"_a, "target"_a, "off"_a, "diagonal"_a, ReleaseGil(),
         "Assemble the Hessian of sum eta(H)^p: add it to off and diagonal, in their precision.\n\n"
         "Slots are shared out, and each share takes all hexes at its slots: some hexes are computed twice, and every\n"
         "block is the sum over its hexes in one order, however many shares there are.\n\n"

@@ -7,7 +7,7 @@ namespace {
 
 template <class Real> void bind_for(nb::module_ &m) {
     m.def("solve", &solve<Real>, "bounds"_a, "row_start"_a, "columns"_a, "off"_a, "diagonal"_a, "damping"_a, "right"_a,
-          "tolerance"_a, "most"_a, "x"_a, "work"_a, Unlocked(),
+          "tolerance"_a, "most"_a, "x"_a, "work"_a, ReleaseGil(),
           "Solve A x = right, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
           "What has been reached before such a direction is the solution, or, if it is the first, that direction.\n"
           "Vectors, (k, 4) with a fourth number 0, are in the precision of the matrix, sums over them in double.\n\n"
@@ -17,7 +17,7 @@ template <class Real> void bind_for(nb::module_ &m) {
           "iterations. work (64 k + 16,): room to work in. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE "
           "or TOO_MANY.");
     m.def("product", &product<Real>, "bounds"_a, "row_start"_a, "columns"_a, "off"_a, "diagonal"_a, "order"_a, "x"_a,
-          "y"_a, Unlocked(),
+          "y"_a, ReleaseGil(),
           "A times x (k, 3), in double precision; writes y (k, 3).\n\n"
           "Row k of both is that of slot order[k].");
 }

@@ -8,7 +8,7 @@ namespace hexmend {
 void bind_sparsity(nb::module_ &m) {
     m.doc() = "Which free nodes share a hex: the pattern of a Hessian's 3 x 3 blocks above its diagonal.";
     m.attr("PAIRS") = PAIRS;
-    m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, Unlocked(),
+    m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, ReleaseGil(),
           "The blocks above the diagonal, and which of them each pair of a hex's corners adds to; all int32.\n\n"
           "slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,\n"
           "corners: `Topology.node_corners`.\n\n"

@@ -18,22 +18,22 @@ void bind_sliding(nb::module_ &m) {
     m.def("local", &sliding_local, "points"_a, "hexes"_a, "start"_a, "corners"_a, "groups"_a, "nodes"_a, "direction"_a,
           "delta"_a, "power"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, "tangents"_a, "slots"_a, "roots"_a,
           "vertices"_a, "pieces"_a, "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a,
-          Unlocked(),
+          ReleaseGil(),
           "`hexmend.kernels.local.sweep`; nodes that slide step along the surface, T'g and T'HT being their\n"
           "derivatives, and the line search asks for the energy where they are put back. tangents (k, 6): two\n"
           "directions of each where it is, the second 0 on a curve.");
     m.def("laplacian", &sliding_laplacian, "points"_a, "ring_start"_a, "ring"_a, "nodes"_a, "slots"_a, "roots"_a,
           "vertices"_a, "pieces"_a, "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a,
-          Unlocked(), "`hexmend.kernels.laplacian.in_place`, each mean put back.");
+          ReleaseGil(), "`hexmend.kernels.laplacian.in_place`, each mean put back.");
     m.def("guarded", &sliding_guarded, "points"_a, "hexes"_a, "start"_a, "corners"_a, "ring_start"_a, "ring"_a,
           "nodes"_a, "keep_least_quality"_a, "slots"_a, "roots"_a, "vertices"_a, "pieces"_a, "boxes"_a, "links"_a,
-          "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, Unlocked(),
+          "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, ReleaseGil(),
           "`hexmend.kernels.laplacian.guarded`, each mean put back before it is judged.");
     m.def("worst_first", &sliding_worst_first, "points"_a, "hexes"_a, "start"_a, "corners"_a, "free"_a, "candidates"_a,
           "q"_a, "sound"_a, "s"_a, "rho"_a, "penalty"_a, "setback"_a, "slots"_a, "roots"_a, "vertices"_a, "pieces"_a,
-          "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, Unlocked(),
+          "boxes"_a, "links"_a, "quads_start"_a, "quads_at"_a, "quads"_a, "outward"_a, ReleaseGil(),
           "`hexmend.kernels.worst_first.sweep`, each element's step put back before it is judged.");
-    m.def("turned", &turned, "before"_a, "after"_a, "quads"_a, "outward"_a, "is"_a, Unlocked(),
+    m.def("turned", &turned, "before"_a, "after"_a, "quads"_a, "outward"_a, "is"_a, ReleaseGil(),
           "Whether a quad is turned after and was not before: is (f,).");
 }
 

@@ -9,7 +9,7 @@ namespace {
 template <class Make> nb::bytes text(const Make &make) {
     std::string made;
     {
-        WithoutLock unlocked;
+        GilRelease unlocked;
         made = make();
     }
     return nb::bytes(made.data(), made.size());
@@ -21,7 +21,7 @@ void bind_decimals(nb::module_ &m) {
     m.doc() = "Numbers as text.";
     m.def(
         "decimal_lines",
-        [](Numbers values, std::int64_t width, Wholes last) {
+        [](Numbers values, std::int64_t width, Integers last) {
             return text([&] { return decimal_lines(values, width, last); });
         },
         "values"_a, "width"_a, "last"_a,
@@ -29,8 +29,8 @@ void bind_decimals(nb::module_ &m) {
         "`last` (rows,), whole numbers, if it has any.");
     m.def(
         "whole_lines",
-        [](Wholes values, std::int64_t width) { return text([&] { return whole_lines(values, width); }); }, "values"_a,
-        "width"_a, "Rows of `width` whole numbers.");
+        [](Integers values, std::int64_t width) { return text([&] { return whole_lines(values, width); }); },
+        "values"_a, "width"_a, "Rows of `width` whole numbers.");
 }
 
 }  // namespace hexmend

@@ -13,26 +13,26 @@ namespace hexmend {
 
 // Most unknowns of a system that is decomposed; the residual that conjugate gradients leave of another, relative to the
 // gradient; and what a pivot, or a curvature, has to exceed to count as positive, relative to the largest entry.
-constexpr int EXACT = 600;
-constexpr double RESIDUAL = 0.03, POSITIVE = 1e-12;
+constexpr int MAX_DIRECT_UNKNOWNS = 600;
+constexpr double CG_TOLERANCE = 0.03, MIN_PIVOT = 1e-12;
 
-class PatchSystem {
+class NewtonSystem {
   public:
     std::vector<double> gradient;
 
-    PatchSystem(Hexes slots, std::int64_t nodes)
+    NewtonSystem(Hexes slots, std::int64_t nodes)
         : gradient(3 * nodes), slots_(slots), values_(slots.size()), diagonal_(nodes) {}
 
     // Add lane i of the gradient, and the values of the Hessian (see `hex_hessian`), of hex h.
-    void add(std::int64_t h, const Corners<Lanes> &g, int i, const double (&values)[ROOM]) {
-        std::copy(values, values + ROOM, values_[h].begin());
+    void add(std::int64_t h, const Corners<Lanes> &g, int i, const double (&values)[HEX_STRIDE]) {
+        std::copy(values, values + HEX_STRIDE, values_[h].begin());
         for (int a = 0; a < 8; ++a) {
             const auto slot = slots_[h][a];
             if (slot < 0) continue;
             gradient[3 * slot] += g.at[a].x[i];
             gradient[3 * slot + 1] += g.at[a].y[i];
             gradient[3 * slot + 2] += g.at[a].z[i];
-            const double *own = values + OWN + 6 * a;
+            const double *own = values + DIAGONAL_OFFSET + 6 * a;
             auto &d = diagonal_[slot];
             d.xx += own[0], d.xy += own[1], d.xz += own[2], d.yy += own[3], d.yz += own[4], d.zz += own[5];
         }
@@ -51,13 +51,13 @@ class PatchSystem {
 
     // Solve (H + shift I) s = -g; false where that matrix is not positive definite.
     bool solve(double shift, std::span<double> s) {
-        return unknowns() <= EXACT ? decompose(shift, s) : iterate(shift, s);
+        return unknowns() <= MAX_DIRECT_UNKNOWNS ? solve_by_cholesky(shift, s) : solve_by_conjugate_gradients(shift, s);
     }
 
   private:
     Hexes slots_;
-    std::vector<std::array<double, ROOM>> values_;
-    std::vector<Symmetric> diagonal_;
+    std::vector<std::array<double, HEX_STRIDE>> values_;
+    std::vector<SymmetricMatrix> diagonal_;
     std::vector<double> lower_;
     std::vector<std::int32_t> first_;
 
@@ -78,7 +78,7 @@ class PatchSystem {
     }
 
     // body(block, i, j) for each pair of corners of a hex in the slots i and j; the block's rows are those of i.
-    template <class Body> void pairs(std::int64_t h, const Body &body) const {
+    template <class Body> void for_each_pair(std::int64_t h, const Body &body) const {
         const double *block = values_[h].data();
         for (int a = 0; a < 8; ++a)
             for (int b = a + 1; b < 8; ++b, block += 9) {
@@ -95,7 +95,7 @@ class PatchSystem {
         for (std::int64_t r = 0; r < n; ++r) first_[r] = r - r % 3;
         auto at = [&](std::int64_t row, std::int64_t column) -> double & { return lower_[row * n + column]; };
         for (std::size_t h = 0; h < slots_.size(); ++h)
-            pairs(h, [&](const double *block, std::int32_t i, std::int32_t j) {
+            for_each_pair(h, [&](const double *block, std::int32_t i, std::int32_t j) {
                 for (int r = 0; r < 3; ++r)
                     for (int c = 0; c < 3; ++c) {
                         double entry = block[3 * r + c];
@@ -117,10 +117,10 @@ class PatchSystem {
     }
 
     // By H + shift I = L L'.
-    bool decompose(double shift, std::span<double> s) {
+    bool solve_by_cholesky(double shift, std::span<double> s) {
         assemble(shift);
         const auto n = unknowns();
-        const double least = POSITIVE * largest();
+        const double least = MIN_PIVOT * largest();
         for (std::int64_t i = 0; i < n; ++i) {
             double *row = &lower_[i * n];
             for (std::int64_t j = first_[i]; j < i; ++j) {
@@ -147,15 +147,15 @@ class PatchSystem {
     // y = (H + shift I) x.
     void multiply(double shift, const std::vector<double> &x, std::vector<double> &y) const {
         for (std::size_t k = 0; k < diagonal_.size(); ++k) {
-            Symmetric d = diagonal_[k];
-            d.raise(shift);
+            SymmetricMatrix d = diagonal_[k];
+            d.add_to_diagonal(shift);
             const double *v = &x[3 * k];
             y[3 * k] = d.xx * v[0] + d.xy * v[1] + d.xz * v[2];
             y[3 * k + 1] = d.xy * v[0] + d.yy * v[1] + d.yz * v[2];
             y[3 * k + 2] = d.xz * v[0] + d.yz * v[1] + d.zz * v[2];
         }
         for (std::size_t h = 0; h < slots_.size(); ++h)
-            pairs(h, [&](const double *block, std::int32_t i, std::int32_t j) {
+            for_each_pair(h, [&](const double *block, std::int32_t i, std::int32_t j) {
                 for (int r = 0; r < 3; ++r)
                     for (int c = 0; c < 3; ++c) {
                         y[3 * i + r] += block[3 * r + c] * x[3 * j + c];
@@ -165,12 +165,12 @@ class PatchSystem {
     }
 
     // By conjugate gradients, preconditioned by the blocks of each node.
-    bool iterate(double shift, std::span<double> s) const {
+    bool solve_by_conjugate_gradients(double shift, std::span<double> s) const {
         const auto n = unknowns();
-        std::vector<Symmetric> blocks(diagonal_);
+        std::vector<SymmetricMatrix> blocks(diagonal_);
         for (auto &block : blocks) {
-            block.raise(shift);
-            if (!(extreme_eigenvalues(block).least > 0)) return false;
+            block.add_to_diagonal(shift);
+            if (!(extreme_eigenvalues(block).smallest > 0)) return false;
         }
         std::vector<double> r(n), z(n), d(n), hd(n);
         auto precondition = [&] {
@@ -187,7 +187,7 @@ class PatchSystem {
         precondition();
         d = z;
         double now = dot(r, z);
-        const double goal = RESIDUAL * RESIDUAL * now, least = POSITIVE * largest();
+        const double goal = CG_TOLERANCE * CG_TOLERANCE * now, least = MIN_PIVOT * largest();
         for (std::int64_t k = 0; k < n && now > goal; ++k) {
             multiply(shift, d, hd);
             const double curvature = dot(d, hd);

@@ -8,22 +8,23 @@
 
 namespace hexmend {
 
-std::tuple<Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t>, Made<std::int32_t, 8>> grow(
-    Hexes hexes, Indices start, Indices corners, std::span<const bool> free, std::int64_t size, int overlap);
+std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>,
+           OwnedArray<std::int32_t, 8>>
+grow(Hexes hexes, Indices start, Indices corners, std::span<const bool> free, std::int64_t size, int overlap);
 
-RowsMade colours(Indices hex_start, Indices chosen, std::int64_t hexes);
+CSR colours(Indices hex_start, Indices chosen, std::int64_t hexes);
 
 // What a method does with a patch; lengths are in mean edge lengths of the patch.
 struct PatchStep {
     double delta;
-    Power power;
+    ObjectiveNorm power;
     double first, shrink, c1;
     int cuts;
 };
 
 std::pair<std::int64_t, std::int64_t> sweep(std::span<Point> points, Hexes hexes, Hexes slots, Indices hex_start,
                                             Indices node_start, Indices nodes, Indices groups, Indices patches,
-                                            double delta, Power power, double first, double shrink, double c1,
+                                            double delta, ObjectiveNorm power, double first, double shrink, double c1,
                                             int cuts);
 
 }  // namespace hexmend
