@@ -10,10 +10,10 @@ namespace nb = nanobind;
 #define HEXMEND_FAMILIES(family)                                                                                 \
     family(assembly) family(binning) family(closest_point) family(conjugate_gradients) family(corner_values)     \
         family(sparsity) family(decimals) family(element_step) family(elements) family(faces) family(getme)      \
-            family(hexahedron) family(incidence) family(laplacian) family(patches) family(local) family(metrics) \
-                family(objective) family(occlusion) family(ordering) family(scalar_reference) family(polygons)   \
-                    family(step_limits) family(barrier) family(clip_planes) family(skin) family(sliding)         \
-                        family(structure) family(symmetric) family(wavefronts) family(worst_first)
+            family(incidence) family(laplacian) family(patches) family(local) family(metrics) family(objective)  \
+                family(occlusion) family(ordering) family(scalar_reference) family(polygons) family(step_limits) \
+                    family(clip_planes) family(skin) family(sliding) family(structure) family(wavefronts)        \
+                        family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);

@@ -1,7 +1,6 @@
 """Compiled kernels: arrays in, arrays out, no classes. Written by scripts/kernel_stubs.py."""
 
 from hexmend.kernels import assembly as assembly
-from hexmend.kernels import barrier as barrier
 from hexmend.kernels import binning as binning
 from hexmend.kernels import clip_planes as clip_planes
 from hexmend.kernels import closest_point as closest_point
@@ -12,7 +11,6 @@ from hexmend.kernels import element_step as element_step
 from hexmend.kernels import elements as elements
 from hexmend.kernels import faces as faces
 from hexmend.kernels import getme as getme
-from hexmend.kernels import hexahedron as hexahedron
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
 from hexmend.kernels import local as local
@@ -28,7 +26,6 @@ from hexmend.kernels import sliding as sliding
 from hexmend.kernels import sparsity as sparsity
 from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure
-from hexmend.kernels import symmetric as symmetric
 from hexmend.kernels import wavefronts as wavefronts
 from hexmend.kernels import worst_first as worst_first
 

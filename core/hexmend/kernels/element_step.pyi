@@ -14,8 +14,3 @@ def element_steps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     three faces; the hex keeps its mean edge length, and a share rho of the way is gone.
     Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.
     """
-
-def element_step(x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], s: float, rho: float) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
-    """
-    The same of one hex x (8, 3), as `worst_first` takes it: its places (8, 3).
-    """

@@ -40,8 +40,6 @@ template <class T> inline Corners<T> element_step(const Corners<T> &x, double s,
 // Places (m, 8, 3): a row for each hex.
 using CornerVectors = std::span<std::array<double, 24>>;
 
-OwnedArray<double, 3> step_of_one(Points corners, double s, double rho);
-
 void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places);
 
 }  // namespace hexmend

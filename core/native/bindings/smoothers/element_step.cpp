@@ -10,8 +10,6 @@ void bind_element_step(nb::module_ &m) {
           "Corner k goes to c_k + s n_k/sqrt(|n_k|), centroid and normal of the triangle of the centroids of its\n"
           "three faces; the hex keeps its mean edge length, and a share rho of the way is gone.\n"
           "Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.");
-    m.def("element_step", &step_of_one, "x"_a, "s"_a, "rho"_a, ReleaseGil(),
-          "The same of one hex x (8, 3), as `worst_first` takes it: its places (8, 3).");
 }
 
 }  // namespace hexmend

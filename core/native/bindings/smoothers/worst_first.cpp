@@ -6,10 +6,6 @@ namespace hexmend {
 
 void bind_worst_first(nb::module_ &m) {
     m.doc() = "The second stage of GETMe: the worst hex takes its step, again and again, from a priority queue.";
-    m.def("tournament", &tournament, "key"_a, "hexes"_a, ReleaseGil(),
-          "The queue of some hexes (k,); tree (2 k,) int32, the hex of least key at 1.");
-    m.def("replay", &replay, "tree"_a, "key"_a, "leaf"_a, ReleaseGil(),
-          "Set the queue right after the key of the hex at a leaf has changed; changes tree.");
     m.def("sweep", &sweep, "points"_a, "hexes"_a, "start"_a, "corners"_a, "free"_a, "candidates"_a, "q"_a, "sound"_a,
           "s"_a, "rho"_a, "penalty"_a, "setback"_a, ReleaseGil(),
           "As many element steps as there are candidates, each of the hex that is worst at the time; returns how many\n"

@@ -1,6 +1,5 @@
 """GETMe: its element step against the definition, and what both stages promise."""
 
-import heapq
 import itertools
 
 import numpy as np
@@ -10,11 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from hexmend.gallery import make
-from hexmend.iteration import Outcome
-from hexmend.kernels import LANES
-from hexmend.kernels.element_step import element_step, element_steps
-from hexmend.kernels.worst_first import replay, tournament
+from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
+from hexmend.optimise import Outcome
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
@@ -50,16 +47,6 @@ hexes = st.integers(0, 2**32 - 1).map(lambda seed: UNIT_CUBE + np.random.default
 @given(hexes, st.floats(0.1, 3), st.floats(0.01, 1))
 def test_the_element_step_is_its_definition_on_any_hex(x, s, rho):
     np.testing.assert_allclose(stepped(x, s, rho), by_definition(x, s, rho), atol=1e-9)
-
-
-@pytest.mark.parametrize("count", [1, LANES - 1, LANES + 1, 300])
-def test_a_block_of_hexes_takes_the_steps_of_each(count):
-    mesh = scrambled(grid(7), 0.6, count)
-    hexes = mesh.hexes[:count]
-    places = np.full((count, 8, 3), np.nan)
-    element_steps(mesh.points, hexes, 1.5, 0.6, places)
-    for h in range(count):
-        np.testing.assert_allclose(places[h], element_step(mesh.points[hexes[h]], 1.5, 0.6), atol=1e-12)
 
 
 @given(st.floats(1e-3, 1e3), st.integers(0, 2**32 - 1), st.floats(0.1, 3))
@@ -151,17 +138,3 @@ def test_the_second_stage_raises_q_min_over_the_first(mesh):
     second = smooth(first.mesh, "getme-sequential")
     assert second.outcome is Outcome.NO_IMPROVEMENT
     assert second.after.q_min > first.after.q_min + 0.002
-
-
-@given(st.lists(st.integers(0, 9), min_size=1, max_size=40), st.lists(st.tuples(st.integers(0, 39), st.integers(0, 9))))
-def test_the_queue_gives_what_a_heap_gives(keys, changes):
-    key = np.array(keys, dtype=float)
-    members = np.arange(len(keys), dtype=np.int32)[::-1].copy()  # leaves need not be in the order of the hexes
-    tree = tournament(key, members)
-    leaf = np.argsort(members)
-    for h, new in [(0, keys[0]), *((h % len(keys), new) for h, new in changes)]:
-        key[h] = new
-        replay(tree, key, leaf[h])
-        heap = [(k, i) for i, k in enumerate(key)]
-        heapq.heapify(heap)
-        assert tree[1] == heap[0][1]

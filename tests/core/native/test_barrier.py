@@ -5,18 +5,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexmend.kernels import barrier as kernels
+from tests.core.native.extension import extension
+
+kernels = extension()
 
 
 def power_minus_two_thirds(h):
     powers = np.empty(1)
-    kernels.power_minus_two_thirds(np.array([h]), powers)
+    kernels.barrier.power_minus_two_thirds(np.array([h]), powers)
     return powers[0]
 
 
 def barrier(sigma, delta):
     h, r = np.empty(1), np.empty(1)
-    kernels.barrier(np.array([sigma]), delta, h, r)
+    kernels.barrier.barrier(np.array([sigma]), delta, h, r)
     return h[0], r[0]
 
 

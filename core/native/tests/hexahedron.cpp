@@ -25,7 +25,7 @@ void bind_hexahedron(nb::module_ &m) {
     m.attr("FACES") = rows(FACES);
     m.attr("UNIT_CUBE") = rows(UNIT_CUBE);
     m.attr("CORNER_FACES") = rows(CORNER_FACES);
-    m.attr("TURNED") = rows(ROTATIONS);
+    m.attr("ROTATIONS") = rows(ROTATIONS);
 }
 
 }  // namespace hexmend
