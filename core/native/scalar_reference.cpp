@@ -25,8 +25,9 @@ void plain::hessian_product(Points points, Hexes hexes, Hexes slots, Points valu
 
 void plain::sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
                   int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts) {
-    LocalStep how{direction, delta, power, first, shrink, c1, cuts};
-    (delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, hexes, start, corners, groups, nodes, how);
+    NodeStepSettings settings{direction, delta, power, {first, shrink, c1, cuts}};
+    (delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, hexes, start, corners, groups, nodes,
+                                                                    settings);
 }
 
 }  // namespace hexmend

@@ -1,4 +1,6 @@
-"""One line-searched step per free node: Algorithm 3.2."""
+"""
+Local optimisation: one line-searched step at each free node, Algorithm 3.2.
+"""
 
 from collections.abc import Sequence
 from typing import Annotated
@@ -23,33 +25,38 @@ INFINITE: int = 3
 
 def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> int:
     """
-    Move every node of `nodes` once, in place: one pass of Algorithm 3.2.
+    Move each of `nodes` once, in place: one pass of Algorithm 3.2.
 
-    Group k is nodes[groups[k]:groups[k + 1]]. Nodes of one group share no hex, so that each sees the others
-    where they stay: the result is that of a sequential sweep, whatever the number of threads. delta is meant
-    for the patch scaled to mean edge length 1; power is (p, offset) of the objective; first, shrink, c1 and cuts
-    are those of the line search, A.5. Returns how often its trial steps asked a hex for its energy.
+    points (n, 3) float64, changed; hexes (m, 8) int32; start, corners: `Topology.node_corners`. Group k is
+    nodes[groups[k]:groups[k + 1]]; nodes of one group share no hex, so that the result is that of a sequential
+    sweep for any number of threads. direction is one of the constants; delta applies to the patch scaled to
+    mean edge length 1; power is (p, offset) of the objective; first, shrink, c1 and cuts are the initial step,
+    the backtracking factor, the Armijo constant and the most backtracks of the line search, A.5.
+
+    Returns the number of evaluations of a hex's energy in line searches.
     """
 
 def look(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, power: tuple[float, float]) -> tuple[float, float, list[float], list[float]]:
     """
-    What a visit of `sweep` begins with, at the node that the corners `star` (8 * hex + corner) share.
+    Energy of the patch of the node whose corners are star (k,) int32, 8 * hex + corner each.
 
-    Lengths are multiplied by `factor`; if that is 0, so that the patch's mean edge is 1. Returns the factor,
-    0 if the patch has no extent; the value; its gradient; second derivatives xx xy xz yy yz zz.
+    Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0. Returns the factor, 0 if
+    the patch has no extent; the value; its gradient (3,); its second derivatives xx xy xz yy yz zz.
     """
 
 def visit(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> tuple[int, list[float], float, bool, float, float, list[float], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
-    What `sweep` does at one node, that the corners `star` (8 * hex + corner) share; it moves nothing.
+    The step that `sweep` takes at the node whose corners are star (k,) int32; moves nothing.
 
-    Returns the verdict (MOVED, NO_DESCENT, FLAT, INFINITE); the direction, its slope, whether it fell back to
-    steepest descent, what A.4 added to the eigenvalues; the accepted step and the place that it leads to; and
-    alpha, energy and bound of each trial, (trials, 3). Where the verdict is FLAT or INFINITE, there is no
-    direction; a place only where it is MOVED. The direction is in lengths so that the patch's mean edge is 1.
+    Returns the status (MOVED, NO_DESCENT, FLAT or INFINITE); the direction, its slope, whether it fell back to
+    steepest descent, the shift of A.4; the accepted step length, 0 for none, and the point that it leads to;
+    and alpha, energy and bound of each trial, (trials, 3). FLAT and INFINITE have no direction, and only MOVED
+    has a point. The direction is in mean edge lengths of the patch.
     """
 
 def along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, power: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:
     """
-    Write the patch's energy at curve[:, 0] times a direction to curve[:, 1].
+    Energy of a patch along a direction (3,): writes the value at step length curve[:, 0] to curve[:, 1].
+
+    star and factor: as for `look`.
     """

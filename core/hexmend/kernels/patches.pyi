@@ -1,4 +1,4 @@
-"""Patches that hold several free nodes, and a Newton step of each."""
+"""Patches of several free nodes, and a Newton step of each."""
 
 from typing import Annotated
 
@@ -8,25 +8,29 @@ from numpy.typing import NDArray
 
 def grow(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], free: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], size: int, overlap: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 8))]]:
     """
-    Divide the free nodes (n,) bool into patches of `size` nodes that hang together, breadth first from the
-    lowest that is left; then each also holds those reached in `overlap` steps from node to node of a hex.
+    Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the
+    lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.
 
-    Returns node_start, nodes: the nodes of each patch, ascending; hex_start, chosen: the hexes at them; slots
-    (.., 8): where each corner of these is among the patch's nodes, -1 if it stays.
+    start, corners: `Topology.node_corners`. Returns node_start and nodes: the nodes of each patch, ascending;
+    hex_start and chosen: the hexes at them; slots (.., 8): the number of each corner of these hexes among the
+    patch's nodes, -1 if it is fixed; all int32.
     """
 
 def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
-    Patches in groups, greedily, so that two of one group share none of so many hexes: (start, patches), int32.
+    Groups of patches that share no hex, by greedy colouring: (start, patches), int32.
+
+    hexes: the number of hexes of the mesh.
     """
 
 def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], node_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> tuple[int, int]:
     """
-    Give the nodes of every patch one Newton step together, in place, the rest being fixed.
+    Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.
 
-    hexes (.., 8) are those of the patches, one patch after another. Group k is patches[groups[k]:groups[k + 1]]
-    and shares no hex: the result is that of one patch after another, whatever the number of threads. delta is
-    meant for the patch scaled to mean edge length 1; power is (p, offset) of the objective; first, shrink, c1 and
-    cuts are those of the line search, A.5. Returns how often hexes were asked for their energy in line
-    searches, and for its derivatives.
+    hexes and slots (.., 8) are those of the patches, patch after patch. Group k is
+    patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep for any number
+    of threads. delta applies to the patch scaled to mean edge length 1; power is (p, offset) of the objective;
+    first, shrink, c1 and cuts are the initial step, the backtracking factor, the Armijo constant and the most
+    backtracks of the line search, A.5. Returns the evaluations of a hex's energy in line searches, and of its
+    derivatives.
     """

@@ -51,7 +51,7 @@ template <class T> class NodePatch {
 
     // Take the hexes at a node, in lengths so that their mean edge is 1 (each edge counted once a hex), or multiplied
     // by `factor` if it is not 0. Returns the factor; 0 if the patch has no extent.
-    double load(Points points, Hexes hexes, Star star, double factor = 0) {
+    __attribute__((noinline)) double load(Points points, Hexes hexes, Star star, double factor = 0) {
         size_ = static_cast<int>(star.size());
         const Point &node = points[hexes[star[0] / 8][star[0] % 8]];
         V3<T> origin{broadcast<T>(node[0]), broadcast<T>(node[1]), broadcast<T>(node[2])};
@@ -79,7 +79,7 @@ template <class T> class NodePatch {
     }
 
     // Write the table. delta is meant for the lengths that the patch has now.
-    template <bool soft> void tabulate(double delta) {
+    template <bool soft> inline __attribute__((always_inline)) void tabulate(double delta) {
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
             const auto &x = block.x.at;
@@ -103,7 +103,7 @@ template <class T> class NodePatch {
     }
 
     // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
-    template <bool soft> double value_along(double alpha, double delta, ObjectiveNorm power) const {
+    template <bool soft> inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm power) const {
         double far = alpha * alpha * squared_length_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
@@ -119,7 +119,7 @@ template <class T> class NodePatch {
     }
 
     // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
-    template <bool soft> ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
+    template <bool soft> __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
         ValueAndGradient answer{};
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
@@ -143,7 +143,7 @@ template <class T> class NodePatch {
 
     // Second derivatives of the value where the node is: (B.19) mended, (B.22); as `value_and_gradient` has left it.
     // d2 sigma vanishes, a determinant being linear in the place of one node (B.1).
-    SymmetricMatrix hessian() const {
+    __attribute__((noinline)) SymmetricMatrix hessian() const {
         SymmetricMatrix answer{};
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];

@@ -1,8 +1,8 @@
 #include "mesh/incidence.hpp"
 
-#include <bit>
 #include <numeric>
 
+#include "mesh/colouring.hpp"
 #include "mesh/csr.hpp"
 
 namespace hexmend {
@@ -119,26 +119,10 @@ CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
 }
 
 OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
-    std::vector<std::int32_t> colour(chosen.size(), -1);
-    std::vector<std::uint64_t> taken;  // of each hex, the colours of its nodes: 64 of them at a time
-    bool more = true;
-    for (int first = 0; more; first += 64) {
-        more = false;
-        taken.assign(corners.size() / 8, 0);
-        for (std::size_t i = 0; i < chosen.size(); ++i) {
-            if (!chosen[i] || colour[i] >= 0) continue;
-            std::uint64_t seen = 0;
-            for (auto s = start[i]; s < start[i + 1]; ++s) seen |= taken[corners[s] / 8];
-            int k = std::countr_one(seen);
-            if (k == 64) {  // its colour is above those of this round, whatever the later nodes take
-                more = true;
-                continue;
-            }
-            colour[i] = first + k;
-            for (auto s = start[i]; s < start[i + 1]; ++s) taken[corners[s] / 8] |= std::uint64_t{1} << k;
-        }
-    }
-    return {std::move(colour)};
+    auto each_hex = [&](std::int64_t i, const auto &body) {
+        for (auto s = start[i]; s < start[i + 1]; ++s) body(corners[s] / 8);
+    };
+    return {greedy_colouring(chosen.size(), corners.size() / 8, [&](std::int64_t i) { return chosen[i]; }, each_hex)};
 }
 
 CSR grouped(Indices colour, std::int64_t count) {

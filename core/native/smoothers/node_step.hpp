@@ -1,18 +1,19 @@
-// What local methods do at one node: Algorithms A.2 to A.5 on its patch.
+// One step of local optimisation at a node, Algorithms A.2 to A.5 on its patch, and sweeps of such steps.
 #pragma once
 
 #include <atomic>
 
 #include "energy/node_patch.hpp"
-#include "smoothers/line_search.hpp"
 #include "smoothers/local.hpp"
 
 namespace hexmend {
 
+// Search direction d at a node and the derivative of the patch's energy along it.
 struct SearchDirection {
     V3<double> d;
-    double slope, shift;
-    bool fallback;
+    double slope;
+    double shift;   // added to the eigenvalues of the Hessian by Algorithm A.4
+    bool fallback;  // steepest descent, because Newton's direction did not descend
 };
 
 // Algorithm A.2: p_k = -grad of the p-th root of f, the objective (3.3) of the patch.
@@ -21,65 +22,58 @@ inline V3<double> steepest_descent(double f, const V3<double> &gradient, double 
     return factor * gradient;
 }
 
-// Algorithm A.4: what is added to the eigenvalues, so that the least is at least a thousandth of the greatest.
+// Algorithm A.4: the shift that makes the smallest eigenvalue at least a thousandth of the largest.
 inline double eigenvalue_shift(const SymmetricMatrix &hessian) {
     auto [smallest, largest] = extreme_eigenvalues(hessian);
     return smallest < 0.001 * largest ? 0.001 * largest - smallest : 0.0;
 }
 
-// Algorithms A.3 and A.4: H p_k = -grad f, in A.4 after the eigenvalues were raised.
+// Algorithms A.3 and A.4: (H + shift I) p_k = -grad f.
 inline V3<double> newton_direction(SymmetricMatrix hessian, const V3<double> &gradient, double shift) {
     if (shift > 0) hessian.add_to_diagonal(shift);
     return solve(hessian, -gradient);
 }
 
-template <class T>
-inline SearchDirection search_direction(const NodePatch<T> &patch, const ValueAndGradient &at, const LocalStep &how) {
+// Direction of the method in `settings`; steepest descent where Newton's direction does not descend.
+//
+// value and gradient are those of the patch's energy; hessian() returns its second derivatives, slope(d) its derivative
+// along d. All three may be restricted to the tangents of a surface. Not inlined: contracted sums then have the same bits
+// whether one node or several are stepped at a time.
+template <class Hessian, class Slope>
+__attribute__((noinline)) SearchDirection choose_direction(double value, const V3<double> &gradient,
+                                                           const NodeStepSettings &settings, const Hessian &hessian,
+                                                           const Slope &slope) {
     SearchDirection chosen{};
-    if (how.direction != STEEPEST_DESCENT) {
-        SymmetricMatrix hessian = patch.hessian();
-        if (how.direction == MODIFIED_NEWTON) chosen.shift = eigenvalue_shift(hessian);
-        chosen.d = newton_direction(hessian, at.gradient, chosen.shift);
+    if (settings.direction != STEEPEST_DESCENT) {
+        SymmetricMatrix h = hessian();
+        if (settings.direction == MODIFIED_NEWTON) chosen.shift = eigenvalue_shift(h);
+        chosen.d = newton_direction(h, gradient, chosen.shift);
+        chosen.slope = slope(chosen.d);
     }
-    chosen.slope = dot(at.gradient, chosen.d);
-    if (!(chosen.slope < 0)) {  // no direction of descent
-        chosen.fallback = how.direction != STEEPEST_DESCENT;
-        chosen.d = steepest_descent(at.value, at.gradient, how.power.p);
-        chosen.slope = dot(at.gradient, chosen.d);
+    if (!(chosen.slope < 0)) {
+        chosen.fallback = settings.direction != STEEPEST_DESCENT;
+        chosen.d = steepest_descent(value, gradient, settings.norm.p);
+        chosen.slope = slope(chosen.d);
     }
     return chosen;
 }
 
-// Algorithm A.5 along d: the accepted step; 0 if none of `cuts` + 1 trials descends enough, or none can any more.
-// `hear` is told of each trial.
-template <bool soft, class T, class Observer>
-inline double backtracking_line_search(NodePatch<T> &patch, const ValueAndGradient &at, const SearchDirection &chosen,
-                                       const LocalStep &how, Observer &observer) {
-    patch.set_direction(chosen.d);
-    double alpha = how.first;
-    for (int cut = 0; cut <= how.cuts; ++cut, alpha *= how.shrink) {
-        double trial = patch.template value_along<soft>(alpha, how.delta, how.power);
-        double bound = at.value + how.c1 * alpha * chosen.slope;
-        observer.on_trial(patch.size(), alpha, trial, bound);
-        if (trial < bound) return alpha;
-        if (lost_in_rounding(alpha, chosen.slope, at.value)) return 0;
-    }
-    return 0;
-}
+// The node whose corners `star` holds.
+inline Node node_of(Hexes hexes, Star star) { return hexes[star[0] / 8][star[0] % 8]; }
 
-// The node that a star belongs to.
-inline std::int32_t node_of(Hexes hexes, Star star) { return hexes[star[0] / 8][star[0] % 8]; }
-
-// Visit nodes that share no hex, stage by stage: while one waits for its roots and quotients the processor works on
-// another. `hear` is told what becomes of each: its trials, and what was chosen, taken and reached at the end.
+// Take a step at each of `nodes` nodes, which share no hex.
+//
+// Stages are interleaved: while the roots and quotients of one node are pending, the processor works on another. The
+// observer is called with each trial of the line search, on_trial(hexes, alpha, value, bound), and with the end of each
+// step: on_rejected(status, direction) or on_moved(node, point, direction, alpha).
 template <bool soft, class T, int nodes, class Observer>
-inline void visit(NodePatch<T> (&patch)[nodes], Points points, Hexes hexes, const Star (&star)[nodes],
-                  const LocalStep &how, Observer &&observer) {
+inline void step_nodes(NodePatch<T> (&patch)[nodes], Points points, Hexes hexes, const Star (&star)[nodes],
+                       const NodeStepSettings &settings, Observer &&observer) {
     double scale[nodes];
     ValueAndGradient at[nodes];
     for (int k = 0; k < nodes; ++k) scale[k] = patch[k].load(points, hexes, star[k]);
-    for (int k = 0; k < nodes; ++k) patch[k].template tabulate<soft>(how.delta);  // meant for edges of mean length 1
-    for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(how.delta, how.power);
+    for (int k = 0; k < nodes; ++k) patch[k].template tabulate<soft>(settings.delta);
+    for (int k = 0; k < nodes; ++k) at[k] = patch[k].template value_and_gradient<soft>(settings.delta, settings.norm);
     for (int k = 0; k < nodes; ++k) {
         const V3<double> &g = at[k].gradient;
         if (scale[k] == 0 || at[k].value == 0 || (g.x == 0 && g.y == 0 && g.z == 0)) {
@@ -90,15 +84,22 @@ inline void visit(NodePatch<T> (&patch)[nodes], Points points, Hexes hexes, cons
             observer.on_rejected(INFINITE);
             continue;
         }
-        SearchDirection chosen = search_direction(patch[k], at[k], how);
-        double alpha = backtracking_line_search<soft>(patch[k], at[k], chosen, how, observer);
+        SearchDirection chosen = choose_direction(
+            at[k].value, g, settings, [&] { return patch[k].hessian(); },
+            [&](const V3<double> &d) { return dot(g, d); });
+        const V3<double> &d = chosen.d;
+        patch[k].set_direction(d);
+        double alpha = settings.search(at[k].value, chosen.slope, [&](double alpha, double bound) {
+            double value = patch[k].template value_along<soft>(alpha, settings.delta, settings.norm);
+            observer.on_trial(patch[k].size(), alpha, value, bound);
+            return value;
+        });
         if (alpha == 0) {
             observer.on_rejected(NO_DESCENT, chosen);
             continue;
         }
-        std::int32_t node = node_of(hexes, star[k]);
+        Node node = node_of(hexes, star[k]);
         const Point &from = points[node];
-        const V3<double> &d = chosen.d;
         observer.on_moved(
             node,
             {from[0] + alpha * d.x / scale[k], from[1] + alpha * d.y / scale[k], from[2] + alpha * d.z / scale[k]},
@@ -106,17 +107,17 @@ inline void visit(NodePatch<T> (&patch)[nodes], Points points, Hexes hexes, cons
     }
 }
 
-// Moves the nodes that are visited, and counts how often trial steps ask a hex for its energy.
+// Observer of a sweep: moves the nodes and counts the evaluations of a hex's energy in line searches.
 struct NodeMover {
     std::span<Point> points;
     std::int64_t evaluations = 0;
 
     void on_trial(int hexes, double, double, double) { evaluations += hexes; }
     void on_rejected(StepStatus, const SearchDirection & = {}) {}
-    void on_moved(std::int32_t node, const Point &place, const SearchDirection &, double) { points[node] = place; }
+    void on_moved(Node node, const Point &place, const SearchDirection &, double) { points[node] = place; }
 };
 
-// The most hexes that meet at one of `nodes`.
+// The largest number of hexes at one of `nodes`.
 inline std::int64_t largest_star(Indices start, Indices nodes) {
     std::int32_t most = 0;
     for (auto i : nodes) most = std::max(most, start[i + 1] - start[i]);
@@ -126,32 +127,40 @@ inline std::int64_t largest_star(Indices start, Indices nodes) {
 // Nodes that one thread takes at a time.
 constexpr std::int64_t NODES_PER_CHUNK = 64;
 
-// Nodes that are visited together.
+// Nodes whose steps are interleaved.
 constexpr int INTERLEAVED = 2;
 
-// Returns how often trial steps asked a hex for its energy.
-template <bool soft, class T>
-std::int64_t sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                      Indices nodes, const LocalStep &how) {
-    std::int64_t most = largest_star(start, nodes);
-    std::atomic<std::int64_t> evaluations = 0;
+// Group after group of nodes (group k: nodes[groups[k]] to nodes[groups[k + 1] - 1], which share no hex): call
+// body(chunk of the group) on all threads; returns the sum of what body returns.
+template <class Body> std::int64_t sum_over_groups(Indices groups, Indices nodes, const Body &body) {
+    std::atomic<std::int64_t> total = 0;
     for (std::size_t g = 0; g + 1 < groups.size(); ++g) {
         auto group = nodes.subspan(groups[g], groups[g + 1] - groups[g]);
         parallel_chunks(group.size(), NODES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-            NodePatch<T> alone[1]{NodePatch<T>(most)}, several[INTERLEAVED]{NodePatch<T>(most), NodePatch<T>(most)};
-            auto star = [&](std::int64_t k) {
-                return corners.subspan(start[group[k]], start[group[k] + 1] - start[group[k]]);
-            };
-            NodeMover mover{points};
-            std::int64_t k = begin;
-            if constexpr (width<T> > 1)
-                for (; k + INTERLEAVED <= end; k += INTERLEAVED)
-                    visit<soft>(several, points, hexes, {star(k), star(k + 1)}, how, mover);
-            for (; k < end; ++k) visit<soft>(alone, points, hexes, {star(k)}, how, mover);
-            evaluations += mover.evaluations;
+            total += body(group.subspan(begin, end - begin));
         });
     }
-    return evaluations;
+    return total;
+}
+
+// A sweep of Algorithm 3.2, as `sweep` of local.hpp: returns the evaluations of a hex's energy in line searches.
+template <bool soft, class T>
+std::int64_t sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
+                      Indices nodes, const NodeStepSettings &settings) {
+    std::int64_t most = largest_star(start, nodes);
+    return sum_over_groups(groups, nodes, [&](Indices chunk) {
+        NodePatch<T> alone[1]{NodePatch<T>(most)}, several[INTERLEAVED]{NodePatch<T>(most), NodePatch<T>(most)};
+        auto star = [&](std::size_t k) {
+            return corners.subspan(start[chunk[k]], start[chunk[k] + 1] - start[chunk[k]]);
+        };
+        NodeMover mover{points};
+        std::size_t k = 0;
+        if constexpr (width<T> > 1)
+            for (; k + INTERLEAVED <= chunk.size(); k += INTERLEAVED)
+                step_nodes<soft>(several, points, hexes, {star(k), star(k + 1)}, settings, mover);
+        for (; k < chunk.size(); ++k) step_nodes<soft>(alone, points, hexes, {star(k)}, settings, mover);
+        return mover.evaluations;
+    });
 }
 
 }  // namespace hexmend

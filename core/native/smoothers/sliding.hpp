@@ -1,40 +1,22 @@
-// The sweeps of nodes that slide on the boundary among those that do not: local optimisation, Laplacian, GETMe.
+// Local optimisation in which nodes of the boundary slide on the surface.
 #pragma once
 
 #include "boundary/sliding_surface.hpp"
-#include "energy/objective_norm.hpp"
+#include "smoothers/local.hpp"
 
 namespace hexmend {
 
-// Two directions along the surface; of a node on a curve the second is 0.
+// Two unit tangents of the surface at a sliding node; the second is 0 for a node on a curve.
 using Tangents = std::array<double, 6>;
 
-std::int64_t sliding_local(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, int direction, double delta, ObjectiveNorm power, double first, double shrink,
-                           double c1, int cuts, std::span<const Tangents> tangents, Indices slots, Indices roots,
-                           Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                           std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
-                           std::span<const Quad> quads, Points outward);
+// `sweep` of local.hpp, in which the nodes that slide step along their tangents and every trial is projected onto the
+// surface. tangents (k, 6) are those of each sliding node, by its slot.
+std::int64_t sliding_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
+                           Indices nodes, const NodeStepSettings &settings, const SlidingSurface &surface,
+                           std::span<const Tangents> tangents);
 
-void sliding_laplacian(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, Indices slots,
-                       Indices roots, Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                       std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
-                       std::span<const Quad> quads, Points outward);
-
-std::int64_t sliding_guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                             Indices ring, Indices nodes, bool keep_least_quality, Indices slots, Indices roots,
-                             Points vertices, std::span<const Piece> pieces, std::span<const Box> boxes,
-                             std::span<const TreeLink> links, Indices quads_start, Indices quads_at,
-                             std::span<const Quad> quads, Points outward);
-
-std::int64_t sliding_worst_first(std::span<Point> points, Hexes hexes, Indices start, Indices corners,
-                                 std::span<const bool> free, Indices candidates, std::span<double> q,
-                                 std::span<bool> sound, double s, double rho, double penalty, double setback,
-                                 Indices slots, Indices roots, Points vertices, std::span<const Piece> pieces,
-                                 std::span<const Box> boxes, std::span<const TreeLink> links, Indices quads_start,
-                                 Indices quads_at, std::span<const Quad> quads, Points outward);
-
-// Whether a quad was not turned before and is now, of each.
-void turned(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> is);
+// Write for each of quads (f, 4) whether it is inverted after and was not before: inverted (f,). outward (f, 3) are the
+// surface's normals, as in `BoundaryQuads`.
+void newly_inverted(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> inverted);
 
 }  // namespace hexmend

@@ -1,17 +1,12 @@
-"""The kernels number the reference hexahedron as `hexmend.mesh.mesh.hexahedron` does."""
+"""The kernels number the reference hexahedron as `hexmend.mesh.hexahedron` does."""
 
 import numpy as np
 import pytest
 
-<<<<<<<< HEAD:tests/core/kernels/test_reference_hexahedron.py
-from hexmend.kernels import hexahedron as native
-from hexmend.mesh import hexahedron
-========
 from hexmend.mesh import hexahedron
 from tests.core.native.extension import extension
 
 native = extension().hexahedron
->>>>>>>> f1153fb (Native functions that only tests call are a module of their own, which wheels leave out):tests/core/native/test_hexahedron.py
 
 
 @pytest.mark.parametrize("table", ["CORNER_TETRAHEDRA", "EDGES", "DIAGONALS", "FACES", "UNIT_CUBE"])
