@@ -1,4 +1,4 @@
-"""Figures of every hex in one pass over its eight corner tetrahedra."""
+"""Quality of every hex from its eight corner tetrahedra, in one pass."""
 
 from typing import Annotated
 
@@ -19,6 +19,11 @@ def measure(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), orde
 def mean_edge_length(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)]) -> float:
     """
     Mean length of the hexes' edges, each counted once a hex; 0 without hexes.
+    """
+
+def corner_qualities(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], q: Annotated[NDArray[numpy.float64], dict(shape=(None, 8), order='C', device='cpu')]) -> None:
+    """
+    q(T) of the eight corner tetrahedra of every hex, (2.8), 0 where sigma <= 0; writes q (m, 8) float64.
     """
 
 def corner_determinants(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], sigma: Annotated[NDArray[numpy.float64], dict(shape=(None, 8), order='C', device='cpu')]) -> None:

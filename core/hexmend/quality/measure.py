@@ -132,8 +132,7 @@ def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     array([[1., 1., 1., 1., 1., 1., 1., 1.]])
     """
     points = as_points(points)
-    x = points[as_hexes(hexes, len(points))[:, CORNER_TETRAHEDRA]]  # (k, 8, 4, 3)
-    edges = x[:, :, 1:] - x[:, :, :1]
-    sigma = np.maximum(np.linalg.det(edges), 0.0)
-    square = np.square(edges).sum(axis=(2, 3))
-    return 3 * np.cbrt(sigma) ** 2 / np.where(square > 0, square, 1.0)
+    hexes = as_hexes(hexes, len(points))
+    q = np.empty((len(hexes), 8))
+    elements.corner_qualities(points, hexes, q)
+    return q

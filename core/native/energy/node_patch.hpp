@@ -103,7 +103,8 @@ template <class T> class NodePatch {
     }
 
     // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
-    template <bool soft> inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm power) const {
+    template <bool soft>
+    inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm power) const {
         double far = alpha * alpha * squared_length_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
@@ -119,7 +120,8 @@ template <class T> class NodePatch {
     }
 
     // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
-    template <bool soft> __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
+    template <bool soft>
+    __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
         ValueAndGradient answer{};
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];

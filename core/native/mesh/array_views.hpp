@@ -1,4 +1,4 @@
-// Arrays as kernels see them.
+// Views of the caller's arrays, and arrays that kernels return.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace hexmend {
 
-// Row i of an (n, width) array is rows[i]. Read where T is const.
+// View of an (n, width) array: row i is view[i]. Read-only where T is const.
 template <class T, std::size_t width>
 using ArrayView = std::span<
     std::conditional_t<std::is_const_v<T>, const std::array<std::remove_const_t<T>, width>, std::array<T, width>>>;
@@ -21,15 +21,16 @@ using Hexes = std::span<const Hex>;
 using Indices = std::span<const std::int32_t>;
 using Numbers = std::span<const double>;
 
-// For what people outside hand over: as many rows of one array as of another.
+// Throw std::invalid_argument if the caller's arrays do not fit each other.
 inline void expect(bool fits, const char *what) {
     if (!fits) throw std::invalid_argument(what);
 }
 
-// A byte a hex: bit t is set where its corner tetrahedron t is left out, as if it were perfect.
+// One byte per hex: bit t is set if corner tetrahedron t is omitted, that is, counts as perfect.
 using OmittedCorners = std::span<const std::uint8_t>;
 
-// What a kernel makes and hands over: an array (n,), or (n, width). Truths are bytes: std::vector<bool> is no array.
+// Array (n,) or (n, width) that a kernel returns to Python. Booleans are stored as bytes: std::vector<bool> has no
+// data().
 template <class T, std::size_t width = 1> struct OwnedArray {
     std::vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>> values;
 };

@@ -1,4 +1,4 @@
-// Compressed rows whose lengths nobody knows beforehand: made in chunks side by side, then put one behind the other.
+// Compressed sparse rows: row i is items[start[i]] to items[start[i + 1] - 1].
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace hexmend {
 // Rows that one thread takes at a time.
 constexpr std::int64_t ROWS_PER_CHUNK = 1024;
 
-// Put an item at its place in an ascending row of `size` unless there is one of its key; returns where it is.
+// Insert an item into a row that ascends by key, unless the row has an item of that key; returns its position.
 template <class Item, class Key> inline Item *placed(Item *begin, int &size, const Item &item, const Key &key) {
     int j = size;
     while (j > 0 && key(begin[j - 1]) > key(item)) --j;
     if (j > 0 && key(begin[j - 1]) == key(item)) return begin + j - 1;
-    for (int t = size++; t > j; --t) begin[t] = begin[t - 1];  // a few: a call of memmove costs more
+    for (int t = size++; t > j; --t) begin[t] = begin[t - 1];  // few: calling memmove costs more
     begin[j] = item;
     return begin + j;
 }
@@ -28,17 +28,17 @@ inline int *placed(int *begin, int &size, int item) {
     return placed(begin, size, item, [](int i) { return i; });
 }
 
-// The longest of some compressed rows.
+// The length of the longest row.
 inline int widest(Indices start) {
     int most = 0;
     for (std::size_t i = 1; i < start.size(); ++i) most = std::max(most, start[i] - start[i - 1]);
     return most;
 }
 
-// The most items that rows may have: their ends are numbers of 32 bits.
+// The largest number of items: row ends are 32-bit numbers.
 constexpr std::int64_t MOST_ITEMS = std::numeric_limits<std::int32_t>::max();
 
-// Turn counts, start[i] being that of row i, into the ends of the rows. Throws where there are more than `most` items.
+// Replace row lengths start[i] by row ends. Throws std::overflow_error if there are more than `most` items.
 inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_ITEMS) {
     std::int64_t total = 0;
     for (auto count : start) total += count;
@@ -48,10 +48,11 @@ inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_I
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
 }
 
+// Builds rows of unknown length: chunks of rows in parallel, then all of them one after another.
 template <class Item> class CSRBuilder {
   public:
-    // row(i, items) writes row i, of at most `width` items, and returns how many they are; all rows together may have
-    // `most`.
+    // row(i, items) writes the items of row i, at most `width`, and returns their number; all `count` rows together may
+    // have `most` items.
     template <class Row> CSRBuilder(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
         start_.resize(count + 1);
         chunks_.resize((count + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
@@ -67,7 +68,7 @@ template <class Item> class CSRBuilder {
 
     std::int64_t size() const { return start_.back(); }
 
-    // body(i, k, item) for each item of row i, which is number k of all, in any order.
+    // Call body(i, k, item) for each item of each row i, in any order; k is its position among all items.
     template <class Body> void each(const Body &body) const {
         parallel_chunks(start_.size() - 1, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
             const Item *item = chunks_[begin / ROWS_PER_CHUNK].data();
@@ -83,7 +84,7 @@ template <class Item> class CSRBuilder {
     std::vector<std::vector<Item>> chunks_;
 };
 
-// (start, items), as arrays.
+// Rows of `count` + 1 starts and their items, as arrays.
 inline std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> arrays(CSRBuilder<std::int32_t> &&rows) {
     std::vector<std::int32_t> items(rows.size());
     rows.each([&](std::int64_t, std::int64_t k, std::int32_t item) { items[k] = item; });

@@ -9,7 +9,7 @@
 namespace hexmend {
 namespace {
 
-// Numbers in EDGES of the three edges at each corner tetrahedron's apex.
+// Numbers in EDGES of the three edges at the apex of each corner tetrahedron.
 constexpr auto AT_APEX = [] {
     std::array<std::array<int, 3>, 8> numbers{};
     for (int t = 0; t < 8; ++t)
@@ -21,35 +21,66 @@ constexpr auto AT_APEX = [] {
     return numbers;
 }();
 
+// Squared lengths and lengths of the twelve edges, each of which belongs to two corner tetrahedra.
+struct EdgeLengths {
+    Lanes squares[12], lengths[12];
+
+    explicit EdgeLengths(const Corners<Lanes> &x) {
+        unroll<12>([&](auto e) {
+            squares[e] = square(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]);
+            lengths[e] = sqrt(squares[e]);
+        });
+    }
+};
+
+// Figures of a corner tetrahedron at delta = 0: sigma, (2.9); eta(T), (3.1); q(T) = 1/eta(T), (2.8); and the scaled
+// Jacobian sigma/(|u||v||w|).
+struct CornerFigures {
+    Lanes sigma, eta, q, scaled_jacobian;
+};
+
+template <int t>
+inline __attribute__((always_inline)) CornerFigures corner_figures(const Corners<Lanes> &x, const EdgeLengths &edges) {
+    constexpr auto u = AT_APEX[t][0], v = AT_APEX[t][1], w = AT_APEX[t][2];
+    Lanes sigma = determinant(x.edges<t>());
+    auto finite = abs(sigma) < INF;  // false where products overflow to INF or NaN
+    auto sound = (sigma > 0.0) & finite;
+    Lanes eta = (edges.squares[u] + edges.squares[v] + edges.squares[w]) * power_minus_two_thirds(sigma) * (1.0 / 3.0);
+    Lanes product = edges.lengths[u] * edges.lengths[v] * edges.lengths[w];
+    return {sigma, sound ? eta : broadcast<Lanes>(INF), sound ? 1.0 / eta : broadcast<Lanes>(0.0),
+            (product > 0.0) & finite ? sigma / product : broadcast<Lanes>(0.0)};
+}
+
 }  // namespace
 
 void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> sigma, std::span<double> jacobian,
              std::span<double> eta) {
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);
-        Lanes squares[12], lengths[12];  // each is of two corner tetrahedra
-        unroll<12>([&](auto e) {
-            squares[e] = square(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]);
-            lengths[e] = sqrt(squares[e]);
-        });
+        EdgeLengths edges(x);
         Lanes quality{}, energy{}, lowest = broadcast<Lanes>(INF), worst = broadcast<Lanes>(INF);
         unroll<8>([&](auto t) {
-            constexpr auto u = AT_APEX[t][0], v = AT_APEX[t][1], w = AT_APEX[t][2];
-            Lanes det = determinant(x.template edges<t>());
-            auto number = abs(det) < INF;  // no longer one where products overflow
-            auto sound = (det > 0.0) & number;
-            Lanes shape = (squares[u] + squares[v] + squares[w]) * power_minus_two_thirds(det) * (1.0 / 3.0);
-            energy += sound ? shape : broadcast<Lanes>(INF);         // eta(T), (3.1)
-            quality += sound ? 1.0 / shape : broadcast<Lanes>(0.0);  // q(T), (2.8)
-            Lanes product = lengths[u] * lengths[v] * lengths[w];
-            Lanes scaled = (product > 0.0) & number ? det / product : broadcast<Lanes>(0.0);
-            lowest = min(det, lowest);
-            worst = min(scaled, worst);
+            auto corner = corner_figures<t>(x, edges);
+            energy += corner.eta;
+            quality += corner.q;
+            lowest = min(corner.sigma, lowest);
+            worst = min(corner.scaled_jacobian, worst);
         });
         store(quality * 0.125, first, count, q);  // (2.10)
         store(lowest, first, count, sigma);
         store(worst, first, count, jacobian);
         store(max(energy * 0.125 - 1.0, broadcast<Lanes>(0.0)), first, count, eta);  // (B.20)
+    });
+}
+
+void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        EdgeLengths edges(x);
+        unroll<8>([&](auto t) {
+            Lanes quality = corner_figures<t>(x, edges).q;
+            for (int i = 0; i < count; ++i) q[first + i][t] = quality[i];
+        });
     });
 }
 

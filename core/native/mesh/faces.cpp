@@ -7,13 +7,13 @@
 namespace hexmend {
 namespace {
 
-// In degrees, of cosines that rounding may have taken beyond -1 or 1.
+// Write angles in degrees. Rounding may have moved the cosines out of [-1, 1].
 void put_angle(const Lanes &cosine, std::int64_t first, int count, std::span<double> angle) {
     Lanes in_range = min(max(cosine, broadcast<Lanes>(-1.0)), broadcast<Lanes>(1.0));
     for (int i = 0; i < count; ++i) angle[first + i] = std::acos(in_range[i]) * (180 / std::numbers::pi);
 }
 
-// -1 where one of the vectors has no length.
+// Cosine of the angle of two vectors; -1 where one has no length.
 Lanes cosine(const V3<Lanes> &a, const V3<Lanes> &b) {
     Lanes product = length(a) * length(b);
     return ((product > 0.0) & (product < INF)) ? dot(a, b) / product : broadcast<Lanes>(-1.0);
@@ -31,7 +31,7 @@ void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<do
             auto sound = (product > 0.0) & (product < INF);
             Lanes one = 1.0 / product;
             Lanes uv = dot(u, v) * c * one, vw = dot(v, w) * a * one, wu = dot(w, u) * b * one;
-            // An edge of no length makes every angle.
+            // The angle at an edge of no length is undefined: count it as the worst at either end.
             low = sound ? min(uv, min(vw, min(wu, low))) : broadcast<Lanes>(-1.0);
             high = sound ? max(uv, max(vw, max(wu, high))) : broadcast<Lanes>(1.0);
         });

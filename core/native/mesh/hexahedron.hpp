@@ -28,7 +28,7 @@ constexpr int DIAGONALS[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
 // Each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
 constexpr int FACES[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
-// Coordinates of the corners of the unit cube.
+// Corner coordinates of the unit cube.
 constexpr int UNIT_CUBE[8][3] = {
     {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
 };
@@ -52,7 +52,7 @@ constexpr int corner_at(int x, int y, int z) {
     return -1;
 }
 
-// The corners of a hex as the unit cube numbers them after a rotation that makes `corner` its corner 0.
+// Corner numbers of a hex after the rotation that makes `corner` its corner 0.
 constexpr std::array<int, 8> rotated_corners(int corner) {
     std::array<int, 8> places{};
     for (int c = 0; c < 8; ++c) {
@@ -70,13 +70,14 @@ constexpr std::array<int, 8> rotated_corners(int corner) {
 
 }  // namespace detail
 
+// Corner numbers of a hex after the rotation that makes corner c its corner 0: corner k becomes ROTATIONS[c][k].
 alignas(32) constexpr std::array<std::array<int, 8>, 8> ROTATIONS = [] {
     std::array<std::array<int, 8>, 8> all{};
     for (int c = 0; c < 8; ++c) all[c] = detail::rotated_corners(c);
     return all;
 }();
 
-// body(constant<0>), ..., body(constant<n - 1>): a loop whose number is known to the compiler.
+// Call body(constant<0>{}), ..., body(constant<n - 1>{}): an unrolled loop with a compile-time index.
 template <int n> using constant = std::integral_constant<int, n>;
 template <int n, class Body> inline __attribute__((always_inline)) void unroll(Body &&body) {
     [&]<int... i>(std::integer_sequence<int, i...>)

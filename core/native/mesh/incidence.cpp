@@ -12,14 +12,14 @@ CSR node_corners(Hexes hexes, std::int64_t nodes) {
     for (const Hex &hex : hexes)
         for (Node i : hex) ++start[i];
     accumulate(start);
-    // From the last to the first, so that each row's end comes down to where it begins.
+    // From the last corner to the first, so that each row's end is counted down to its start.
     for (std::int64_t k = corners.size() - 1; k >= 0; --k) corners[--start[hexes[k / 8][k % 8]]] = k;
     return {{std::move(start)}, {std::move(corners)}};
 }
 
 namespace {
 
-// What a face is to one of its corners: the three other corners, and which of these come after it in the face.
+// A face seen from one of its corners: the three other corners, and which of them follow it in the face.
 struct FaceAtCorner {
     int face, corner[3], after[3];
 };
@@ -39,7 +39,7 @@ constexpr auto FACES_AT_CORNER = [] {
     return faces;
 }();
 
-// A face at its lowest node: the other three, ascending; how many hexes are met behind it, and the last of them.
+// A face in the list of its lowest node: the other three nodes, ascending; the number of hexes behind it, and the last.
 struct Face {
     Node a, b, c;
     std::int32_t number, matches, hex;
@@ -58,14 +58,14 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
     const std::int64_t nodes = start.size() - 1;
     std::vector<std::int64_t> non_manifold((nodes + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
     parallel_chunks(nodes, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Face> faces;  // those whose lowest node is i: half a dozen
+        std::vector<Face> faces;  // whose lowest node is i: about six
         for (std::int64_t i = begin; i < end; ++i) {
             faces.clear();
             for (auto s = start[i]; s < start[i + 1]; ++s) {
                 int h = corners[s] / 8;
                 for (auto &[f, corner, after] : FACES_AT_CORNER[corners[s] % 8]) {
                     Node a = hexes[h][corner[0]], b = hexes[h][corner[1]], c = hexes[h][corner[2]];
-                    // Of corners that are one node, the first stands for the face.
+                    // Where two corners are one node, the first of them represents the face.
                     if (!((a + after[0] > i) & (b + after[1] > i) & (c + after[2] > i))) continue;
                     if (a > b) std::swap(a, b);
                     if (b > c) std::swap(b, c);
@@ -87,7 +87,7 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
 std::int64_t components(Hexes hexes, std::span<const bool> used) {
     std::vector<Node> parent(used.size());
     std::iota(parent.begin(), parent.end(), 0);
-    // The node that stands for the part of node i; the way there is halved for those who come after.
+    // Union-find with path halving: the representative of the component of node i.
     auto root = [&](Node i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
         return i;
@@ -154,7 +154,7 @@ OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> nei
                 queue.push_back(other);
             }
     }
-    std::replace(layer.begin(), layer.end(), -1, deepest + 1);  // no way leads there
+    std::replace(layer.begin(), layer.end(), -1, deepest + 1);  // not connected to the boundary
     return {std::move(layer)};
 }
 

@@ -1,7 +1,6 @@
-// Who touches whom: nodes and hexes, faces, edges, colours. All linear in the number of hexes.
+// Incidence of nodes, hexes, faces and edges; connected components and colours. All linear in the number of hexes.
 //
-// Corners of hexes are numbers 8 * hex + corner; rows of different lengths are two arrays, row i being
-// items[start[i]] to items[start[i + 1] - 1].
+// A corner of a hex is the number 8 * hex + corner. start and corners are the result of `node_corners`.
 #pragma once
 
 #include "mesh/array_views.hpp"
@@ -10,20 +9,30 @@ namespace hexmend {
 
 using CSR = std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>>;
 
+// Corners at each of `nodes` nodes, ascending.
 CSR node_corners(Hexes hexes, std::int64_t nodes);
 
+// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes,
+// counted once per hex: these have neighbour -1.
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
+// Number of components, connected by nodes, of the nodes with used[i].
 std::int64_t components(Hexes hexes, std::span<const bool> used);
 
+// Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `most`.
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);
 
+// Colour of each chosen node, so that two nodes of one hex differ; -1 for the others.
 OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
 
+// Nodes of each of `count` colours, ascending; colour -1 is in no group.
 CSR grouped(Indices colour, std::int64_t count);
 
+// Number of faces crossed on the shortest way from each hex to a boundary hex, (m,); where there is no way, one more
+// than the deepest layer.
 OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours);
 
+// True for the chosen hexes and those within `rings` steps through common nodes, (m,).
 OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
 
 }  // namespace hexmend

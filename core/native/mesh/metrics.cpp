@@ -6,7 +6,7 @@
 namespace hexmend {
 namespace {
 
-// The least and the greatest distance of pairs of corners.
+// The smallest and largest distance of pairs of corners.
 struct DistanceRange {
     Lanes least, greatest;
 };
@@ -20,7 +20,7 @@ template <std::size_t n> DistanceRange distances(const Corners<Lanes> &x, const 
     return {sqrt(low), sqrt(high)};
 }
 
-// Where a corner lies from the centre along x, y or z: -1 or 1.
+// Coordinate of a corner along x, y or z in the cube [-1, 1]^3.
 constexpr int side(int corner, int axis) { return 2 * UNIT_CUBE[corner][axis] - 1; }
 
 // The principal axis X1, X2 or X3: the sum of the four edges along x, y or z, (6) of the manual.

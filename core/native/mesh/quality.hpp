@@ -1,6 +1,6 @@
-// How regular hexes are, and whether they are sound: q(T), (2.8), and q(H), (2.10).
+// Quality of hexes and whether they are sound, that is, without inverted corner: q(T), (2.8), and q(H), (2.10).
 //
-// Lanes hold hexes where many are judged; where one is, they hold its corner tetrahedra: see `OneHex`.
+// A lane holds one hex where many are evaluated; `SingleHex` holds one corner tetrahedron in each lane.
 #pragma once
 
 #include "energy/tetrahedron.hpp"
@@ -8,7 +8,7 @@
 
 namespace hexmend {
 
-// What a comparison of T gives: bool, or a mask for each lane.
+// Result of comparing two T: bool, or a mask of lanes.
 template <class T> using MaskOf = decltype(T{} > T{});
 
 // q(T) = 3 sigma^(2/3)/|S|^2, (2.8); 0 where sigma <= 0.
@@ -16,7 +16,7 @@ template <class T> inline T quality(const M3<T> &s, T sigma) {
     return sigma > 0.0 ? 3.0 / (square(s) * power_minus_two_thirds(sigma)) : broadcast<T>(0.0);
 }
 
-// q(H), the mean of the q(T), and whether no corner is inverted.
+// q(H), the mean of the q(T), and whether all corners have sigma > 0.
 template <class T> struct Quality {
     T q;
     MaskOf<T> sound;
@@ -34,7 +34,7 @@ template <class T> inline Quality<T> quality(const Corners<T> &x) {
     return {total * 0.125, sound};
 }
 
-// One hex, its corners side by side: corner c in lane c % LANES of register c / LANES.
+// One hex, its corners in lanes: corner c in lane c % LANES of register c / LANES.
 class SingleHex {
   public:
     SingleHex(Points points, const Hex &hex) {
@@ -54,7 +54,7 @@ class SingleHex {
         return {sum(total) * 0.125, sound};
     }
 
-    // Whether no corner is inverted.
+    // True if no corner is inverted.
     bool sound() const {
         bool sound = true;
         unroll<8 / LANES>([&](auto k) { sound &= positive(determinant(edges<k * LANES>())); });

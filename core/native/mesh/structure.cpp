@@ -18,10 +18,10 @@ constexpr auto SIDES = [] {
     return sides;
 }();
 
-// An edge from the node whose row it is in to a higher one.
+// An edge in the row of its lower node.
 struct Edge {
     Node end;
-    std::int32_t valence, last;  // hexes around it, and the one that was counted last
+    std::int32_t valence, last;  // number of hexes around it, and the hex that was counted last
     bool outside;
 };
 

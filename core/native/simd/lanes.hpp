@@ -1,7 +1,7 @@
-// Hexes side by side: one number of each in a lane of a vector register.
+// Vector registers whose lanes hold one number of each of several hexes.
 //
-// Formulas are templates over T, which is `Lanes` in the kernels and `double` where one hex is taken at a time. Vectors
-// are those of GCC and Clang, as wide as the processor's registers: this file is compiled once for each kind of them.
+// Formulas are templates over T: `Lanes` for several hexes at once, `double` for one. Vectors are the extension of GCC
+// and Clang, as wide as the registers of the processor that the module is compiled for.
 #pragma once
 
 #include <cmath>
@@ -36,6 +36,7 @@ template <class T> using bits_of = std::conditional_t<std::is_same_v<T, double>,
 
 constexpr double INF = std::numeric_limits<double>::infinity();
 
+// A vector with x in each lane.
 template <class T> inline T broadcast(double x) {
     if constexpr (width<T> == 1) return x;
     else return x - Lanes{};
@@ -68,7 +69,7 @@ inline Lanes sqrt(Lanes x) {
 #endif
 }
 
-// In one order, whatever the compiler: halves are added to each other, and theirs.
+// Sum of the lanes in a fixed order, so that it does not depend on the compiler: halves, then their halves.
 inline double sum_of_lanes(const Lanes &x) {
 #if defined(__AVX512F__)
     auto four = __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
@@ -82,12 +83,12 @@ inline double sum_of_lanes(const Lanes &x) {
 #endif
 }
 
-// Where one of the two is no number it is the second that counts.
+// Minimum and maximum; b where a or b is NaN, unlike those of the standard library.
 template <class T> inline T min(T a, T b) { return a < b ? a : b; }
 template <class T> inline T max(T a, T b) { return a > b ? a : b; }
 template <class T> inline T abs(T a) { return max(a, -a); }
 
-// A number or vector as the bits that it is made of, and back.
+// Reinterpret the bits of a number or vector; std::bit_cast does not take vectors with all compilers.
 template <class To, class From> inline To bit_cast(From x) {
     static_assert(sizeof(To) == sizeof(From));
     To y;
@@ -95,8 +96,8 @@ template <class To, class From> inline To bit_cast(From x) {
     return y;
 }
 
-// A product that is rounded on its own: never contracted with the sum that it stands in, so that the sum has the same
-// bits wherever it is computed. The compiler may look through anything but this.
+// Return x such that the compiler cannot contract the product x with a sum to a fused multiply-add: the sum then has
+// the same bits in every kernel, on every processor and in NumPy.
 inline double uncontracted(double x) {
 #if defined(__SSE2__)
     asm("" : "+x"(x));

@@ -1,4 +1,4 @@
-// A block of hexes side by side, one in each lane.
+// Blocks of hexes, one hex in each lane: loading, storing and looping over them.
 #pragma once
 
 #include "energy/objective_norm.hpp"
@@ -7,7 +7,7 @@
 
 namespace hexmend {
 
-// Hexes that one thread takes at a time: whole blocks, however wide they are.
+// Hexes that one thread takes at a time: a multiple of every number of lanes.
 constexpr std::int64_t HEXES_PER_CHUNK = 256;
 
 namespace detail {
@@ -20,7 +20,7 @@ inline __m256d three_numbers(const Point &p) { return _mm256_maskload_pd(p.data(
 
 }  // namespace detail
 
-// The vectors at(0), at(1)... side by side, one in each lane.
+// The vectors at(0), at(1), ..., one in each lane: a transposing load.
 template <class T, class At> inline __attribute__((always_inline)) V3<T> load_lanes(const At &at) {
     if constexpr (width<T> == 1) {
         const Point &p = at(0);
@@ -53,7 +53,7 @@ template <class T, class At> inline __attribute__((always_inline)) V3<T> load_la
     }
 }
 
-// Rows of as many lanes as there are rows become columns.
+// Transpose a square of LANES x LANES numbers.
 inline void transpose(Lanes (&rows)[LANES]) {
 #if defined(__AVX512F__)
     Lanes a[8], b[8];
@@ -83,7 +83,7 @@ inline void transpose(Lanes (&rows)[LANES]) {
 #endif
 }
 
-// Corners of `count` hexes from `first` on; further lanes repeat the last.
+// Corner coordinates of `count` hexes from number `first` on; unused lanes repeat the last hex.
 template <class T> inline Corners<T> gather_corners(Points points, Hexes hexes, std::int64_t first, int count) {
     const Hex *hex[width<T>];
     for (int i = 0; i < width<T>; ++i) hex[i] = &hexes[first + (i < count ? i : count - 1)];
@@ -92,7 +92,7 @@ template <class T> inline Corners<T> gather_corners(Points points, Hexes hexes, 
     return x;
 }
 
-// The same of values that some corners have, by their slot; zero where it is below 0.
+// Vectors at the corners of `count` hexes: values[slot], or zero where the slot is negative.
 template <class T> inline Corners<T> gather_corners_or_zero(Points values, Hexes slots, std::int64_t first, int count) {
     static constexpr Point ZERO{};
     const Hex *hex[width<T>];
@@ -106,7 +106,7 @@ template <class T> inline Corners<T> gather_corners_or_zero(Points values, Hexes
     return x;
 }
 
-// Write vectors at corners, 24 numbers a hex.
+// Write the vectors at the corners of `count` hexes, 24 numbers each, to values[first], ...
 template <class T>
 inline void store(const Corners<T> &x, std::int64_t first, int count, std::span<std::array<double, 24>> values) {
     T numbers[24], rows[width<T>];
@@ -118,19 +118,20 @@ inline void store(const Corners<T> &x, std::int64_t first, int count, std::span<
     }
 }
 
-// The same corners less the first: sums of them are as exact far from the origin.
+// Corners relative to the first one: far from the origin sums of absolute coordinates would lose digits.
 template <class T> inline Corners<T> from_first_corner(const Corners<T> &x) {
     Corners<T> less;
     for (int c = 0; c < 8; ++c) less.at[c] = x.at[c] - x.at[0];
     return less;
 }
 
-// Write the lanes of a block, a number of each hex.
+// Write one number of each of `count` hexes to values[first], ...
 inline void store(const Lanes &x, std::int64_t first, int count, std::span<double> values) {
     for (int i = 0; i < count; ++i) values[first + i] = x[i];
 }
 
-// Which corner tetrahedra count: bit t of a hex is set where number t is left out, as if it were perfect.
+// Corner tetrahedra of a block that count: bit t of a hex's byte is set if tetrahedron t is omitted (see
+// `OmittedCorners`).
 template <class T> struct CornerMask {
     bits_of<T> left_out;
 
@@ -143,8 +144,8 @@ template <class T> struct CornerMask {
     auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
 };
 
-// body(counted) for a block of hexes, counted(t) telling of which hexes tetrahedron t counts; of most blocks all do,
-// which the compiler is told.
+// Call body(counted) for a block of hexes; counted(t) is the mask of the hexes whose tetrahedron t counts. Blocks
+// without omitted tetrahedra, nearly all, get a compile-time constant instead of a mask.
 template <class T, class Body>
 inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners left_out, std::int64_t first, int count,
                                                             const Body &body) {
@@ -154,7 +155,7 @@ inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners left_
     else body([](int) { return std::true_type{}; });
 }
 
-// First and second derivatives of max(eta(H), 0)^p by eta(H), of each hex of a block.
+// `PowerDerivatives` of each hex of a block.
 template <class T> struct LanePowerDerivatives {
     T first{}, second{};
 
@@ -174,7 +175,7 @@ template <class T> struct LanePowerDerivatives {
     }
 };
 
-// body(first, count) for every block of the hexes, on all threads.
+// Call body(first, count) for every block of `hexes` hexes, on all threads.
 template <class T, class Body> inline void for_each_block(std::int64_t hexes, const Body &body) {
     parallel_chunks(hexes, HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t first = begin; first < end; first += width<T>)

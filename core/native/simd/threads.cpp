@@ -19,12 +19,13 @@
 namespace hexmend {
 namespace {
 
-// More threads than this are asked for by mistake.
+// Larger numbers of threads are mistakes.
 constexpr int MAX_THREADS = 1024;
 
-// How often a thread looks before it sleeps: some ten microseconds.
+// Polls of an atomic before a thread sleeps: about ten microseconds.
 constexpr int SPINS = 400;
 
+// Tell the processor that the thread polls.
 void cpu_relax() {
 #if defined(__x86_64__)
     _mm_pause();
@@ -33,7 +34,7 @@ void cpu_relax() {
 #endif
 }
 
-// Wait until `number` is no longer `old`.
+// Wait while `number` equals `old`: poll first, then sleep.
 void wait_while_equal(const std::atomic<std::uint32_t> &number, std::uint32_t old) {
     for (int i = 0; i < SPINS; ++i) {
         if (number.load(std::memory_order_acquire) != old) return;
@@ -42,16 +43,17 @@ void wait_while_equal(const std::atomic<std::uint32_t> &number, std::uint32_t ol
     number.wait(old, std::memory_order_acquire);
 }
 
-// Whether this thread is in a loop that is shared: a loop inside of it is not.
+// True while this thread runs a parallel loop; loops nested in it are sequential.
 thread_local bool in_shared_loop = false;
 
+// The helper threads of one calling thread.
 class ThreadTeam {
   public:
     explicit ThreadTeam(int wanted) : wanted_(wanted) {
         helpers_.reserve(wanted);
         try {
             for (int i = 0; i < wanted; ++i) helpers_.emplace_back([this] { help(); });
-        } catch (const std::exception &) {  // as many as the system gives
+        } catch (const std::exception &) {  // the system gives no more threads: go on with those that exist
         }
     }
 
@@ -63,13 +65,14 @@ class ThreadTeam {
 
     int wanted() const { return wanted_; }
 
+    // Run body(context, i) for all pieces i, on this thread and the helpers.
     void share(std::int64_t pieces, void (*body)(const void *, std::int64_t), const void *context) {
         body_ = body, context_ = context, pieces_ = pieces;
         next_.store(0, std::memory_order_relaxed);
         gate_.store(OPEN, std::memory_order_release);
         call();
         work();
-        // Nobody waits for a helper that has not yet come: on a busy machine that may take long.
+        // Close the gate instead of waiting for helpers that have not started: on a busy machine that may take long.
         gate_.fetch_and(~OPEN, std::memory_order_acq_rel);
         for (std::uint32_t inside; (inside = gate_.load(std::memory_order_acquire)) != 0;)
             wait_while_equal(gate_, inside);
@@ -115,7 +118,7 @@ class ThreadTeam {
     int wanted_;
     std::vector<std::thread> helpers_;
     std::atomic<std::uint32_t> generation_{0};
-    std::atomic<std::uint32_t> gate_{0};  // whether the loop may be joined, and how many helpers are at it
+    std::atomic<std::uint32_t> gate_{0};  // bit OPEN: helpers may join the loop; other bits: helpers inside
     std::atomic<std::int64_t> next_{0};
     std::int64_t pieces_ = 0;
     void (*body_)(const void *, std::int64_t) = nullptr;
@@ -136,20 +139,20 @@ long process_id() {
 std::atomic<int> default_count{1};
 
 struct ThreadState {
-    int count = 0;  // 0: the default
+    int count = 0;  // of threads; 0: the default
     long process = 0;
     std::unique_ptr<ThreadTeam> team;
 
     ~ThreadState() {
 #if defined(_WIN32)
-        (void)team.release();  // whose helpers could not end while Windows ends this thread
+        (void)team.release();  // Windows deadlocks if a thread that ends joins others
 #else
         forget();
 #endif
     }
 
     void forget() {
-        // A process that was forked has the memory of its parent's helpers, but not the helpers.
+        // A forked process has the memory of its parent's helpers, but not the threads.
         if (team && process != process_id()) (void)team.release();
     }
 };

@@ -1,4 +1,4 @@
-// Vectors of three, each component a number or a register of lanes.
+// Vectors and matrices of three dimensions. Each component is a double or a vector register of several hexes.
 #pragma once
 
 #include "simd/lanes.hpp"
@@ -30,7 +30,7 @@ template <class T> inline V3<T> cross(const V3<T> &a, const V3<T> &b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Columns u, v, w: the edges of a corner tetrahedron from its apex, and what is derived by them.
+// A matrix of columns u, v, w, such as the edges of a corner tetrahedron from its apex, or a derivative by them.
 template <class T> struct M3 {
     V3<T> u, v, w;
 };
@@ -40,13 +40,13 @@ template <class T> inline T dot(const M3<T> &a, const M3<T> &b) {
 }
 template <class T> inline T square(const M3<T> &a) { return dot(a, a); }
 
-// The derivative of the determinant of [u, v, w]: columns v x w, w x u, u x v.
+// Cofactors, the derivative of the determinant of [u, v, w]: columns v x w, w x u, u x v.
 template <class T> inline M3<T> cofactors(const M3<T> &s) {
     return {cross(s.v, s.w), cross(s.w, s.u), cross(s.u, s.v)};
 }
 
-// sigma = det [u, v, w] = u . (v x w), (2.9). Every product is rounded on its own, so that a flat corner is flat to
-// every kernel and to whoever writes the same formula in plain arithmetic.
+// sigma = det [u, v, w] = u . (v x w), (2.9). No product is fused with a sum, so that the sign of a flat corner is the
+// same in every kernel, on every processor and in NumPy.
 template <class T> inline T determinant(const M3<T> &s) {
     const auto &[u, v, w] = s;
     T x = uncontracted(v.y * w.z) - uncontracted(v.z * w.y);

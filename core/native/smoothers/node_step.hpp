@@ -37,8 +37,8 @@ inline V3<double> newton_direction(SymmetricMatrix hessian, const V3<double> &gr
 // Direction of the method in `settings`; steepest descent where Newton's direction does not descend.
 //
 // value and gradient are those of the patch's energy; hessian() returns its second derivatives, slope(d) its derivative
-// along d. All three may be restricted to the tangents of a surface. Not inlined: contracted sums then have the same bits
-// whether one node or several are stepped at a time.
+// along d. All three may be restricted to the tangents of a surface. Not inlined: contracted sums then have the same
+// bits whether one node or several are stepped at a time.
 template <class Hessian, class Slope>
 __attribute__((noinline)) SearchDirection choose_direction(double value, const V3<double> &gradient,
                                                            const NodeStepSettings &settings, const Hessian &hessian,
