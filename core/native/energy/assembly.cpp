@@ -10,10 +10,9 @@ namespace {
 
 template <class Real> using Mask = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
 
-// Add a block, or its transpose, to another. The last of nine numbers stays where it is; of the other eight transposing
-// is one shuffle.
+// Add a 3 x 3 block, or its transpose, to another: the transpose is one shuffle of the first eight numbers.
 template <class Real> inline void add_block(const Real *block, int transposed, std::array<Real, 9> &to) {
-    asm("" : "+r"(transposed));  // else a branch would be made of it, which nobody can foresee
+    asm("" : "+r"(transposed));  // keeps the compiler from an unpredictable branch
     typedef Real Vector __attribute__((vector_size(8 * sizeof(Real))));
     typedef Mask<Real> MaskVector __attribute__((vector_size(8 * sizeof(Real))));
     Vector rows, there;
@@ -36,7 +35,7 @@ template <class Real> inline void add_diagonal(const Real *own, std::array<Real,
     to[4] += own[4], to[5] += own[5];
 }
 
-// A block and its transpose, added to a symmetric one: of a hex that uses a node twice.
+// Add a block and its transpose to a diagonal block: for a hex that uses a node twice.
 template <class Real> void add_with_transpose(const Real *block, std::array<Real, 6> &own) {
     int at = 0;
     for (int i = 0; i < 3; ++i)
@@ -61,7 +60,7 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
     }
 }
 
-// The hexes of each share, one after another as they are taken: what is read of them lies in that order.
+// The hexes of all shares in the order in which they are processed.
 struct HexShares {
     Indices bounds, start, chosen;
     Hexes hexes, slots;
@@ -80,7 +79,7 @@ void assemble_of(Points points, double delta, ObjectiveNorm power, OmittedCorner
             auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
             Bits bits{};
             for (int i = 0; i < count; ++i) bits[i] = left_out[shared.chosen[first + i]];
-            // Where the blocks of these hexes are is far apart: asked for now, it is there when they are ready.
+            // The target blocks are scattered in memory: prefetch them while the values are computed.
             for (int i = 0; i < count; ++i)
                 for (auto s : shared.target[first + i])
                     if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);

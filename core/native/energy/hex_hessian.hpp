@@ -1,4 +1,4 @@
-// The second derivatives of eta(H)^p by the corners of each hex of a block.
+// Second derivatives of eta(H)^p by the corners of each hex of a block.
 #pragma once
 
 #include "energy/tetrahedron.hpp"
@@ -7,20 +7,20 @@
 
 namespace hexmend {
 
-// Values of a hex: the blocks of its 28 pairs of corners, by rows, then the symmetric ones of its 8 corners, xx xy xz
-// yy yz zz; and as many more as make whole vectors.
+// Layout of a hex's values: the 3 x 3 blocks of its 28 pairs of corners, by rows; the diagonal blocks of its 8 corners,
+// xx xy xz yy yz zz; padding to whole vectors.
 constexpr int DIAGONAL_OFFSET = 9 * PAIRS, HEX_VALUES = DIAGONAL_OFFSET + 6 * 8, HEX_STRIDE = (HEX_VALUES + 7) / 8 * 8;
 
-// Beyond it a value is cut, so that single precision holds sums of it.
+// Values are clamped to this, so that their sums do not overflow single precision.
 constexpr double SINGLE_LIMIT = 1e34;
 
-// The sums of a block of hexes.
+// Sums over the corner tetrahedra of a block of hexes: second derivatives of eta, gradient of eta/8, and eta.
 struct HessianSums {
     Lanes at[DIAGONAL_OFFSET];
     Corners<Lanes> g;
     Lanes eta{};
 
-    // c q' + p d' + k I + [e] cross, to the block of corners a and b.
+    // Add c q' + p d' + k I + [e]x to the block of corners a and b.
     template <int a, int b>
     void pair(const V3<Lanes> &c, const V3<Lanes> &p, const V3<Lanes> &d, const V3<Lanes> &q, Lanes k,
               const V3<Lanes> &e) {
@@ -38,11 +38,11 @@ struct HessianSums {
     }
 };
 
-// Add eta(T) of corner tetrahedron t, an eighth of its gradient, and of its second derivatives by its nodes: (B.19),
-// mended, as `tetrahedron` has it.
+// Add eta(T) of corner tetrahedron t, and an eighth of its gradient and second derivatives by its nodes: (B.19),
+// corrected as in tetrahedron.hpp.
 //
-// With s and c what the columns of S and of C are to a node (of the apex: minus their sum), and p = mixed s + half c,
-// the block of two nodes is c p' + p c' and what d2 sigma and (V, W) add.
+// Let s and c be the columns of S and C that belong to a node (for the apex: minus their sum) and p = mixed s + half c.
+// The block of two nodes is c p' + p c' plus the terms of d2 sigma and (V, W).
 template <bool soft, int t>
 inline void add_tetrahedron(const Corners<Lanes> &x, double delta, Bits counted, HessianSums &sums) {
     constexpr auto &n = CORNER_TETRAHEDRA[t];
@@ -62,7 +62,7 @@ inline void add_tetrahedron(const Corners<Lanes> &x, double delta, Bits counted,
     sums.pair<n[2], n[3]>(c.v, p.v, c.w, p.w, Lanes{}, u);
 }
 
-// Write eight rows of numbers as a column of eight for each lane.
+// Transpose eight vectors into eight consecutive numbers for each lane, at out[lane][row].
 inline void store(const Lanes (&rows)[8], int row, float (*out)[HEX_STRIDE]) {
 #if defined(__AVX512F__)
     typedef float Eight __attribute__((vector_size(32)));
@@ -98,10 +98,9 @@ inline Lanes clamp(Lanes value) {
     return min(broadcast<Lanes>(SINGLE_LIMIT), max(broadcast<Lanes>(-SINGLE_LIMIT), value));
 }
 
-// first * values + second * g g', cut to what single precision holds; a hex after another.
+// Write the second derivatives of eta(H)^p, first * values + second * g g', clamped, for each hex of the block.
 //
-// A hex that is moved as a whole keeps its energy: the blocks of each of its corners sum up to zero, which gives its
-// own.
+// Translating a hex does not change its energy: the blocks of each corner sum to zero, which gives the diagonal ones.
 template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm power, Real (*out)[HEX_STRIDE]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
     auto [first, second] = LanePowerDerivatives<Lanes>(sums.eta * 0.125 - power.offset, power.p);
@@ -117,7 +116,7 @@ template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm 
             unroll<9>([&](auto at) {
                 constexpr int i = at / 3, j = at % 3;
                 Lanes value = clamp(first * sums.at[row] + h[3 * a + i] * g[3 * b + j]);
-                // xx xy xz yy yz zz: of the block as it stands for a, of its transpose for b.
+                // Entries xx xy xz yy yz zz of the block for a, of its transpose for b.
                 if constexpr (i <= j) own[6 * a + i * (5 - i) / 2 + j] -= value;
                 if constexpr (i >= j) own[6 * b + j * (5 - j) / 2 + i] -= value;
                 next(value);

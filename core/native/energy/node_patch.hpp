@@ -5,11 +5,14 @@
 //
 //     sigma = sigma_0 + g . y          |S|^2 = s_0 + b . y + k |y|^2,   k = 3 at the apex, else 1,
 //
-// because a determinant is linear in each of its columns. A patch is therefore a table of numbers a tetrahedron, made
-// once a visit, on which value, gradient and every trial of the line search are short.
+// because a determinant is linear in each of its columns. A patch is therefore a table of coefficients for each
+// tetrahedron, computed once per step, from which value, gradient and trial values of the line search follow cheaply.
 //
-// Every hex is turned so that the node is its corner 0: what is to be done is then the same in all lanes. In a block
-// that is not full the last hex is repeated, and left out of the sums.
+// Every hex is rotated so that the node is its corner 0: all lanes then compute the same formulas. Unused lanes of the
+// last block repeat the last hex and are excluded from sums.
+//
+// Functions are either always or never inlined: the compiler then contracts the same products in all callers, and a
+// sweep has the same bits as the step of one node.
 #pragma once
 
 #include <vector>
@@ -20,7 +23,7 @@
 
 namespace hexmend {
 
-// A hex turned so that `corner` is its corner 0.
+// The nodes of a hex rotated so that `corner` becomes its corner 0.
 inline Hex rotated(const Hex &hex, int corner) {
     Hex there;
 #if defined(__AVX2__)
@@ -33,24 +36,26 @@ inline Hex rotated(const Hex &hex, int corner) {
     return there;
 }
 
-// Hexes at one node: 8 * hex + corner of each.
+// Corners of hexes at one node, 8 * hex + corner each.
 using Star = std::span<const std::int32_t>;
 
+// Value of a patch's energy and its gradient by the node.
 struct ValueAndGradient {
     double value;
     V3<double> gradient;
 };
 
+// The hexes at one node in blocks of lanes. The methods with parameter `soft` are for delta > 0 if it is true.
 template <class T> class NodePatch {
   public:
-    // Room for as many hexes as meet at any node.
+    // Allocate for at most `most` hexes.
     explicit NodePatch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
 
-    // How many hexes there are.
+    // Number of hexes.
     int size() const { return size_; }
 
-    // Take the hexes at a node, in lengths so that their mean edge is 1 (each edge counted once a hex), or multiplied
-    // by `factor` if it is not 0. Returns the factor; 0 if the patch has no extent.
+    // Load the hexes at a node relative to it, scaled by `factor` or, if that is 0, to mean edge length 1 (each edge
+    // counted once per hex). Returns the factor; 0 if the patch has no extent.
     __attribute__((noinline)) double load(Points points, Hexes hexes, Star star, double factor = 0) {
         size_ = static_cast<int>(star.size());
         const Point &node = points[hexes[star[0] / 8][star[0] % 8]];
@@ -78,12 +83,12 @@ template <class T> class NodePatch {
         return factor;
     }
 
-    // Write the table. delta is meant for the lengths that the patch has now.
+    // Compute the table; delta is in units of the scaled patch.
     template <bool soft> inline __attribute__((always_inline)) void tabulate(double delta) {
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
             const auto &x = block.x.at;
-            // Corner tetrahedra as in CORNER_TETRAHEDRA, neighbours' beginning with the node.
+            // Corner tetrahedra as in CORNER_TETRAHEDRA; those of neighbours are rotated to begin with the node.
             add_own_tetrahedron(block.incident[0], x[3], x[4], x[1]);
             add_neighbour_tetrahedron(block.incident[1], x[1], x[5], x[2]);
             add_neighbour_tetrahedron(block.incident[2], x[3], x[2], x[7]);
@@ -94,7 +99,7 @@ template <class T> class NodePatch {
         }
     }
 
-    // Look along a direction: `value_along` displaces the node by alpha times it.
+    // Set the direction of `value_along`.
     void set_direction(const V3<double> &direction) {
         V3<T> d{broadcast<T>(direction.x), broadcast<T>(direction.y), broadcast<T>(direction.z)};
         squared_length_ = dot(direction, direction);
@@ -102,7 +107,7 @@ template <class T> class NodePatch {
             for (auto &t : blocks_[b].incident) t.along_g = dot(t.g, d), t.along_b = dot(t.b, d);
     }
 
-    // Sum over the hexes of eta(H)^p with the node displaced: (3.3) without its root, (B.20).
+    // Sum of eta(H)^p with the node displaced by alpha times the direction: (3.3) without its root, (B.20).
     template <bool soft>
     inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm power) const {
         double far = alpha * alpha * squared_length_, total = 0;
@@ -119,7 +124,7 @@ template <class T> class NodePatch {
         return total;
     }
 
-    // Value where the node is, and its gradient: (B.3), (B.21), (C.1). Leaves in the table what `hessian` begins with.
+    // Value and gradient at the node's position: (B.3), (B.21), (C.1). Stores the terms that `hessian` needs.
     template <bool soft>
     __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
         ValueAndGradient answer{};
@@ -143,7 +148,7 @@ template <class T> class NodePatch {
         return answer;
     }
 
-    // Second derivatives of the value where the node is: (B.19) mended, (B.22); as `value_and_gradient` has left it.
+    // Second derivatives at the node's position, (B.19) corrected, (B.22). Call value_and_gradient first.
     // d2 sigma vanishes, a determinant being linear in the place of one node (B.1).
     __attribute__((noinline)) SymmetricMatrix hessian() const {
         SymmetricMatrix answer{};
@@ -208,7 +213,7 @@ template <class T> class NodePatch {
         return total;
     }
 
-    // Of the sums of eta(T) of the hexes of block b.
+    // Sum of eta(H)^p over the hexes of block b, from their sums of eta(T).
     double sum_of_powers(T sum_of_eta, ObjectiveNorm power, int b) const {
         T energy = hex_energy(sum_of_eta, power.offset);
         if (power.p == 2) return sum(energy * energy, b);
@@ -240,7 +245,7 @@ template <class T> class NodePatch {
         t.b = broadcast<T>(-2.0) * a;
     }
 
-    // eta of a tetrahedron that does not hold the node.
+    // eta of a tetrahedron without the node.
     template <bool soft>
     static T constant_eta(const V3<T> &a, const V3<T> &b, const V3<T> &c, const V3<T> &d, double delta) {
         M3<T> s{b - a, c - a, d - a};

@@ -1,7 +1,8 @@
 // Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.
 //
-// Every hex writes its share into a block of its own; a node's row is the sum over the corners that meet there, always
-// in the same order, so that results do not depend on the number of threads.
+// Every hex writes its contributions at its own eight corners, (m, 8, 3); `gather` sums them at nodes, always in the
+// same order, so that results do not depend on the number of threads. points (n, 3), hexes (m, 8), omitted tetrahedra
+// (m,).
 #pragma once
 
 #include "energy/objective_norm.hpp"
@@ -9,17 +10,19 @@
 
 namespace hexmend {
 
-// Vectors at the eight corners of each hex.
-using CornerVectors = std::span<std::array<double, 24>>;
-
+// Write eta(H) = mean eta(T) - offset of every hex, (m,).
 void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
 
+// Write the gradient of sum eta(H)^p by the corners of every hex: (B.3), (B.21).
 void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
               CornerVectors shares);
 
+// Write the Hessian of sum eta(H)^p times a displacement, (B.19) corrected. values (k, 3) are the displacements of the
+// free nodes, slots (m, 8) the number of each corner among these, -1 if it is fixed.
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
                      OmittedCorners left_out, CornerVectors shares);
 
+// Write rows (k, 3): the sums of the contributions at each of `nodes` (k,), over its corners in ascending order.
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);
 
 }  // namespace hexmend

@@ -1,4 +1,4 @@
-// The loops of `objective`, over hexes side by side or, for T = double, one after another.
+// The loops of `objective`: blocks of hexes for T = Lanes, one hex after another for T = double.
 #pragma once
 
 #include "energy/objective.hpp"

@@ -1,16 +1,17 @@
-// What becomes of a hex's energy in the sum that is minimised, (3.3).
+// The power of a hex's energy in the objective, (3.3).
 #pragma once
 
 #include <cmath>
 
 namespace hexmend {
 
-// eta(H)^p with eta(H) = mean eta(T) - offset: offset is 1 in (B.20) and 0 in chapter 4, 4.1.1.
+// The objective is the p-norm of eta(H) = mean eta(T) - offset; kernels sum eta(H)^p. The offset is 1 in (B.20) and 0
+// in chapter 4, 4.1.1.
 struct ObjectiveNorm {
     double p = 2, offset = 1;
 };
 
-// First and second derivative of max(energy, 0)^p.
+// First and second derivative of max(eta, 0)^p by eta.
 struct PowerDerivatives {
     double first, second;
 };

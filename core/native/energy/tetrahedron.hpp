@@ -7,10 +7,11 @@
 //     d2 eta(V,W) = 2 f [ (V, W) - 2/(3 r) ((V, S)(C, W) + (C, V)(W, S))
 //                         - |S|^2/(3 r) d2 sigma(V, W) + |S|^2/(3 r^2) (2/3 + sigma/r) (C, V)(C, W) ]
 //
-// The second is (B.19), mended, with (B.3) put in for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing is
-// divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
+// The second is (B.19), corrected, with (B.3) substituted for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing
+// is divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
 //
-// A tetrahedron that is not `counted` is left out: f, to which energy and derivatives are in proportion, is 0.
+// A tetrahedron that is not `counted` is omitted: f, to which energy and derivatives are proportional, is 0. The
+// template parameter `soft` is true for delta > 0.
 #pragma once
 
 #include "simd/vectors.hpp"
@@ -19,21 +20,21 @@ namespace hexmend {
 
 constexpr double MIN_NORMAL = std::numeric_limits<double>::min(), MAX_FINITE = std::numeric_limits<double>::max();
 
-// h^(-2/3); +inf for h <= 0, for less than the least normal float and for what is no number.
+// h^(-2/3); INF for h below the smallest normal float, for h <= 0 and for NaN.
 //
-// A guess from the upper bits of h, then twice the series of q (1 - y)^(-1/3), y = 1 - h^2 q^3, to its fourth term: an
-// error of 0.04 becomes one of 3e-5, and then rounding is all that is left.
+// A first guess q from the upper bits of h is improved twice by the series of q (1 - y)^(-1/3), y = 1 - h^2 q^3, up to
+// its fourth term: the relative error falls from 0.04 to 3e-5 and then to rounding.
 template <class T> inline T power_minus_two_thirds(T h) {
     using B = bits_of<T>;
-    // The upper half of the bits of 2^52 (1023 + 1023 * 2/3 - 0.0446): makes those of h^(-2/3) right to 4 %.
+    // The upper half of the bits of 2^52 (1023 + 1023 * 2/3 - 0.0446): gives the bits of h^(-2/3) to 4 %.
     constexpr double MAGIC = static_cast<double>(7678276173719137280LL >> 32);
-    // Beside 2^52 a float's lower bits are those of an integer: this turns one into the other.
+    // The lower bits of a float between 2^52 and 2^53 are those of an integer: converts between the two.
     constexpr double WHOLE = 0x1p52;
     constexpr std::int64_t WHOLE_BITS = 0x4330000000000000LL;
     T upper = bit_cast<T>((bit_cast<B>(h) >> 32 & 0xffffffffLL) | WHOLE_BITS) - WHOLE;
     T q = bit_cast<T>(bit_cast<B>((MAGIC + WHOLE) - upper * (2.0 / 3.0)) << 32);
     for (int i = 0; i < 2; ++i) {
-        T cube_root = h * q;  // neither it nor its square leaves the range of floats
+        T cube_root = h * q;  // neither it nor its square overflows
         T y = 1.0 - cube_root * cube_root * q;
         q += q * y * (1.0 / 3.0 + y * (2.0 / 9.0 + y * (14.0 / 81.0)));
     }
@@ -41,19 +42,20 @@ template <class T> inline T power_minus_two_thirds(T h) {
     return h > MAX_FINITE ? broadcast<T>(0.0) : q;
 }
 
-// eta(H) of the sum of its eight eta(T), (B.20). Softened by delta, a hex better than perfect counts as perfect; one
-// that has no number, because corners coincide or overflow, is infinitely bad.
+// eta(H) from the sum of its eight eta(T), (B.20). With delta > 0 the value may fall below 0, which counts as 0; NaN,
+// from coinciding or overflowing corners, counts as INF.
 template <class T> inline T hex_energy(T sum, double offset) {
     T energy = sum * 0.125 - offset;
     return energy > 0.0 ? energy : energy <= 0.0 ? broadcast<T>(0.0) : broadcast<T>(INF);
 }
 
+// Result of `barrier`.
 template <class T> struct Barrier {
     T h, r;
 };
 
 // h(sigma) of (3.2) and r = sqrt(sigma^2 + 4 delta^2). For sigma < 0 it is 2 delta^2/(r - sigma), the same number
-// without cancellation. Where delta is 0 there is neither root nor quotient, and sigma^2 may overflow.
+// without cancellation. For delta = 0 neither root nor quotient is needed, and sigma^2 may overflow.
 template <bool soft, class T> inline Barrier<T> barrier(T sigma, double delta) {
     if constexpr (!soft) return {max(sigma, broadcast<T>(0.0)), abs(sigma)};
     T r = sqrt(sigma * sigma + 4 * delta * delta);
@@ -61,6 +63,7 @@ template <bool soft, class T> inline Barrier<T> barrier(T sigma, double delta) {
     return {sigma >= 0.0 ? 0.5 * u : 2 * delta * delta / u, r};
 }
 
+// eta(T) in its factors: f = h^(-2/3)/3 and square = |S|^2.
 template <class T> struct Energy {
     T f, square, sigma, r;
     T eta() const { return f * square; }  // (3.1)
@@ -76,17 +79,17 @@ template <bool soft, class T> inline Energy<T> energy(const M3<T> &s, double del
     return energy_of<soft>(s, determinant(s), delta, counted);
 }
 
-// What first and second derivatives are made of, for eta/8, the mean of eight being eta(H).
+// Coefficients of the first and second derivatives of eta/8; the mean of eight eta is eta(H).
 //
-// The gradient is k S - c C. The second derivative has k (V, W), -c d2 sigma(V, W), and, with P = mixed S + half C,
-// (C, V)(P, W) + (P, V)(C, W).
+// The gradient is k S - c C. The second derivative is k (V, W) - c d2 sigma(V, W) + (C, V)(P, W) + (P, V)(C, W) with
+// P = mixed S + half C.
 template <class T> struct Derivatives {
     T eta, k, c, mixed, half;
 };
 
 template <bool soft, class T>
 inline Derivatives<T> derivatives(const M3<T> &s, const M3<T> &cof, double delta, auto counted) {
-    // Without delta, whether an element is inverted is asked of the determinant that all kernels share.
+    // For delta = 0 the sign of sigma decides: use the determinant that all kernels share.
     T sigma = soft ? dot(s.u, cof.u) : determinant(s);
     auto e = energy_of<soft>(s, sigma, delta, counted);
     T over_r = counted ? 1.0 / e.r : broadcast<T>(0.0);
@@ -99,7 +102,7 @@ template <class T> inline M3<T> gradient(const Derivatives<T> &d, const M3<T> &s
     return {d.k * s.u - d.c * cof.u, d.k * s.v - d.c * cof.v, d.k * s.w - d.c * cof.w};
 }
 
-// What the columns of S and of C are along a direction A: (A, S) and (A, C).
+// Components of a direction A: (A, S) and (A, C).
 template <class T> struct DirectionalTerms {
     T s, c;
 
@@ -111,9 +114,9 @@ template <class T> struct DirectionalTerms {
 template <class T>
 inline M3<T> product(const Derivatives<T> &d, const M3<T> &s, const M3<T> &cof, const M3<T> &a,
                      const DirectionalTerms<T> &along) {
-    T p = d.mixed * along.c;                           // what multiplies S
-    T q = d.mixed * along.s + 2.0 * d.half * along.c;  // what multiplies C
-    // dC: its columns are av x w + v x aw, and so on round.
+    T p = d.mixed * along.c;                           // coefficient of S
+    T q = d.mixed * along.s + 2.0 * d.half * along.c;  // coefficient of C
+    // The columns of dC are av x w + v x aw and its cyclic permutations.
     return {
         p * s.u + q * cof.u + d.k * a.u - d.c * (cross(a.v, s.w) + cross(s.v, a.w)),
         p * s.v + q * cof.v + d.k * a.v - d.c * (cross(a.w, s.u) + cross(s.w, a.u)),

@@ -1,4 +1,4 @@
-// A symmetric matrix of 3 x 3 blocks by slots, as an assembled Hessian is, and what is done with its rows.
+// Symmetric matrix of 3 x 3 blocks, such as an assembled Hessian, and loops over its rows.
 #pragma once
 
 #include <cstring>
@@ -11,9 +11,8 @@
 
 namespace hexmend {
 
-// Vectors by slots have four numbers a slot, the fourth being 0: a row of a block is loaded as four numbers, the last
-// of which belongs to the row behind it, or to nobody, meets that 0 and counts nowhere. The array of blocks has one
-// block more than it needs.
+// Vectors have four numbers for each slot, the fourth being 0. A row of a block is loaded as four numbers, the last of
+// which belongs to the next row and is multiplied by that 0; the array of blocks therefore has one more block.
 template <class Real> struct Vec4Type {
     typedef Real type __attribute__((vector_size(4 * sizeof(Real))));
 };
@@ -25,7 +24,7 @@ template <class Real> inline Vec4<Real> load(const Real *from) {
     return x;
 }
 
-// A symmetric block, by its columns: times a vector without a sum across.
+// A symmetric block by its columns: its product with a vector needs no horizontal sum.
 template <class Real> struct Block {
     Vec4<Real> x, y, z;
 
@@ -43,7 +42,8 @@ template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
 
-// A matrix of blocks of one precision, for vectors of the same or another.
+// A matrix with blocks of type Real for vectors of type Number. bounds, row_start and columns are those of ordering.hpp
+// and sparsity.hpp.
 template <class Real, class Number = Real> class BlockMatrix {
   public:
     using V = Vec4<Number>;
@@ -58,33 +58,33 @@ template <class Real, class Number = Real> class BlockMatrix {
 
     std::int64_t size() const { return size_; }
 
-    // Sum of what body(begin, end, range) returns for the parts, or for the separators, taken side by side; in order.
+    // Call body(begin, end, range) for all parts, or separators, in parallel; returns the sum of its results, in order.
     template <class Body> double over_parts(const Body &body) { return over(0, parts_, body); }
     template <class Body> double over_separators(const Body &body) { return over(parts_, 2 * parts_ - 1, body); }
 
-    // The sum of the blocks of a row times t of their columns; the nearest, known last, comes last.
+    // Row i above the diagonal times t. The nearest column, which a back substitution computes last, comes last.
     V row_times(std::int32_t i, const V *t) const {
         V x{}, y{}, z{};
         for (auto s = row_start_[i + 1] - 1; s >= row_start_[i]; --s) {
             const V &of = t[columns_[s]];
             x += row(s, 0) * of, y += row(s, 1) * of, z += row(s, 2) * of;
         }
-        // Sums across, of the three at once.
+        // Horizontal sums of x, y and z.
         V xy = __builtin_shufflevector(x, y, 0, 4, 1, 5) + __builtin_shufflevector(x, y, 2, 6, 3, 7);
         V z0 = __builtin_shufflevector(z, V{}, 0, 4, 1, 5) + __builtin_shufflevector(z, V{}, 2, 6, 3, 7);
         return __builtin_shufflevector(xy, z0, 0, 1, 4, 5) + __builtin_shufflevector(xy, z0, 2, 3, 6, 7);
     }
 
-    // The blocks of a row, transposed, times p: added to w in the slots of their columns.
+    // Add the transposed blocks of row i times p to w at their columns.
     void add_transposed(std::int32_t i, const V &p, V *w) const {
         V x = p[0] - V{}, y = p[1] - V{}, z = p[2] - V{};
         for (auto s = row_start_[i]; s < row_start_[i + 1]; ++s)
             w[columns_[s]] += row(s, 0) * x + row(s, 1) * y + row(s, 2) * z;
     }
 
-    // From the first slot to the last: body(i, sum of the blocks left of the diagonal times what it returned there)
-    // returns that for slot i, and what is to be summed over all. `w` is zero before and after; what two parts add to
-    // one separator has a vector each.
+    // Forward substitution: body(i, lower) returns p for slot i and a summand; lower is the row left of the diagonal
+    // times the p of earlier slots. Returns the sum of the summands. w is zero before and after; it has two vectors,
+    // because two parts add to one separator.
     template <class Body> double forward(V *const (&w)[2], const Body &body) {
         double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
             V *below = w[part % 2];

@@ -10,10 +10,10 @@
 namespace hexmend {
 namespace {
 
-// D: a diagonal block with its least eigenvalue raised as in Algorithm A.4; and D^-1.
+// D, a diagonal block with its smallest eigenvalue raised as in Algorithm A.4, and D^-1.
 inline std::pair<SymmetricMatrix, SymmetricMatrix> make_positive_definite(SymmetricMatrix a) {
     {
-        // Of most blocks no eigenvalue need be known: positive ones of sum t and product det are none below det/t^2.
+        // Most blocks need no eigenvalues: if all are positive, none is below det/t^2, t being the trace.
         auto [adjugate, det] = adjugate_of(a);
         double t = a.xx + a.yy + a.zz;
         if (a.xx > 0 && adjugate.zz > 0 && det >= 0.001 * t * t * t && std::isfinite(t))
@@ -22,11 +22,11 @@ inline std::pair<SymmetricMatrix, SymmetricMatrix> make_positive_definite(Symmet
     auto [smallest, largest] = extreme_eigenvalues(a);
     double size = std::max(std::abs(smallest), std::abs(largest));
     if (size == 0) size = 1;
-    // So small a D beside the blocks off the diagonal would make the triangular solves grow without bound.
+    // Triangular solves diverge where D is too small relative to the off-diagonal blocks.
     a.add_to_diagonal(smallest < 0 ? 0.5 * size - smallest : std::max(0.001 * size - smallest, 0.0));
     auto [adjugate, det] = adjugate_of(a);
     if (det > 0) return {a, (1 / det) * adjugate};
-    double one = 1 / size;  // all but of rank 1 or 2: its scale alone
+    double one = 1 / size;  // numerically of rank 1 or 2: use its scale
     return {{size, 0, 0, size, 0, size}, {one, 0, 0, one, 0, one}};
 }
 
@@ -35,12 +35,12 @@ template <class V> inline double dot(const V &a, const V &b) {
     return static_cast<double>(product[0] + product[1] + product[2]);
 }
 
-// What an iteration works with.
+// State of the iteration, in the caller's workspace.
 template <class Real> class PreconditionedCG {
   public:
     using V = Vec4<Real>;
 
-    // Room that a system of so many slots needs, in numbers: three blocks and seven vectors a slot.
+    // Size of the workspace in numbers: three blocks and seven vectors for each slot, and alignment.
     static constexpr std::int64_t workspace_size(std::int64_t slots) { return 64 * slots + 16; }
 
     PreconditionedCG(BlockMatrix<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping,
@@ -69,7 +69,7 @@ template <class Real> class PreconditionedCG {
         });
     }
 
-    // The first residual, (D + L)^-1 right; its square.
+    // Compute the first residual, (D + L)^-1 right; returns its square.
     double start(std::span<const std::array<Real, 4>> right) {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
             residual_[i] = inverse_[i] * (load(right[i].data()) - below);
@@ -77,7 +77,7 @@ template <class Real> class PreconditionedCG {
         });
     }
 
-    // The next direction, v = D residual + beta v, and the solution of (D + U) t = v.
+    // Compute the next direction, v = D residual + beta v, and solve (D + U) t = v.
     void next_direction(Real beta) {
         auto back = [&](std::int32_t begin, std::int32_t end, int) {
             for (auto i = end - 1; i >= begin; --i) {
@@ -91,7 +91,7 @@ template <class Real> class PreconditionedCG {
         system_.over_parts(back);
     }
 
-    // product = t + (D + L)^-1 (v + rest t), that is (D + L)^-1 A t; its product with v.
+    // Compute product = (D + L)^-1 A t = t + (D + L)^-1 (v + rest t); returns its product with v.
     double curvature() {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
             V p = inverse_[i] * (v_[i] + rest_[i] * t_[i] - below);
@@ -100,7 +100,7 @@ template <class Real> class PreconditionedCG {
         });
     }
 
-    // One step on; the square of the residual.
+    // Advance x and the residual by alpha; returns the square of the residual.
     double advance(Real alpha, std::span<std::array<Real, 4>> x) {
         return sum_over_slots([&](std::int32_t i) {
             V there = load(x[i].data()) + alpha * t_[i];
@@ -110,8 +110,7 @@ template <class Real> class PreconditionedCG {
         });
     }
 
-    // Where the first direction is one of negative curvature: that direction; or, M having left the range of numbers,
-    // block Jacobi's.
+    // Write x for a first direction of negative curvature: that direction or, where it overflowed, block Jacobi's.
     void fall_back(bool finite, std::span<const std::array<Real, 4>> right, std::span<std::array<Real, 4>> x) {
         sum_over_slots([&](std::int32_t i) {
             V there = finite ? t_[i] : inverse_[i] * load(right[i].data());
@@ -124,7 +123,7 @@ template <class Real> class PreconditionedCG {
     BlockMatrix<Real> &system_;
     Block<Real> *positive_, *inverse_, *rest_;
     V *residual_, *scaled_, *v_, *t_, *product_;
-    // What rows have added to those below them; two parts that add to one separator have a vector each.
+    // Contributions of rows to later rows; two vectors, because two parts add to one separator.
     V *w_[2];
 
     double square_of_residual(std::int32_t i) {

@@ -1,13 +1,13 @@
 // Conjugate gradients with an assembled Hessian, preconditioned by symmetric Gauss-Seidel.
 //
 // The preconditioner is M = (D + L) D^-1 (D + U), D being the diagonal blocks made positive definite, L and U = L' the
-// blocks below and above it. Eisenstat's way (1981) costs two triangular solves an iteration, and no product: for
+// blocks below and above it. Eisenstat's trick (1981) costs two triangular solves an iteration, and no product: for
 // t = (D + U)^-1 v and A = L + A_D + U,
 //
 //     (D + L)^-1 A t = t + (D + L)^-1 (v - (2 D - A_D) t).
 //
-// Slots are in parts that share no block, and behind them in separators, each between two parts: the parts are solved
-// side by side, and then the separators, or the other way round, with nothing left out.
+// Slots are ordered in parts that share no block, followed by separators (ordering.hpp): forward substitution solves
+// the parts in parallel and then the separators, backward substitution the reverse.
 #pragma once
 
 #include <tuple>
@@ -16,15 +16,22 @@
 
 namespace hexmend {
 
-// How a solve ended.
+// Result of a solve: converged; stopped at a direction of negative curvature; too many iterations.
 enum SolveStatus { DONE, NEGATIVE_CURVATURE, TOO_MANY };
 
+// Solve A x = right in the precision of the matrix; returns the iterations and the SolveStatus.
+//
+// off (blocks + 1, 9) are the blocks above the diagonal, diagonal (k, 6) those on it; damping adds that multiple of D
+// to the diagonal. The tolerance is relative to the right-hand side, both in the norm of M^-1; `most` limits the
+// iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate so far or, if it is the first, that
+// direction. Vectors are (k, 4), see block_matrix.hpp; work has 64 k + 16 numbers.
 template <class Real>
 std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
                           std::span<const std::array<Real, 6>> diagonal, double damping,
                           std::span<const std::array<Real, 4>> right, double tolerance, int most,
                           std::span<std::array<Real, 4>> x, std::span<Real> work);
 
+// Write y = A x (k, 3) in double precision; row k of x and y belongs to slot order[k].
 template <class Real>
 void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
              std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,

@@ -7,7 +7,7 @@
 namespace hexmend {
 namespace {
 
-// Free nodes that are joined by edges: the graph that is walked.
+// The graph of the free nodes, joined by edges of hexes.
 class Graph {
   public:
     Graph(Indices start, Indices items, std::span<const bool> free)
@@ -21,8 +21,8 @@ class Graph {
 
     int degree(Node i) const { return degree_[i]; }
 
-    // Walk breadth first from the last node of `order`, appending what is not `seen`, of each node's neighbours those
-    // of fewer neighbours first. Returns where the last level begins.
+    // Append the nodes that are not `seen`, breadth first from the last node of `order`, neighbours of lower degree
+    // first. Returns the start of the last level.
     std::size_t walk(std::vector<Node> &order, std::vector<bool> &seen) const {
         std::vector<std::pair<int, Node>> next;
         std::size_t at = order.size() - 1, level = at;
@@ -50,8 +50,8 @@ class Graph {
     std::vector<int> degree_;
 };
 
-// Cuthill and McKee 1969: breadth first from a node at the rim. It knows no coordinates: a mesh that is turned is
-// smoothed as it was before.
+// Cuthill and McKee 1969: breadth first from a peripheral node. Coordinates play no part, so that rotating a mesh does
+// not change how it is smoothed.
 std::vector<Node> cuthill_mckee(const Graph &graph) {
     std::vector<Node> order, trial;
     std::vector<bool> seen(graph.nodes()), tried(graph.nodes());
@@ -59,7 +59,7 @@ std::vector<Node> cuthill_mckee(const Graph &graph) {
         if (!graph.has(i) || seen[i]) continue;
         trial.assign(1, i);
         auto last = graph.walk(trial, tried);
-        // Of those that are farthest from anywhere one is at the rim.
+        // A node of the last level is peripheral.
         Node rim = *std::min_element(trial.begin() + last, trial.end(), [&](Node a, Node b) {
             return std::pair(graph.degree(a), a) < std::pair(graph.degree(b), b);
         });
@@ -69,7 +69,7 @@ std::vector<Node> cuthill_mckee(const Graph &graph) {
     return order;
 }
 
-// The least and greatest of some numbers.
+// Range of some numbers.
 struct Range {
     int least = std::numeric_limits<int>::max(), greatest = -1;
 
@@ -78,7 +78,7 @@ struct Range {
     bool one() const { return least == greatest; }
 };
 
-// The part (from 0), or separator (from `parts`), of each node, -1 if it is fixed; none if so many parts are too thin.
+// The part (from 0) or separator (from `parts`) of each node, -1 if it is fixed; empty if a part would be too thin.
 std::vector<int> partition_slots(const std::vector<Node> &order, Hexes hexes, std::size_t nodes, int parts) {
     std::vector<int> part(nodes, -1);
     for (std::size_t k = 0; k < order.size(); ++k) part[order[k]] = static_cast<int>(k * parts / order.size());
@@ -91,7 +91,7 @@ std::vector<int> partition_slots(const std::vector<Node> &order, Hexes hexes, st
         for (Node i : hex)
             if (part[i] == met.greatest) range[i] = parts + met.greatest - 1;
     }
-    // A hex may hold nodes of one part and of one separator at its side, no others.
+    // A hex may have nodes of one part and one adjacent separator only.
     for (const Hex &hex : hexes) {
         Range part_met, separator_met;
         for (Node i : hex)

@@ -1,5 +1,5 @@
-// In what order an assembled Hessian keeps the free nodes: neighbours near each other, in parts that share no hex, each
-// two of them with a separator between them, and the separators behind the parts.
+// Ordering of the free nodes in an assembled Hessian: neighbours close to each other, in parts that share no hex; each
+// two consecutive parts have a separator, and all separators follow the parts.
 #pragma once
 
 #include <utility>
@@ -8,6 +8,8 @@
 
 namespace hexmend {
 
+// The node in each slot (k,), and the bounds (2 parts,) of the parts and then the separators. ring_start and ring are
+// `node_rings`, free (n,). The number of parts is reduced until none is too thin.
 std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
                                                                     std::span<const bool> free, int parts);
 

@@ -7,7 +7,7 @@
 namespace hexmend {
 namespace {
 
-// Pieces that the slots are shared out in: each needs a number for every slot.
+// Chunks of slots that are processed in parallel; each needs a number for every slot.
 constexpr std::int64_t PIECES = 16;
 
 }  // namespace

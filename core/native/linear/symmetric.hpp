@@ -10,17 +10,19 @@
 
 namespace hexmend {
 
+// A symmetric matrix by its upper triangle.
 struct SymmetricMatrix {
     double xx, xy, xz, yy, yz, zz;
 
     void add_to_diagonal(double shift) { xx += shift, yy += shift, zz += shift; }
 };
 
+// Smallest and largest eigenvalue.
 struct Extremes {
     double smallest, largest;
 };
 
-// Least and greatest eigenvalue, by the trigonometric solution of the characteristic equation (Smith 1961).
+// Smallest and largest eigenvalue, by the trigonometric solution of the characteristic equation (Smith 1961).
 inline Extremes extreme_eigenvalues(const SymmetricMatrix &a) {
     double mean = (a.xx + a.yy + a.zz) / 3;
     double x = a.xx - mean, y = a.yy - mean, z = a.zz - mean;
@@ -36,12 +38,13 @@ inline SymmetricMatrix operator*(double k, const SymmetricMatrix &a) {
     return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
 }
 
+// Result of `adjugate_of`.
 struct Adjugate {
     SymmetricMatrix adjugate;
     double det;
 };
 
-// The cofactors, and the determinant by which they are divided in the inverse.
+// The adjugate and the determinant; their quotient is the inverse.
 inline Adjugate adjugate_of(const SymmetricMatrix &a) {
     double xx = a.yy * a.zz - a.yz * a.yz, xy = a.xz * a.yz - a.xy * a.zz, xz = a.xy * a.yz - a.xz * a.yy;
     double yy = a.xx * a.zz - a.xz * a.xz, yz = a.xy * a.xz - a.xx * a.yz, zz = a.xx * a.yy - a.xy * a.xy;

@@ -21,6 +21,9 @@ using Hexes = std::span<const Hex>;
 using Indices = std::span<const std::int32_t>;
 using Numbers = std::span<const double>;
 
+// Vectors at the eight corners of each hex, (m, 8, 3).
+using CornerVectors = std::span<std::array<double, 24>>;
+
 // Throw std::invalid_argument if the caller's arrays do not fit each other.
 inline void expect(bool fits, const char *what) {
     if (!fits) throw std::invalid_argument(what);

@@ -1,4 +1,4 @@
-// GETMe's element step: a hex grows more regular by itself.
+// GETMe's element step, which makes one hex more regular.
 //
 // Corner k goes to c_k + s n_k/sqrt(|n_k|), centroid and outward normal of the triangle that the centroids of the three
 // faces at k make in the dual octahedron; the hex is scaled about its centroid to its old mean edge length and blended
@@ -9,13 +9,14 @@
 
 namespace hexmend {
 
-// The sum of the lengths of the twelve edges.
+// Sum of the lengths of the twelve edges.
 template <class T> inline T edge_lengths(const Corners<T> &x) {
     T total{};
     unroll<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
     return total;
 }
 
+// Targets of the corners of a hex: scale s, blend rho in (0, 1].
 template <class T> inline Corners<T> element_step(const Corners<T> &x, double s, double rho) {
     V3<T> f[6], middle;
     unroll<6>([&](auto i) {
@@ -37,9 +38,7 @@ template <class T> inline Corners<T> element_step(const Corners<T> &x, double s,
     return y;
 }
 
-// Places (m, 8, 3): a row for each hex.
-using CornerVectors = std::span<std::array<double, 24>>;
-
+// Write the targets of the corners of every hex, (m, 8, 3).
 void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places);
 
 }  // namespace hexmend
