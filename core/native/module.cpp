@@ -1,5 +1,5 @@
-// The compiled module: every family of kernels is a submodule of it. HEXMEND_MODULE names the processors that this
-// build is for.
+// The extension module; each family of kernels is a submodule. HEXMEND_MODULE is the name of the build, after the
+// processors that it is for.
 #include <nanobind/nanobind.h>
 
 #include "simd/lanes.hpp"
@@ -23,9 +23,10 @@ HEXMEND_FAMILIES(DECLARE)
 NB_MODULE(HEXMEND_MODULE, m) {
     using namespace nb::literals;
     m.attr("LANES") = hexmend::LANES;
-    m.def("threads", &hexmend::threads, "How many threads share a loop of the calling thread.");
-    m.def("set_threads", &hexmend::set_threads, "count"_a, "Choose it for the calling thread.");
-    m.def("set_default_threads", &hexmend::set_default_threads, "count"_a, "Choose it for threads that have not.");
+    m.def("threads", &hexmend::threads, "Number of threads that run a loop of the calling thread.");
+    m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");
+    m.def("set_default_threads", &hexmend::set_default_threads, "count"_a,
+          "Set the number for threads that have not set one.");
 #define BIND(name)                                   \
     {                                                \
         nb::module_ family = m.def_submodule(#name); \

@@ -1,4 +1,4 @@
-// Which build of the kernels this processor can run: asked before any of them is loaded.
+// Module with the processor's level, which decides the build of the kernels to load.
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 
@@ -9,8 +9,8 @@
 
 static const char *level() {
 #if defined(_WIN32) && defined(__x86_64__)
-    // By Windows' own numbers, since what Clang's questions need is not linked there: 41 is AVX-512 F, 40 AVX2, 38 SSE
-    // 4.2. What else a level asks for came to processors together with these.
+    // Clang's __builtin_cpu_supports does not link on Windows. Feature 41 is AVX-512 F, 40 AVX2, 38 SSE 4.2; processors
+    // with these have the other features of the level.
     return IsProcessorFeaturePresent(41) ? "v4"
          : IsProcessorFeaturePresent(40) ? "v3"
          : IsProcessorFeaturePresent(38) ? "v2"

@@ -1,4 +1,4 @@
-// Compiled so that the compiler finds no vectors by itself either.
+// Compiled without automatic vectorisation.
 #include "scalar_reference.hpp"
 
 #include "energy/objective_loops.hpp"

@@ -1,4 +1,5 @@
-// What kernels are measured against: the same formulas, one hex after another, without vectors.
+// Scalar reference of the kernels: the same formulas, one hex after another, without vectors. `hexmend bench` measures
+// kernels against it. Functions and arguments are those of objective.hpp and local.hpp.
 #pragma once
 
 #include "energy/objective.hpp"

@@ -1,7 +1,7 @@
-// How NumPy's arrays become the spans that kernels take, and what they make becomes arrays.
+// Type casters: NumPy arrays to the spans that kernels take, and `OwnedArray` to NumPy arrays.
 //
-// A span is bound to an array of its very type, contiguous and of its width, without a copy: anything else is a
-// TypeError that says what was expected. What is written must be writable.
+// An array must have the span's type and width and be contiguous; it is never copied. Anything else is a TypeError that
+// says what is expected. Arrays that a kernel writes must be writable.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -36,7 +36,7 @@ template <class T> struct type_caster<std::span<T>> {
     using Number = typename Scalar<T>::type;
     static constexpr std::size_t width = WIDTH<std::remove_const_t<T>>;
     using Array = ndarray<Number, c_contig, device::cpu>;
-    // Vectors at the eight corners of each hex are (m, 8, 3) to those who call.
+    // Vectors at the eight corners of each hex are (m, 8, 3) in Python.
     using Shaped =
         std::conditional_t<width == 1, ndarray<Number, ndim<1>, c_contig, device::cpu>,
                            std::conditional_t<width == 24, ndarray<Number, shape<-1, 8, 3>, c_contig, device::cpu>,
@@ -97,11 +97,10 @@ namespace hexmend {
 namespace nb = nanobind;
 using namespace nb::literals;
 
-// Gives the interpreter's lock away while it lives.
+// Releases the interpreter's lock (GIL) during its lifetime.
 //
-// A thread that comes back from a kernel while the interpreter is being shut down never gets the lock again: Python
-// before 3.14 ends it by pthread_exit, whose unwinding would end the process with an error. It sleeps until the process
-// is gone instead, as it does from 3.14 on.
+// A thread that returns from a kernel during the interpreter's shutdown does not get the lock back: Python before 3.14
+// ends it by pthread_exit, whose unwinding would abort the process. Here it sleeps until the process ends, as in 3.14.
 class GilRelease {
   public:
     GilRelease() : state_(PyEval_SaveThread()) {}
@@ -123,7 +122,7 @@ class GilRelease {
     PyThreadState *state_;
 };
 
-// Kernels run without the interpreter's lock, so that a window stays alive beside them.
+// Kernels run without the GIL, so that the window stays responsive.
 using ReleaseGil = nb::call_guard<GilRelease>;
 
 }  // namespace hexmend

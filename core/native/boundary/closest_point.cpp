@@ -10,8 +10,8 @@ namespace {
 
 using Vector = V3<double>;
 
-constexpr std::int32_t LEAF = 4;  // pieces that a leaf holds at most
-constexpr int DEEPEST = 64;       // halving 2^31 pieces goes half as deep
+constexpr std::int32_t LEAF = 4;  // largest number of pieces in a leaf
+constexpr int DEEPEST = 64;       // depth of the stack; halving 2^31 pieces needs half of it
 constexpr std::int64_t POINTS_PER_CHUNK = 256;
 
 Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
@@ -36,7 +36,7 @@ struct TreeBuilder {
         }
     }
 
-    // Adds the tree of order[begin] to order[end - 1]: halves along the longest side of their centres' box.
+    // Append the tree of order[begin] to order[end - 1], halved along the longest side of the box of their centres.
     void add(std::int32_t begin, std::int32_t end) {
         Point low{INF, INF, INF}, high{-INF, -INF, -INF}, first = low, last = high;
         for (std::int32_t s = begin; s < end; ++s)
@@ -64,6 +64,7 @@ struct TreeBuilder {
     }
 };
 
+// Squared distance of x from a box.
 double square_to(const Box &box, const Point &x) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
@@ -73,13 +74,13 @@ double square_to(const Box &box, const Point &x) {
     return sum;
 }
 
-// How far along a + t d, 0 <= t <= 1, the point closest to a + p is.
+// Parameter t in [0, 1] of the point of the segment a + t d closest to a + p.
 double along(const Vector &d, const Vector &p) {
     double whole = square(d);
     return whole > 0 ? std::clamp(dot(p, d) / whole, 0.0, 1.0) : 0.0;
 }
 
-// Shares of the corners at the point of a triangle (a, a + u, a + v) that is closest to a + p.
+// Barycentric coordinates of the point of the triangle (a, a + u, a + v) closest to a + p.
 Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
     Vector n = cross(u, v);
     double whole = square(n);
@@ -87,13 +88,14 @@ Barycentric nearest(const Vector &u, const Vector &v, const Vector &p) {
         double second = dot(cross(p, v), n) / whole, third = dot(cross(u, p), n) / whole;
         if (second >= 0 && third >= 0 && second + third <= 1) return {1 - second - third, second, third};
     }
-    // Beyond its edges, or a triangle that has no area: on one of its edges.
+    // Outside the triangle, or a triangle without area: the closest point is on an edge.
     double one = along(u, p), two = along(v, p), three = along(v - u, p - u);
     Barycentric edges[3] = {{1 - one, one, 0}, {1 - two, 0, two}, {0, 1 - three, three}};
     double far[3] = {square(one * u - p), square(two * v - p), square(u + three * (v - u) - p)};
     return edges[std::min_element(far, far + 3) - far];
 }
 
+// Replace `best` if piece `number` is closer to x.
 void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t number, const Point &x) {
     Vector a = vector(points[piece[0]]), u = vector(points[piece[1]]) - a, p = vector(x) - a, place;
     Barycentric weights;
@@ -106,7 +108,7 @@ void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t
         weights = nearest(u, v, p);
         place = a + (weights[1] * u + weights[2] * v);
         for (int k = 0; k < 3; ++k)
-            if (weights[k] == 1) place = vector(points[piece[k]]);  // to the last bit
+            if (weights[k] == 1) place = vector(points[piece[k]]);  // exactly
     }
     double far = square(place - vector(x));
     if (far < best.square) best = {far, number, {place.x, place.y, place.z}, weights};
@@ -130,7 +132,7 @@ ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough)
         std::pair<std::int32_t, double> one{at + 1, square_to(boxes[at + 1], x)};
         std::pair<std::int32_t, double> other{link, square_to(boxes[link], x)};
         if (one.second < other.second) std::swap(one, other);
-        waiting[size++] = one, waiting[size++] = other;  // the nearer first
+        waiting[size++] = one, waiting[size++] = other;  // the nearer is popped first
     }
     return best;
 }

@@ -1,7 +1,7 @@
-// The closest point of a surface: triangles and segments in trees of boxes, one tree for each curve and patch.
+// The closest point of a surface, by a tree of bounding boxes for each curve and patch.
 //
-// A piece is a triangle (a, b, c), or a segment (a, b, b). Pieces are ordered by tree; a tree's leaf holds some that
-// follow each other.
+// A piece is a triangle (a, b, c) or a segment (a, b, b) of points. Pieces are ordered by tree; a leaf of a tree holds
+// a range of them.
 #pragma once
 
 #include <tuple>
@@ -11,38 +11,42 @@
 namespace hexmend {
 
 using Piece = std::array<Node, 3>;
-using Barycentric = std::array<double, 3>;  // of the corners of a piece
-using Box = std::array<double, 6>;          // least x, y, z, greatest x, y, z
-// Of a leaf its first piece and how many it holds; else the second child (the first follows its parent) and 0.
+using Barycentric = std::array<double, 3>;  // coordinates in a piece
+using Box = std::array<double, 6>;          // smallest x, y, z, largest x, y, z
+// Of a leaf: its first piece and their number. Of an inner box: its second child and 0; the first child follows its
+// parent.
 using TreeLink = std::array<std::int32_t, 2>;
 
+// Result of a query; piece is -1 where there is none.
 struct ClosestPoint {
     double square = INF;  // of the distance
     std::int32_t piece = -1;
     Point place{};
-    Barycentric weights{};  // of the piece's corners
+    Barycentric weights{};
 };
 
-// What `closest` of a whole array sees; for kernels that move nodes one by one.
+// Trees over pieces, for queries of single points.
 struct BoxTrees {
     Points points;
     std::span<const Piece> pieces;
     std::span<const Box> boxes;
     std::span<const TreeLink> links;
 
-    // The point closest to x in the tree that begins at `root`, or any whose square distance is at most `enough`; no
-    // piece where x is not finite.
+    // The point closest to x in the tree with that root, or any point at a squared distance of at most `enough`; none
+    // where x is not finite.
     ClosestPoint closest(const Point &x, std::int32_t root, double enough = 0) const;
 };
 
-// The order of pieces in trees, the boxes and links of all trees, and where each begins. Tree t is made of the pieces
-// start[t] to start[t + 1] - 1, of which there is at least one.
+// Build trees: returns the order of the pieces (k,), boxes (b, 6) and links (b, 2) of all trees, and the root of each.
+// Tree t has the pieces start[t] to start[t + 1] - 1, at least one.
 std::tuple<OwnedArray<std::int32_t>, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, OwnedArray<std::int32_t>>
 trees(Points points, std::span<const Piece> pieces, Indices start);
 
-// The boxes of trees whose points have moved.
+// Update the boxes of trees after their points have moved.
 void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLink> links, std::span<Box> boxes);
 
+// For each x (j, 3), write the piece (j,), closest point (j, 3) and barycentric weights (j, 3) in the tree roots[j];
+// `enough` is a distance at which a point counts as closest.
 void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const TreeLink> links,
              Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
              std::span<Barycentric> weights);

@@ -20,7 +20,7 @@ void weighted_means(std::span<const std::array<double, 24>> places, Numbers weig
     });
 }
 
-// Share of a node's step that is left after so many halvings: the last gives it up.
+// Fraction of a move that remains after 0, 1, ... MAX_HALVINGS halvings: the last one gives the move up.
 constexpr double STEP_FRACTIONS[] = {1, 0.5, 0.25, 0.125, 0};
 constexpr int MAX_HALVINGS = 4;
 

@@ -14,13 +14,13 @@ inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) 
     return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
-// Where node i goes: to the mean, put back if it slides.
+// Target of node i: the mean, projected if the node slides.
 inline Point target(Points points, Indices ring_start, Indices ring, Node i, const SlidingSurface *surface) {
     Point mean = ring_mean(points, ring_start, ring, i);
     return surface && surface->slides(i) ? surface->project_unless_inverting(points, i, mean) : mean;
 }
 
-// What is asked of a hex; never inlined, so that a hex that did not move is what it was to the last bit.
+// Quality of a hex, or only whether it is sound. Not inlined, so that an unmoved hex gets the same bits from each call.
 template <bool by_quality> __attribute__((noinline)) Quality<double> evaluate_hex(Points points, const Hex &hex) {
     SingleHex x(points, hex);
     if constexpr (by_quality) return x.quality();
@@ -30,7 +30,7 @@ template <bool by_quality> __attribute__((noinline)) Quality<double> evaluate_he
 template <bool by_quality>
 std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
                            Indices ring, Indices nodes, const SlidingSurface *surface) {
-    // Hexes as they are now, once somebody has asked: a move that is kept has judged them already.
+    // Quality of the hexes at their present positions, where `known`: an accepted move has evaluated them.
     std::vector<Quality<double>> now(hexes.size()), after(widest(start));
     std::vector<std::uint8_t> known(hexes.size());
     std::int64_t rejected = 0;

@@ -24,7 +24,7 @@ OwnedArray<std::int32_t> levels(Indices ring_start, Indices ring, std::span<cons
                 queue.push_back(ring[s]);
             }
     }
-    std::replace(level.begin(), level.end(), -1, deepest + 1);  // no way leads there
+    std::replace(level.begin(), level.end(), -1, deepest + 1);  // not connected
     return {std::move(level)};
 }
 

@@ -7,22 +7,22 @@
 namespace hexmend {
 namespace {
 
-// The one of two hexes that has the lesser key; of equal ones, that of the lower number.
+// The hex of smaller key, or of lower number if the keys are equal.
 inline std::int32_t winner_of(Numbers key, std::int32_t a, std::int32_t b) {
     return key[a] < key[b] || (key[a] == key[b] && a < b) ? a : b;
 }
 
-// Ask for what is needed soon. The worst hex is anywhere, and its neighbourhood in no cache: to wait for one thing
-// after the other takes longer than all arithmetic.
+// Prefetch what is needed soon. The worst hex is anywhere in memory, so that waiting for its neighbourhood would take
+// longer than the arithmetic.
 template <class... T> inline void prefetch(const T *...it) { (__builtin_prefetch(it), ...); }
 
-// A move, to be undone.
+// A move that may be undone.
 struct Move {
     Node node;
     Point from;
 };
 
-// Undo moves down to `count` of them, the latest first.
+// Undo the latest moves until `count` remain.
 void undo(std::vector<Move> &moves, std::size_t count, std::span<Point> points) {
     for (; moves.size() > count; moves.pop_back()) points[moves.back().node] = moves.back().from;
 }
@@ -43,7 +43,7 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
     while (i > 1) {
         i /= 2;
         auto winner = winner_of(key, tree[2 * i], tree[2 * i + 1]);
-        if (winner == tree[i] && winner != h) break;  // h neither won this match nor wins it now: all above stands
+        if (winner == tree[i] && winner != h) break;  // h neither won this match nor wins it now: the rest is unchanged
         tree[i] = winner;
     }
 }
@@ -51,7 +51,7 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
 std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
                       Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
                       std::span<bool> sound, double s, double rho, double penalty, double setback) {
-    if (candidates.empty()) return 0;  // a queue of nothing has no first
+    if (candidates.empty()) return 0;  // an empty queue has no first element
     const std::size_t m = hexes.size();
     std::vector<double> key(q.begin(), q.end());
     for (std::size_t h = 0; h < m; ++h) key[h] -= !sound[h];  // inverted hexes come first

@@ -1,23 +1,31 @@
-// The second stage of GETMe: the worst hex takes its step, again and again, from a priority queue.
+// Sequential GETMe: the worst hex takes its element step, again and again.
 //
-// The queue is a tournament: a binary tree, kept in an array, with the hexes as leaves and in each node the one of its
-// two children that has the lesser key. The root, number 1, is the hex of least key; a changed key replays the matches
-// on the way from its leaf to the root.
+// The priority queue is a tournament tree in an array: leaves are hexes, and each inner node is the child of smaller
+// key. The root, number 1, is the hex of smallest key; a changed key replays the matches from its leaf to the root.
 #pragma once
 
 #include "boundary/sliding_surface.hpp"
 
 namespace hexmend {
 
+// The tree (2 k,) of the hexes (k,) by key (m,).
 OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes);
 
+// Update the tree after the key of the hex at a leaf, 0 to k - 1, has changed.
 void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf);
 
+// Take as many element steps as there are candidates; returns the number of rejected steps, those that inverted a sound
+// hex.
+//
+// points (n, 3) end at the best state reached: fewest inverted hexes, then highest q_min, then highest q_mean. free
+// (n,); candidates (k,) are the hexes with a free node; q (m,) and sound (m,) are changed to those of the last state. s
+// and rho are the scale and blend of the element step. After its step a hex ranks as better by `penalty` if it was
+// accepted and by `setback` if it was rejected, so that it is not chosen for ever.
 std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
                    Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
                    double setback);
 
-// The same with nodes that slide among them.
+// The same with nodes that slide on a surface; nullptr for none.
 std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
                       Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
                       std::span<bool> sound, double s, double rho, double penalty, double setback);

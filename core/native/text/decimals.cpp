@@ -6,7 +6,7 @@
 namespace hexmend {
 namespace {
 
-// Text that grows number by number.
+// Text to which numbers are appended.
 class Lines {
   public:
     template <class Number> void put(Number value, char behind) {
@@ -20,7 +20,7 @@ class Lines {
     std::string &&text() && { return std::move(text_); }
 
   private:
-    static constexpr std::size_t LONGEST = 32;  // of one number and what stands behind it
+    static constexpr std::size_t LONGEST = 32;  // of one number and the separator after it
     std::string text_;
 };
 
@@ -32,7 +32,7 @@ std::string decimal_lines(Numbers values, std::int64_t width, Integers last) {
     std::int64_t column = 0, row = 0;
     for (double value : values) {
         bool end = ++column % width == 0;
-        if (value != value) value = std::abs(value);  // what is no number has no sign
+        if (value != value) value = std::abs(value);  // NaN is written without sign
         lines.put(value, end && last.empty() ? '\n' : ' ');
         if (end && !last.empty()) lines.put(last[row++], '\n');
     }

@@ -1,4 +1,4 @@
-// Numbers as text.
+// Numbers as decimal text.
 #pragma once
 
 #include <string>
@@ -9,8 +9,11 @@ namespace hexmend {
 
 using Integers = std::span<const std::int64_t>;
 
+// Rows of `width` numbers, each the shortest text that reads back as the same float; `last` has an integer to append to
+// each row, or is empty.
 std::string decimal_lines(Numbers values, std::int64_t width, Integers last);
 
+// Rows of `width` integers.
 std::string whole_lines(Integers values, std::int64_t width);
 
 }  // namespace hexmend

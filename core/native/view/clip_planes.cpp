@@ -41,7 +41,7 @@ void touched(Points points, Hexes hexes, Points normals, Numbers offsets, bool n
             }
             bool before = high<offsets[p] - slack[p], beyond = low> offsets[p] + slack[p];
             answer[h * planes + p] = !(before || beyond);
-            if (notch ? before : beyond) {  // nothing of this hex is seen in any section
+            if (notch ? before : beyond) {  // no section shows this hex
                 std::fill_n(&answer[h * planes], planes, false);
                 break;
             }

@@ -12,14 +12,14 @@ namespace {
 using Vector = V3<double>;
 using PixelPoint = std::array<float, 3>;  // x and y in pixels, height towards the light
 
-// Where a corner is looked at: a little inside its polygon, or its neighbour's wall would hide it; and so many pixels
-// before it along the normal. A surface that light grazes is that much steeper, but a point before it is then that much
-// higher above it: 0.71 pixels are enough at every angle.
+// A corner is sampled at a point shifted by the fraction INSET towards its polygon's centre, since an adjacent wall
+// would hide the corner itself, and by OFFSET_PIXELS along the normal: 0.71 pixels avoid self-shadowing at every angle,
+// because the height of the shifted point above the surface grows with the surface's slope.
 constexpr double INSET = 0.15, OFFSET_PIXELS = 1.0;
 
 Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
 
-// The picture of a scene from far along a direction: how high it reaches in each pixel of a square.
+// Height map of a scene seen along a direction: the largest height in each pixel of a square.
 class HeightMap {
   public:
     HeightMap(const Vector &direction, const Vector &middle, double radius, std::int64_t side)
@@ -40,11 +40,11 @@ class HeightMap {
                 static_cast<float>(dot(q, w_))};
     }
 
-    // Draw the triangle: every pixel whose centre lies in it, row by row.
+    // Rasterise a triangle: every pixel whose centre lies in it.
     void draw(PixelPoint a, PixelPoint b, PixelPoint c) {
         float area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
         if (area == 0) return;
-        // Height as a function of the place: z = z_0 + x gx + y gy.
+        // Height in the triangle: z = z_0 + x gx + y gy.
         float gx = ((b[2] - a[2]) * (c[1] - a[1]) - (c[2] - a[2]) * (b[1] - a[1])) / area;
         float gy = ((c[2] - a[2]) * (b[0] - a[0]) - (b[2] - a[2]) * (c[0] - a[0])) / area;
         if (b[1] < a[1]) std::swap(a, b);
@@ -64,14 +64,14 @@ class HeightMap {
         }
     }
 
-    // Whether nothing is between a place and the light.
+    // True if nothing lies between a point and the light.
     bool lit(const PixelPoint &at) const {
         auto x = static_cast<std::int64_t>(at[0]), y = static_cast<std::int64_t>(at[1]);
         return x < 0 || y < 0 || x >= side_ || y >= side_ || heights_[y * side_ + x] <= at[2];
     }
 
   private:
-    // The first pixel inside the picture whose centre is beyond x.
+    // The first pixel in the map whose centre is beyond x.
     int first(float x) const { return std::clamp(static_cast<int>(std::ceil(x - 0.5f)), 0, static_cast<int>(side_)); }
 
     std::int64_t side_;
@@ -80,7 +80,7 @@ class HeightMap {
     std::vector<float> heights_;
 };
 
-// The places where corners are looked at.
+// Sample points of all corners.
 std::vector<Vector> sample_points(Points points, PointNumbers start, PointNumbers places, Points normals,
                                   double before) {
     std::vector<Vector> answer(places.size());
@@ -101,7 +101,7 @@ std::vector<Vector> sample_points(Points points, PointNumbers start, PointNumber
 void normals(Points points, PointNumbers start, PointNumbers places, std::span<Point> answer) {
     for (std::size_t i = 0; i + 1 < start.size(); ++i) {
         Vector first = vector(points[places[start[i]]]),
-               sum{};  // seen from there, or rounding far from 0 is all there is
+               sum{};  // relative to a corner: far from the origin absolute products are all rounding
         for (std::int64_t at = start[i] + 2; at < start[i + 1]; ++at)
             sum += cross(vector(points[places[at - 1]]) - first, vector(points[places[at]]) - first);
         double size = length(sum);
@@ -130,7 +130,7 @@ void shine(Points points, PointNumbers start, PointNumbers places, Points normal
         HeightMap map(direction, middle, radius, side);
         std::vector<PixelPoint> flat(points.size());
         for (std::size_t p = 0; p < points.size(); ++p) flat[p] = map.place(vector(points[p]));
-        std::vector<std::int64_t> turned;  // to the light; the others lie behind these
+        std::vector<std::int64_t> turned;  // facing the light; these hide the other polygons
         for (std::int64_t i = 0; i + 1 < std::int64_t(start.size()); ++i)
             if (dot(direction, vector(normals[i])) > 0) turned.push_back(i);
         for (std::int64_t i : turned)

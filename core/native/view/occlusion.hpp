@@ -1,15 +1,16 @@
-// How much of the light from all around reaches the corners of polygons that stand in each other's way.
+// Ambient occlusion of polygons.
 #pragma once
 
 #include "view/polygons.hpp"
 
 namespace hexmend {
 
-// The normal of each polygon's mean plane, of length 1; 0 for one without an area.
+// Write the unit normal of each polygon's mean plane; 0 for a polygon without area.
 void normals(Points points, PointNumbers start, PointNumbers places, std::span<Point> answer);
 
-// Adds to `light` and `whole`, a number a corner (see `Places`), what reaches it from each of some directions, and what
-// would if nothing stood in its way.
+// Add the light from `directions` (j, 3), unit vectors, that reaches each corner of the polygons to `light`, and the
+// light that would reach it without occlusion to `whole`; both have one number per corner. `side` is the size of the
+// height maps in pixels.
 void shine(Points points, PointNumbers start, PointNumbers places, Points normals, Points directions, std::int64_t side,
            std::span<double> light, std::span<double> whole);
 

@@ -8,7 +8,7 @@
 namespace hexmend {
 namespace {
 
-// Write what lies before one plane to `then`.
+// Clip a polygon at one plane: now to then.
 void cut_off(const std::vector<Point> &now, const Point &normal, double offset, std::vector<Point> &then) {
     then.clear();
     const Point *last = &now.back();
@@ -27,7 +27,7 @@ void cut_off(const std::vector<Point> &now, const Point &normal, double offset, 
 
 }  // namespace
 
-// Sutherland and Hodgman's walk around each polygon, plane after plane (Communications of the ACM 17, 1974).
+// Sutherland and Hodgman's clipping (Communications of the ACM 17, 1974).
 std::tuple<OwnedArray<double, 3>, OwnedArray<std::int64_t>, OwnedArray<std::int64_t>> before(
     Points points, PointNumbers start, PointNumbers places, PointNumbers owner, Points normals, Numbers offsets) {
     OwnedArray<double, 3> kept;

@@ -6,19 +6,19 @@
 namespace hexmend {
 namespace {
 
-// Whether a face can be seen: no kept hex is behind it.
-bool open(Node behind, HexMask keep) { return behind < 0 || !keep[behind]; }
+// True if a face is visible: no shown hex is behind it.
+bool is_visible(Node behind, HexMask keep) { return behind < 0 || !keep[behind]; }
 
 }  // namespace
 
 Faces visible(std::int64_t nodes, Hexes hexes, Neighbours neighbours, HexMask keep) {
     OwnedArray<Node> used, owners;
     OwnedArray<Node, 4> quads;
-    std::vector<Node> place(nodes, -1);  // of a node among those that are used
+    std::vector<Node> place(nodes, -1);  // position of a node among those used
     for (std::size_t h = 0; h < hexes.size(); ++h) {
         if (!keep[h]) continue;
         for (int f = 0; f < 6; ++f) {
-            if (!open(neighbours[h][f], keep)) continue;
+            if (!is_visible(neighbours[h][f], keep)) continue;
             std::array<Node, 4> quad;
             for (int k = 0; k < 4; ++k) {
                 Node node = hexes[h][FACES[f][k]];
@@ -43,7 +43,7 @@ Faces faces_of(Hexes hexes, Neighbours neighbours, HexMask keep, HexMask chosen,
         Node first = static_cast<Node>(nodes.values.size());
         nodes.values.insert(nodes.values.end(), hexes[h].begin(), hexes[h].end());
         for (int f = 0; f < 6; ++f) {
-            if (!hidden && !open(neighbours[h][f], keep)) continue;
+            if (!hidden && !is_visible(neighbours[h][f], keep)) continue;
             auto [a, b, c, d] = FACES[f];
             quads.values.insert(quads.values.end(), {first + a, first + b, first + c, first + d});
             owners.values.push_back(static_cast<Node>(h));
@@ -56,7 +56,7 @@ void outer(Neighbours neighbours, HexMask keep, std::span<bool> answer) {
     for (std::size_t h = 0; h < keep.size(); ++h) {
         bool seen = false;
         if (keep[h])
-            for (Node behind : neighbours[h]) seen |= open(behind, keep);
+            for (Node behind : neighbours[h]) seen |= is_visible(behind, keep);
         answer[h] = seen;
     }
 }

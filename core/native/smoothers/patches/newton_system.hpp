@@ -1,7 +1,7 @@
 // Newton's system of a patch with several free nodes: H s = -g.
 //
-// Up to EXACT unknowns it is solved by Cholesky's decomposition within the envelope of the matrix, and above by
-// conjugate gradients, whose products are taken hex by hex, so that no matrix is needed.
+// Up to MAX_DIRECT_UNKNOWNS it is solved by an envelope Cholesky decomposition, larger ones by matrix-free conjugate
+// gradients.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@
 
 namespace hexmend {
 
-// Most unknowns of a system that is decomposed; the residual that conjugate gradients leave of another, relative to the
-// gradient; and what a pivot, or a curvature, has to exceed to count as positive, relative to the largest entry.
+// Largest number of unknowns for the decomposition; residual of conjugate gradients relative to the gradient; and the
+// smallest pivot or curvature, relative to the largest entry, that counts as positive.
 constexpr int MAX_DIRECT_UNKNOWNS = 600;
 constexpr double CG_TOLERANCE = 0.03, MIN_PIVOT = 1e-12;
 
+// The system of a patch: slots (k, 8) are the numbers of the corners of its hexes among its nodes, -1 if fixed.
 class NewtonSystem {
   public:
     std::vector<double> gradient;
@@ -38,7 +39,7 @@ class NewtonSystem {
         }
     }
 
-    // The largest diagonal entry; INF where one is no number.
+    // Largest absolute diagonal entry; INF if one is not finite.
     double largest() const {
         double most = 0;
         for (auto &d : diagonal_)
@@ -116,7 +117,7 @@ class NewtonSystem {
         }
     }
 
-    // By H + shift I = L L'.
+    // Solve by the decomposition H + shift I = L L'.
     bool solve_by_cholesky(double shift, std::span<double> s) {
         assemble(shift);
         const auto n = unknowns();
@@ -164,7 +165,7 @@ class NewtonSystem {
             });
     }
 
-    // By conjugate gradients, preconditioned by the blocks of each node.
+    // Solve by conjugate gradients with block Jacobi preconditioning.
     bool solve_by_conjugate_gradients(double shift, std::span<double> s) const {
         const auto n = unknowns();
         std::vector<SymmetricMatrix> blocks(diagonal_);
