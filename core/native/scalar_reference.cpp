@@ -6,25 +6,25 @@
 
 namespace hexmend {
 
-void plain::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out,
-                     std::span<double> eta) {
+void scalar::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out,
+                      std::span<double> eta) {
     (delta != 0 ? energies_of<true, double> : energies_of<false, double>)(points, hexes, delta, offset, left_out, eta);
 }
 
-void plain::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
-                     CornerVectors shares) {
+void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+                      CornerVectors shares) {
     (delta != 0 ? gradient_of<true, double> : gradient_of<false, double>)(points, hexes, delta, power, left_out,
                                                                           shares);
 }
 
-void plain::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                            OmittedCorners left_out, CornerVectors shares) {
+void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
+                             OmittedCorners left_out, CornerVectors shares) {
     (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, power,
                                                                         left_out, shares);
 }
 
-void plain::sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-                  int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts) {
+void scalar::sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+                   int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts) {
     NodeStepSettings settings{direction, delta, power, {first, shrink, c1, cuts}};
     (delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, hexes, start, corners, groups, nodes,
                                                                     settings);

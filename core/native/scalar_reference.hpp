@@ -5,7 +5,7 @@
 #include "energy/objective.hpp"
 #include "energy/objective_norm.hpp"
 
-namespace hexmend::plain {
+namespace hexmend::scalar {
 
 void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
 
@@ -18,4 +18,4 @@ void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, dou
 void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
            int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts);
 
-}  // namespace hexmend::plain
+}  // namespace hexmend::scalar

@@ -1,5 +1,5 @@
 """
-The closest point of a surface, by a tree of boxes for each curve and patch of it.
+The closest point of a surface, by a tree of bounding boxes for each of its curves and patches.
 
 A piece, a row of pieces (k, 3) int32, is a triangle (a, b, c) of points (n, 3), or a segment (a, b, b).
 """
@@ -27,8 +27,6 @@ def closest(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), orde
     """
     The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.
 
-    A point that is no further than `enough` will do for the closest.
-
-    Writes the piece (j,) int32, -1 where x is not finite, the place on it (j, 3), and the weights of the piece's
-    corners there (j, 3).
+    A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is not
+    finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).
     """

@@ -22,13 +22,13 @@ def solve(bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C',
     """
     Solve A x = right, stopping at a direction of negative curvature (Steihaug 1983).
 
-    What has been reached before such a direction is the solution, or, if it is the first, that direction.
-    Vectors, (k, 4) with a fourth number 0, are in the precision of the matrix, sums over them in double.
+    At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4) with a
+    fourth number 0, are in the precision of the matrix; sums over them are in double precision.
 
-    bounds, row_start, columns: pattern, as `ordering` makes it. off (blocks + 1, 9): the blocks above the
-    diagonal, the last being none. diagonal (k, 6). damping: this multiple of D is added to the diagonal.
-    tolerance: of the residual, relative to the right-hand side, both in the norm of M^-1. most: limit of
-    iterations. work (64 k + 16,): room to work in. Writes x; returns iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.
+    bounds, row_start, columns: pattern, as `ordering` makes it. off (blocks + 1, 9): blocks above the diagonal, and
+    an unused one. diagonal (k, 6). damping: this multiple of D is added to the diagonal. tolerance: of the residual
+    relative to the right-hand side, both in the norm of M^-1. most: limit of iterations. work (64 k + 16,):
+    workspace. Writes x; returns the iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.
     """
 
 @overload
@@ -37,7 +37,7 @@ def product(bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C
 @overload
 def product(bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], row_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], off: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], order: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], x: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], y: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
-    A times x (k, 3), in double precision; writes y (k, 3).
+    Product A x of x (k, 3) in double precision; writes y (k, 3).
 
-    Row k of both is that of slot order[k].
+    Row k of x and y belongs to slot order[k].
     """

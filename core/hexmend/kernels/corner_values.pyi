@@ -1,6 +1,6 @@
 """
-What values at nodes (n,) float64 come to over the corners of each hex; on one thread, because a window's
-thread asks. Each writes of_hexes (m,) float64.
+Values of hexes, of_hexes (m,) float64, from values at their nodes, of_nodes (n,) float64. The functions run
+on one thread, because the window's thread calls them.
 """
 
 from typing import Annotated

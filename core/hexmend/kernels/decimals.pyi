@@ -1,4 +1,4 @@
-"""Numbers as text."""
+"""Numbers as decimal text, in bytes."""
 
 from typing import Annotated
 

@@ -1,6 +1,5 @@
 """
-Metrics of every hex by its six faces: angles, warpage, and the volume that they enclose. Each writes arrays
-(m,) float64.
+Metrics of every hex from its six faces. Each function writes arrays (m,) float64.
 """
 
 from typing import Annotated

@@ -1,5 +1,6 @@
 """
-GETMe: nodes go to means of the places that their hexes give them. start, corners: `Topology.node_corners`.
+Simultaneous GETMe: a node moves to the weighted mean of the targets that its hexes' element steps give it.
+start, corners: `Topology.node_corners`.
 """
 
 from typing import Annotated
@@ -10,16 +11,15 @@ from numpy.typing import NDArray
 
 def weighted_means(places: Annotated[NDArray[numpy.float64], dict(shape=(None, 8, 3), order='C', device='cpu', writable=False)], weights: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], targets: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
-    Write, for each of `nodes`, the mean of its places (m, 8, 3) in its hexes by the hexes' weights (m,);
+    Means of the targets, places (m, 8, 3), of each of `nodes` over its hexes, by their weights (m,); writes
     targets (n, 3).
     """
 
 def relax(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], sound: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], harmed: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], moved: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> int:
     """
-    Shorten the moves of nodes until no hex that was sound is inverted; returns how many were shortened.
+    Shorten moves until no hex that was sound is inverted; returns the number of shortened moves.
 
-    points (n, 3): before the move. sound (m,) bool: whether a hex was sound there. harmed (k,) int32: hexes
-    that are not sound any more at `moved` (n, 3), which is changed. Round after round, the nodes of all
-    inverted hexes halve their moves, the fourth time to nothing; a hex none of whose nodes moves is what it
-    was, so the rounds end.
+    points (n, 3): before the move. sound (m,) bool: hexes that were sound there. harmed (k,) int32: those that are
+    inverted at `moved` (n, 3), which is changed. In each round the nodes of all inverted hexes halve their moves,
+    the fourth time to nothing; a hex none of whose nodes moves is as it was, so the rounds end.
     """

@@ -1,5 +1,5 @@
 """
-Who touches whom: nodes and hexes, faces, edges, colours. All linear in the number of hexes.
+Incidence of nodes, hexes, faces and edges; components and colours. All linear in the number of hexes.
 """
 
 from typing import Annotated
@@ -17,15 +17,15 @@ def node_corners(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), or
 
 def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 6))], int]:
     """
-    The hex behind each face, (m, 6) int32, and how many faces are crowded; start, corners: `node_corners`.
+    The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners: `node_corners`.
 
-    -1 where there is no hex, or where more than two share the face. Those are crowded, a defect of the mesh,
-    counted once a hex. A face belongs to its lowest node; there those of equal nodes are paired.
+    -1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect of the
+    mesh, and is counted once per hex.
     """
 
 def components(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], used: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
     """
-    How many parts, hanging together by nodes, the used nodes (n,) bool are in.
+    Number of components, connected by nodes, of the nodes with used (n,) bool.
     """
 
 def node_rings(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int = 2147483647) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
@@ -49,13 +49,12 @@ def grouped(colour: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C
 
 def layers(neighbours: Annotated[NDArray[numpy.int32], dict(shape=(None, 6), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
-    How many hexes lie between each hex and the boundary, counted through faces, breadth first; (m,) int32.
+    Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.
 
-    0 for a hex with a boundary face; one more than the deepest layer where no way leads to the boundary.
+    0 for a hex with a boundary face; one more than the deepest layer where there is no way to the boundary.
     """
 
 def around(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rings: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:
     """
-    True for the hexes `chosen` (k,) int32 and those reached from them in so many steps from hex to hex
-    through a common node; (m,) bool.
+    The hexes `chosen` (k,) int32 and those within `rings` steps between hexes with a common node; (m,) bool.
     """

@@ -1,6 +1,6 @@
 """
-Metrics of every hex by its edges, diagonals, principal axes and corners, as the Verdict library defines
-them: SAND2007-1751. Each writes arrays (m,) float64.
+Metrics of every hex from its edges, diagonals, principal axes and corners, as the Verdict library defines them:
+SAND2007-1751. Each function writes arrays (m,) float64.
 """
 
 from typing import Annotated

@@ -1,6 +1,4 @@
-"""
-How much of the light from all around reaches polygons that stand in each other's way.
-"""
+"""Ambient occlusion of polygons."""
 
 from typing import Annotated
 
@@ -10,18 +8,16 @@ from numpy.typing import NDArray
 
 def normals(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], places: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], answer: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')]) -> None:
     """
-    One normal a polygon, that of its mean plane; on one thread, because a window's thread asks.
+    Unit normals of the mean planes of polygons; writes answer (k, 3), 0 for a polygon without area.
 
-    Polygon i of k has the points (p, 3) at places[start[i]:start[i + 1]], in order; start (k + 1,) and places
-    int64. Writes answer (k, 3), of length 1, or 0 for a polygon without an area.
+    Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,) and places
+    int64. It runs on one thread, because the window's thread calls it.
     """
 
 def shine(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], places: Annotated[NDArray[numpy.int64], dict(shape=(None,), order='C', device='cpu', writable=False)], normals: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], directions: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], side: int, light: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], whole: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    Light from some directions (j, 3) float64, of length 1, at every corner of polygons with their normals
-    (k, 3).
+    Light from directions (j, 3) float64, unit vectors, at every corner of polygons with normals (k, 3).
 
-    From each direction the polygons that are turned to it are drawn into a square of so many pixels a side.
-    Adds to light (start[-1],) float64 what reaches each corner, and to whole what would if nothing stood in
-    its way.
+    For each direction the polygons that face it are rasterised into a height map of `side` x `side` pixels. Adds
+    the light that reaches each corner to light (start[-1],) float64, and the light without occlusion to whole.
     """

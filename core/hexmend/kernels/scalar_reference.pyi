@@ -1,5 +1,5 @@
 """
-What kernels are measured against and compared with: the same formulas, one hex after another.
+Scalar reference of the kernels: the same formulas without vectors, one hex after another.
 """
 
 from typing import Annotated

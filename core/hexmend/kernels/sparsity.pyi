@@ -1,5 +1,5 @@
 """
-Which free nodes share a hex: the pattern of a Hessian's 3 x 3 blocks above its diagonal.
+Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes of a hex.
 """
 
 from typing import Annotated
@@ -12,12 +12,10 @@ PAIRS: int = 28
 
 def pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int = 2147483647) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 28))]]:
     """
-    The blocks above the diagonal, and which of them each pair of a hex's corners adds to; all int32.
+    Blocks above the diagonal, and the block that each pair of a hex's corners adds to; all int32.
 
-    slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,
-    corners: `Topology.node_corners`.
-
-    Returns row_start (k + 1,) and columns, ascending within a row; and target (m, 28), of the pairs 01, 02...
-    07, 12...: the block, -1 where a corner is fixed, -2 - slot where both are one node: that node's own.
+    slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start, corners:
+    `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and target (m, 28), of
+    the pairs 01, 02... 07, 12...: the block, -1 where a corner is fixed, -2 - slot where both are one node.
     OverflowError where there are more than `most` blocks.
     """

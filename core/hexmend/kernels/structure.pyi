@@ -1,6 +1,4 @@
-"""
-How many hexes meet in an edge: what tells where the blocks of a mesh join.
-"""
+"""Valence of edges, from which the block structure of a mesh follows."""
 
 from typing import Annotated
 

@@ -1,5 +1,5 @@
 """
-In what order a sweep visits nodes, and which of them it can visit at the same time.
+Order of the nodes in a sweep, and groups of nodes that can be stepped at the same time.
 """
 
 from typing import Annotated
@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 def levels(ring_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], ring: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
     """
-    How many edges lie between each node and the nearest of those where `start` (n,) bool is true; (n,) int32.
+    Number of edges between each node and the nearest where `start` (n,) bool is true; (n,) int32.
 
-    One more than the deepest level where no way leads there.
+    One more than the deepest level where there is no way.
     """
 
 def wavefronts(start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], sequence: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
-    The nodes of a sequence in groups, so that no hex holds two nodes of one group, and a node's group is behind
-    those of all earlier nodes that share a hex with it: (group_start, nodes), both int32.
+    Groups of the nodes of a sequence: (group_start, nodes), both int32.
 
-    Visiting group after group, each side by side, does what visiting the sequence one by one does.
+    No hex has two nodes of one group, and a node's group follows those of all earlier nodes of its hexes. Sweeping
+    group after group, the nodes of each in parallel, equals sweeping the sequence.
     """

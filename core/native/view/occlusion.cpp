@@ -130,14 +130,14 @@ void shine(Points points, PointNumbers start, PointNumbers places, Points normal
         HeightMap map(direction, middle, radius, side);
         std::vector<PixelPoint> flat(points.size());
         for (std::size_t p = 0; p < points.size(); ++p) flat[p] = map.place(vector(points[p]));
-        std::vector<std::int64_t> turned;  // facing the light; these hide the other polygons
+        std::vector<std::int64_t> facing;  // facing the light; these hide the other polygons
         for (std::int64_t i = 0; i + 1 < std::int64_t(start.size()); ++i)
-            if (dot(direction, vector(normals[i])) > 0) turned.push_back(i);
-        for (std::int64_t i : turned)
+            if (dot(direction, vector(normals[i])) > 0) facing.push_back(i);
+        for (std::int64_t i : facing)
             for (std::int64_t at = start[i] + 2; at < start[i + 1]; ++at)
                 map.draw(flat[places[start[i]]], flat[places[at - 1]], flat[places[at]]);
         reached[d].resize(places.size());
-        for (std::int64_t i : turned)
+        for (std::int64_t i : facing)
             for (std::int64_t at = start[i]; at < start[i + 1]; ++at) reached[d][at] = map.lit(map.place(looked[at]));
     });
     parallel_chunks(start.size() - 1, 1024, [&](std::int64_t begin, std::int64_t end) {

@@ -6,7 +6,8 @@ namespace hexmend {
 
 void bind_closest_point(nb::module_ &m) {
     m.doc() =
-        "The closest point of a surface, by a tree of boxes for each curve and patch of it.\n\n"
+        "The closest point of a surface, by a tree of bounding boxes for each of its curves and patches.\n"
+        "\n"
         "A piece, a row of pieces (k, 3) int32, is a triangle (a, b, c) of points (n, 3), or a segment (a, b, b).";
     m.def("trees", &trees, "points"_a, "pieces"_a, "start"_a, ReleaseGil(),
           "Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.\n\n"
@@ -14,13 +15,13 @@ void bind_closest_point(nb::module_ &m) {
           "of all trees, and the box that is the root of each, (t,) int32.");
     m.def("refit", &refit, "points"_a, "pieces"_a, "links"_a, "boxes"_a, ReleaseGil(),
           "Writes the boxes of trees whose points have moved; pieces are ordered as `trees` says.");
-    m.def("closest", &closest, "points"_a, "pieces"_a, "boxes"_a, "links"_a, "x"_a, "roots"_a, "enough"_a, "piece"_a,
-          "places"_a, "weights"_a, ReleaseGil(),
-          "The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.\n\n"
-          "A point that is no further than `enough` will do for the closest.\n\n"
-          "Writes the piece (j,) int32, -1 where x is not finite, the place on it (j, 3), and the weights of the "
-          "piece's\n"
-          "corners there (j, 3).");
+    m.def(
+        "closest", &closest, "points"_a, "pieces"_a, "boxes"_a, "links"_a, "x"_a, "roots"_a, "enough"_a, "piece"_a,
+        "places"_a, "weights"_a, ReleaseGil(),
+        "The point closest to each of x (j, 3) in the tree of its root (j,); pieces are ordered as `trees` says.\n"
+        "\n"
+        "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is not\n"
+        "finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).");
 }
 
 }  // namespace hexmend

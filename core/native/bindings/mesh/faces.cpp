@@ -5,9 +5,7 @@
 namespace hexmend {
 
 void bind_faces(nb::module_ &m) {
-    m.doc() =
-        "Metrics of every hex by its six faces: angles, warpage, and the volume that they enclose. Each writes arrays\n"
-        "(m,) float64.";
+    m.doc() = "Metrics of every hex from its six faces. Each function writes arrays (m,) float64.";
     m.def("angles", &angles, "points"_a, "hexes"_a, "smallest"_a, "largest"_a, ReleaseGil(),
           "Angles between adjacent edges of the faces, four corners of six faces, in degrees; 0 and 180 where an edge "
           "has\n"

@@ -6,16 +6,19 @@
 namespace hexmend {
 
 void bind_incidence(nb::module_ &m) {
-    m.doc() = "Who touches whom: nodes and hexes, faces, edges, colours. All linear in the number of hexes.";
+    m.doc() = "Incidence of nodes, hexes, faces and edges; components and colours. All linear in the number of hexes.";
     m.def("node_corners", &node_corners, "hexes"_a, "n"_a, ReleaseGil(),
           "Corners of hexes at each of n nodes, as compressed rows (start (n + 1,), corners (8 m,)), both int32.\n\n"
           "Row i is corners[start[i]:start[i + 1]]: numbers 8 * hex + corner, ascending.");
     m.def("face_neighbours", &face_neighbours, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
-          "The hex behind each face, (m, 6) int32, and how many faces are crowded; start, corners: `node_corners`.\n\n"
-          "-1 where there is no hex, or where more than two share the face. Those are crowded, a defect of the mesh,\n"
-          "counted once a hex. A face belongs to its lowest node; there those of equal nodes are paired.");
+          "The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners: "
+          "`node_corners`.\n"
+          "\n"
+          "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect of "
+          "the\n"
+          "mesh, and is counted once per hex.");
     m.def("components", &components, "hexes"_a, "used"_a, ReleaseGil(),
-          "How many parts, hanging together by nodes, the used nodes (n,) bool are in.");
+          "Number of components, connected by nodes, of the nodes with used (n,) bool.");
     m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, ReleaseGil(),
           "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
           "OverflowError where the rows have more than `most` items.");
@@ -25,11 +28,11 @@ void bind_incidence(nb::module_ &m) {
     m.def("grouped", &grouped, "colour"_a, "count"_a, ReleaseGil(),
           "Nodes grouped by colour, each group in node order: (start (count + 1,), nodes), both int32.");
     m.def("layers", &layers, "neighbours"_a, ReleaseGil(),
-          "How many hexes lie between each hex and the boundary, counted through faces, breadth first; (m,) int32.\n\n"
-          "0 for a hex with a boundary face; one more than the deepest layer where no way leads to the boundary.");
+          "Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.\n"
+          "\n"
+          "0 for a hex with a boundary face; one more than the deepest layer where there is no way to the boundary.");
     m.def("around", &around, "hexes"_a, "start"_a, "corners"_a, "chosen"_a, "rings"_a, ReleaseGil(),
-          "True for the hexes `chosen` (k,) int32 and those reached from them in so many steps from hex to hex\n"
-          "through a common node; (m,) bool.");
+          "The hexes `chosen` (k,) int32 and those within `rings` steps between hexes with a common node; (m,) bool.");
 }
 
 }  // namespace hexmend

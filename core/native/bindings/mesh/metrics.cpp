@@ -6,8 +6,9 @@ namespace hexmend {
 
 void bind_metrics(nb::module_ &m) {
     m.doc() =
-        "Metrics of every hex by its edges, diagonals, principal axes and corners, as the Verdict library defines\n"
-        "them: SAND2007-1751. Each writes arrays (m,) float64.";
+        "Metrics of every hex from its edges, diagonals, principal axes and corners, as the Verdict library defines "
+        "them:\n"
+        "SAND2007-1751. Each function writes arrays (m,) float64.";
     m.def("lengths", &lengths, "points"_a, "hexes"_a, "edge_ratio"_a, "stretch"_a, "diagonal"_a, ReleaseGil(),
           "Ratios of edges and diagonals; E the twelve edges' lengths, D the four diagonals'.\n\n"
           "edge_ratio is max E / min E; +inf where an edge has no length. stretch is sqrt(3) min E / max D; 0 where\n"

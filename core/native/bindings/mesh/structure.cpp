@@ -6,7 +6,7 @@
 namespace hexmend {
 
 void bind_structure(nb::module_ &m) {
-    m.doc() = "How many hexes meet in an edge: what tells where the blocks of a mesh join.";
+    m.doc() = "Valence of edges, from which the block structure of a mesh follows.";
     m.def("edges", &edges, "hexes"_a, "start"_a, "corners"_a, "neighbours"_a, "most"_a = MOST_ITEMS, ReleaseGil(),
           "Every edge once, with the number of hexes around it: (ends (e, 2) int32, valence (e,) int32, outside (e,)\n"
           "bool).\n\n"

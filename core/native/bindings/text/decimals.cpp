@@ -18,7 +18,7 @@ template <class Make> nb::bytes text(const Make &make) {
 }  // namespace
 
 void bind_decimals(nb::module_ &m) {
-    m.doc() = "Numbers as text.";
+    m.doc() = "Numbers as decimal text, in bytes.";
     m.def(
         "decimal_lines",
         [](Numbers values, std::int64_t width, Integers last) {
