@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend.kernels import patches as kernels
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.topology import CSR
 from hexmend.parameters import Parameter
 
 _SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, low in (("size", 1), ("overlap", 0)))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.iteration import Step
 from hexmend.kernels import local
 from hexmend.kernels import patches as kernels
 from hexmend.kernels import sliding as on_surface
