@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.mesh.fields import members
@@ -250,3 +251,6 @@ class Topology:
         """
         rings = self.rings
         return wavefronts.levels(rings.start, rings.items, as_bools(start, "start", self.n))
+
+
+__getattr__ = exports(__name__)

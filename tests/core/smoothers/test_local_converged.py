@@ -5,8 +5,8 @@ import itertools
 import pytest
 
 from hexmend.smoothers import METHODS
+from tests.core.boundary.solids import ball, slid
 from tests.core.grids import scrambled
-from tests.core.surface.solids import ball, slid
 
 
 @pytest.mark.parametrize("boundary", ["fixed", "slide"])

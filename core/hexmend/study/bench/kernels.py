@@ -14,6 +14,7 @@ from hexmend.gallery import make
 from hexmend.gallery.gallery_mesh import scrambled
 from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads
 from hexmend.run import StoppingCriteria, smooth
+from hexmend.study.bench.section import BenchSection
 
 #: How often each is timed.
 _TIMES = 15
