@@ -1,4 +1,4 @@
-"""The house keeps its floors: a module imports only from floors below its own, and the core knows no window."""
+"""Layers of core and app: a module imports only from layers below its own, without circles; the core needs no window."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ import ast
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from graphlib import CycleError, TopologicalSorter
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# From the ground up; an import goes down, or stays inside one package's own folder.
+# From the lowest layer up; an import goes down, or stays inside one package.
 CORE = [
-    {"aliases", "arrays", "errors", "signal_guard"},
+    {"aliases", "arrays", "errors", "hooks", "signal_guard"},
     {"figures", "html_repr", "parameters", "registry", "toml_text"},
     {"kernels"},
     {"mesh"},
@@ -48,9 +50,9 @@ APP = [
     {"cli", "notebook"},
     {"__main__"},
 ]
-# Of these folders none imports another.
+# None of the packages in this one imports another.
 SIBLINGS = "features"
-# The public face stands above the core's floors: of them only the command line may look at it.
+# The package itself, which exports names of all layers: in the core only these import from it.
 SEES_THE_FACE = {"cli", "__main__"}
 WINDOWS = (
     "PySide6",
@@ -65,20 +67,25 @@ WINDOWS = (
     "pyqtgraph",
     "hexmend_app",
 )
-# The one module of the core that may name one of them: it is imported when its functions are called.
+# Modules of the core that may import one of these, each when its functions are called.
 CONVERTS = {("interop", "pyvista_grid"): "pyvista"}
 
 
 def sources(folder: Path) -> list[tuple[Path, tuple[str, ...]]]:
-    """Every source file below `folder` and its module's path from there; never none."""
+    """List the source files below `folder`, each with its module's path from there."""
     found = [(path, path.relative_to(folder).with_suffix("").parts) for path in sorted(folder.rglob("*.py"))]
     assert found, f"there are no sources in {folder}"
     return found
 
 
 def imported(path: Path) -> Iterator[tuple[str, int]]:
-    """What a file imports, at any depth of it, as dotted names with lines; `from a import b` gives `a.b`."""
+    """List the dotted names that a file imports anywhere, with lines; `from a import b` gives `a.b`.
+
+    Imports for type checking, inside functions and by `import_module("...")` are included.
+    """
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "import_module":
+            yield from ((word.value, node.lineno) for word in node.args[:1] if isinstance(word, ast.Constant))
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -87,7 +94,7 @@ def imported(path: Path) -> Iterator[tuple[str, int]]:
 
 
 def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -> list[str]:
-    """The imports in `package` that go up or sideways, and the modules that have no floor."""
+    """List the imports in `package` that go up or sideways, and the modules without a layer."""
     level = {name: floor for floor, names in enumerate(floors) for name in names}
     rows = []
     for path, parts in sources(package):
@@ -95,13 +102,13 @@ def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -
         if mine == "__init__":
             continue
         if mine not in level:
-            rows.append(f"{path}: {mine!r} has no floor: give it one in {Path(__file__).name}")
+            rows.append(f"{path}: {mine!r} has no layer: give it one in {Path(__file__).name}")
             continue
         for name, line in imported(path):
             where = f"{path}:{line} imports {name}"
             root, *below = name.split(".")
             if root == "":
-                rows.append(f"{where}: write the whole name, so that floors can be seen")
+                rows.append(f"{where}: write the absolute name")
             elif root == package.name and mine == SIBLINGS and below[:1] == [mine] and len(parts) > 1:
                 if below[1:2] and below[1] != parts[1]:
                     rows.append(f"{where}, a sibling of {parts[1]}: features meet in the session")
@@ -115,6 +122,66 @@ def broken(package: Path, floors: Sequence[set[str]], sees_the_face: set[str]) -
     return rows
 
 
+def import_graph(package: Path) -> dict[str, set[str]]:
+    """Map each module of `package` to the modules that it imports, packages above those included.
+
+    A module's own packages are left out: Python has begun to import them whenever the module is imported.
+    """
+    modules = {".".join((package.name, *parts)).removesuffix(".__init__"): path for path, parts in sources(package)}
+    graph: dict[str, set[str]] = {name: set() for name in modules}
+    for name, path in modules.items():
+        for target, _ in imported(path):
+            words = target.split(".")
+            reached = {".".join(words[:count]) for count in range(1, len(words) + 1)} & modules.keys()
+            graph[name] |= {other for other in reached if not f"{name}.".startswith(f"{other}.")}
+    return graph
+
+
+def circle(graph: dict[str, set[str]]) -> str:
+    """Name the modules of an import circle in order, "a -> b -> a"; "" where there is none."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return " -> ".join(reversed(error.args[1]))
+    return ""
+
+
+def test_the_core_has_no_import_circle():
+    found = circle(import_graph(ROOT / "core/hexmend"))
+    assert not found, f"import circle: {found}"
+
+
+@pytest.mark.parametrize("line", [
+    "from hexmend.mesh.upper import x",
+    "from hexmend.mesh import upper",
+    "def late():\n    import hexmend.mesh.upper",
+    "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from hexmend.mesh.upper import X",
+    "import importlib\n\ndef late():\n    importlib.import_module('hexmend.mesh.upper')",
+    "from hexmend.report import x",  # whose package imports `upper`
+])  # fmt: skip
+def test_a_circle_is_named(tmp_path, line):
+    package = tmp_path / "hexmend"
+    for path, text in {
+        "mesh/__init__.py": "",
+        "mesh/lower.py": line,
+        "mesh/upper.py": "from hexmend.mesh.lower import y",
+        "report/__init__.py": "from hexmend.mesh.upper import x",
+    }.items():
+        (package / path).parent.mkdir(parents=True, exist_ok=True)
+        (package / path).write_text(text)
+    found = circle(import_graph(package)).split(" -> ")
+    assert found[0] == found[-1]
+    assert ("hexmend.mesh.upper", "hexmend.mesh.lower") in pairwise(found)
+
+
+def test_a_package_that_imports_its_modules_is_no_circle(tmp_path):
+    package = tmp_path / "hexmend"
+    package.mkdir()
+    (package / "__init__.py").write_text("from hexmend.errors import FileError")
+    (package / "errors.py").write_text("from hexmend import __version__")
+    assert circle(import_graph(package)) == ""
+
+
 def test_the_core_keeps_its_floors():
     assert broken(ROOT / "core/hexmend", CORE, SEES_THE_FACE) == []
 
@@ -126,11 +193,12 @@ def test_the_app_keeps_its_floors():
 @pytest.mark.parametrize(("module", "line", "complaint"), [
     ("mesh/mesh.py", "from hexmend.run import smooth", "not below mesh"),
     ("mesh/mesh.py", "def late():\n    import hexmend.io.formats.vtk.vtu", "not below mesh"),
+    ("mesh/mesh.py", "import importlib\nimportlib.import_module('hexmend.quality')", "not below mesh"),
     ("energy/regularisation.py", "from hexmend import smoothers", "not below energy"),
     ("run/recipe.py", "import hexmend", "public face"),
     ("run/recipe.py", "from hexmend import Mesh", "public face"),
-    ("run/recipe.py", "from .recipe_files import read_recipe", "whole name"),
-    ("magic.py", "import os", "has no floor"),
+    ("run/recipe.py", "from .recipe_files import read_recipe", "absolute name"),
+    ("magic.py", "import os", "has no layer"),
     ("cli/info.py", "from hexmend import read", None),
     ("cli/info.py", "from hexmend.cli.command import settings", None),
     ("io/vtu.py", "from hexmend import errors", None),
@@ -198,55 +266,6 @@ def test_the_lower_floors_of_the_app_know_less(floor, forbidden):
         for name, line in imported(path)
         if any(f"{name}.".startswith(f"{other}.") for other in forbidden)
     ]
-    assert rows == []
-
-
-def sayings(source: str) -> list[str]:
-    """The sentences among a module's texts: four words, or fewer with a full stop. What stands for a value is a word.
-
-    Left out are docstrings, the words of errors, which name what is wrong where it is found, and names of threads.
-    """
-    tree, left_out, found = ast.parse(source), set(), []
-    for node in ast.walk(tree):
-        thread = isinstance(node, ast.Call) and ast.unparse(node.func) == "Task"
-        documents = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
-        if isinstance(node, ast.Raise) or documents:
-            left_out.update(map(id, ast.walk(node)))
-        elif thread:
-            left_out.update(map(id, ast.walk(node.args[0])))
-        if isinstance(node, ast.JoinedStr):
-            text = "".join(part.value if isinstance(part, ast.Constant) else "0" for part in node.values)
-            left_out.update(map(id, node.values))
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            text = node.value
-        else:
-            continue
-        words = len(text.split())
-        if id(node) not in left_out and (words > 3 or (words > 2 and text.endswith("."))):
-            found.append(f"line {node.lineno}: {text!r}")
-    return found
-
-
-@pytest.mark.parametrize(("source", "count"), [
-    ('x = "an element is inverted"', 1),
-    ('x = f"{node} is {where}."', 1),
-    ('x = "go back"', 0),
-    ('"""An element is inverted, alas."""', 0),
-    ('class A:\n    x = 1\n    """What an element is now."""', 0),
-    ('raise ValueError(f"{x} is no number: expected one")', 0),
-    ('Task(f"reading the step of node {k}", lambda task: tell("this is a sentence"))', 1),
-])  # fmt: skip
-def test_a_sentence_is_seen(source, count):
-    assert len(sayings(source)) == count
-
-
-def test_state_holds_no_sentences_and_no_kernels():
-    rows = []
-    for path, _ in sources(ROOT / "app/hexmend_app/state"):
-        rows += [f"{path}: {saying}" for saying in sayings(path.read_text(encoding="utf-8"))]
-        for name, line in imported(path):
-            if name.startswith("hexmend.kernels") and name.split(".")[-1] not in ("threads", "set_threads"):
-                rows.append(f"{path}:{line} imports {name}")
     assert rows == []
 
 

@@ -10,7 +10,7 @@ Names are imported when they are first used: a command that computes nothing doe
 `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
-from hexmend import aliases
+from hexmend import aliases, hooks
 
 __version__ = "0.1.0"
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from hexmend.study.compare import Comparison, compare
 
 aliases.install()
+hooks.provide(html="hexmend.notebook:html", quality="hexmend.quality:values", worst_hexes="hexmend.quality:worst_hexes")
 
 _HOMES = {
     "advice": ("advise",),

@@ -1,10 +1,10 @@
-"""How values show themselves in notebooks: floors above know how, and are asked only where there is a notebook."""
+"""HTML of values for notebooks."""
 
 from __future__ import annotations
 
-from importlib import import_module
+from hexmend.hooks import provided
 
 
 def html_of(value: object) -> str:
-    """A value as a notebook shows it: see `hexmend.notebook`."""
-    return import_module("hexmend.notebook").html(value)
+    """Return the HTML that a notebook shows for a value; see `hexmend.notebook`."""
+    return provided("html")(value)

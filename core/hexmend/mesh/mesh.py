@@ -6,13 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from importlib import import_module
 from typing import Protocol
 
 import numpy as np
 
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
+from hexmend.hooks import provided
 from hexmend.html_repr import html_of
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
@@ -156,11 +156,11 @@ class Mesh:
 
     def quality(self, metric: str = "q") -> np.ndarray:
         """The values of a metric of `hexmend.METRICS`, (m,) float64: see `hexmend.quality.values`."""
-        return import_module("hexmend.quality").values(self, metric)
+        return provided("quality")(self, metric)
 
     def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:
         """The numbers of the worst hexes by a metric, the worst first: see `hexmend.quality.worst_hexes`."""
-        return import_module("hexmend.quality").worst_hexes(self, count, metric)
+        return provided("worst_hexes")(self, count, metric)
 
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""

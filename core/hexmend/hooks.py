@@ -1,0 +1,26 @@
+"""Functions that classes of lower layers call and higher layers provide: quality of a mesh, HTML for notebooks.
+
+`hexmend/__init__.py` names the providers, so that no layer imports one above it.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+_PROVIDERS: dict[str, str] = {}
+
+
+def provide(**providers: str) -> None:
+    """Name the functions of hooks, each as "module:function"; a module is imported when its hook is first used."""
+    _PROVIDERS.update(providers)
+
+
+def provided(hook: str) -> Callable[..., Any]:
+    """Import the function of a hook."""
+    module, _, function = _PROVIDERS[hook].partition(":")
+    return getattr(import_module(module), function)
