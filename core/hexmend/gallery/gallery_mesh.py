@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, parameter
-from hexmend.registry import Registry
+from hexmend.registry import Registry, load_others
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,23 @@ def scrambled(mesh: Mesh, amplitude: float, seed: int) -> Mesh:
 
 G = TypeVar("G", bound=type[GalleryMesh])
 
-GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh")
+#: The entry-point group of other distributions' gallery meshes; entries name a class.
+GROUP = "hexmend.gallery"
+
+
+def add_third_parties() -> None:
+    """Load the gallery meshes of other distributions."""
+    load_others(GROUP, "gallery mesh", _take)
+
+
+def _take(name: str, found: object) -> None:
+    if not (isinstance(found, type) and issubclass(found, GalleryMesh)):
+        raise TypeError(f"{found!r} is no hexmend.gallery.GalleryMesh")
+    if found not in GALLERY.values():  # its module may have registered it
+        gallery_mesh(found)
+
+
+GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh", add_third_parties)
 
 
 def gallery_mesh(cls: G) -> G:

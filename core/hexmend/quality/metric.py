@@ -101,7 +101,8 @@ def add_third_parties() -> None:
 def _take(name: str, metric: object) -> None:
     if not isinstance(metric, Metric):
         raise TypeError(f"{metric!r} is no hexmend.quality.Metric")
-    METRICS.add(metric.name, metric)
+    if metric not in METRICS.values():  # its module may have registered it
+        METRICS.add(metric.name, metric)
 
 
 METRICS: Registry[Metric] = Registry("metric", add_third_parties)
