@@ -5,20 +5,24 @@ Each table maps an old name to the name that took its place:
 - `MODULES`: modules and packages, for imports (``import hexmend.surface``).
 - `NAMES`: what a module or package exports (``hx.Stop``, ``from hexmend.optimise import Outcome``).
 - `PARAMETERS`: parameters by the name of their owner (a method, or "stop"), in recipes, sessions, studies, records,
-  on the command line and as keywords in Python.
+  on the command line, and as keywords and attributes in Python.
+- `ATTRIBUTES`: attributes by the name of their class, as keywords of its constructor too.
 - `KEYS`: keys of JSON records, by the kind of record.
 """
 
 from __future__ import annotations
 
 import sys
+from functools import wraps
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from importlib.machinery import ModuleSpec
     from types import ModuleType
-    from typing import Any
+    from typing import Any, TypeVar
+
+    T = TypeVar("T")
 
 MODULES = {
     "hexmend.cells": "hexmend.mesh.cells",
@@ -72,7 +76,13 @@ NAMES = {
     "hexmend.run.Stop": "hexmend.iteration.StoppingCriteria",
 }
 
-PARAMETERS: dict[str, dict[str, str]] = {}
+PARAMETERS: dict[str, dict[str, str]] = {
+    "general": {"similar": "max_size_ratio", "sufficient": "q_target"},
+    "getme-sequential": {"setback": "rejection_penalty"},
+    "mend": {"highest_p": "max_p", "softness": "initial_epsilon"},
+}
+
+ATTRIBUTES: dict[str, dict[str, str]] = {}
 
 KEYS: dict[str, dict[str, str]] = {}
 
@@ -106,6 +116,40 @@ def exports(module: str) -> Callable[[str], object]:
 def renamed(values: Mapping[str, Any], table: Mapping[str, str]) -> dict[str, Any]:
     """Copy `values` with the keys of today; where old and new name are both there, the new one counts."""
     return {table.get(key, key): value for key, value in values.items() if table.get(key) not in values}
+
+
+def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> type[T]:
+    """Class decorator: the constructor takes keywords, and instances have attributes, under their old names too.
+
+    Parameters
+    ----------
+    cls : type
+    table : mapping, optional
+        New name of each old one; of `ATTRIBUTES` by default.
+
+    Returns
+    -------
+    type
+        The same class.
+    """
+    names = ATTRIBUTES.get(cls.__name__, {}) if table is None else table
+    if not names:
+        return cls
+    init = cls.__init__
+
+    @wraps(init)
+    def __init__(self: T, *args: Any, **values: Any) -> None:
+        for old in names.keys() & values.keys():  # wins over the new name, which `dataclasses.replace` always gives
+            values[names[old]] = values.pop(old)
+        init(self, *args, **values)
+
+    def __getattr__(self: T, name: str) -> Any:
+        if name in names:
+            return getattr(self, names[name])
+        return object.__getattribute__(self, name)  # raises what had failed
+
+    cls.__init__, cls.__getattr__ = __init__, __getattr__
+    return cls
 
 
 class _OldModules:

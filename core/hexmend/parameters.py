@@ -21,6 +21,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from hexmend.aliases import PARAMETERS
 from hexmend.errors import ParameterError
 
 T = TypeVar("T")
@@ -183,26 +184,58 @@ class Parametrised:
         return {declaration.name: getattr(self, declaration.name) for declaration in declared(self)}
 
 
+def current_name(cls: type, name: str) -> str:
+    """Today's name of a parameter of `cls`, a dash counting as an underscore; a name that is unknown is returned."""
+    name = name.replace("-", "_")
+    return PARAMETERS.get(getattr(cls, "name", ""), {}).get(name, name)
+
+
 def from_strings(cls: type[T], words: Mapping[str, str], owner: str = "") -> T:
-    """Make `cls` from textual values, as the command line gives them.
+    """Make `cls` from textual values, such as those of the command line.
+
+    Parameters
+    ----------
+    cls : type
+        A `Parametrised` class.
+    words : mapping of str to str
+        Values by the parameters' names, old ones included.
+    owner : str
+        Name of the class in messages.
+
+    Returns
+    -------
+    Parametrised
+        What is not named has its default.
 
     Raises
     ------
     ParameterError
         For a name that is not declared (the message suggests the nearest) or a value out of bounds.
     """
-    by_name = _by_name(cls, words, owner)
-    return cls(**{one.name: one.parse(words[name]) for name, one in by_name.items()})
+    return cls(**{one.name: one.parse(words[name]) for name, one in _declared_by_name(cls, words, owner).items()})
 
 
 def from_values(cls: type[T], values: Mapping[str, Any], owner: str = "") -> T:
-    """Make `cls` from values as a file gives them: numbers are numbers there. Raises as `from_strings` does."""
-    by_name = _by_name(cls, values, owner)
-    return cls(**{one.name: one.check(values[name]) for name, one in by_name.items()})
+    """Make `cls` from values of their own types, such as those of a TOML or JSON file.
+
+    Parameters, returned value and errors are those of `from_strings`.
+    """
+    return cls(**{one.name: one.check(values[name]) for name, one in _declared_by_name(cls, values, owner).items()})
+
+
+def _declared_by_name(cls: type, names: Iterable[str], owner: str) -> dict[str, Parameter]:
+    """Declarations by the names that were given; of an old and a new name of one parameter the new one counts."""
+    declarations = {one.name: one for one in declared(cls)}
+    given = list(names)
+    for name in given:
+        if current_name(cls, name) not in declarations:
+            raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint(name, declarations)}")
+    old_first = sorted(given, key=lambda name: name.replace("-", "_") in declarations)
+    return {name: declarations[current_name(cls, name)] for name in old_first}
 
 
 def hint(name: str, known: Iterable[str]) -> str:
-    """What may have been meant.
+    """Suggestion for a name that is unknown.
 
     >>> hint("deltta", ["p", "delta"])
     'did you mean delta?'
@@ -212,12 +245,3 @@ def hint(name: str, known: Iterable[str]) -> str:
     names = list(known)
     near = difflib.get_close_matches(name, names, n=1)
     return f"did you mean {near[0]}?" if near else f"known: {', '.join(names) or 'none'}"
-
-
-def _by_name(cls: type, names: Iterable[str], owner: str) -> dict[str, Parameter]:
-    """The declarations of these names, a dash counting as an underscore."""
-    by_name = {one.name: one for one in declared(cls)}
-    for name in names:
-        if name.replace("-", "_") not in by_name:
-            raise ParameterError(f"{owner or cls.__name__} has no parameter {name!r}: {hint(name, by_name)}")
-    return {name: by_name[name.replace("-", "_")] for name in names}

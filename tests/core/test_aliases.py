@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import importlib
+import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
 import hexmend as hx
 from hexmend import aliases
+from hexmend.cli.main import main
+from hexmend.parameters import declared, from_strings, from_values
+from hexmend.smoothers import METHODS
+
+PARAMETERS = [(method, old, new) for method, names in aliases.PARAMETERS.items() for old, new in names.items()]
 
 
 @pytest.mark.parametrize(("old", "new"), aliases.MODULES.items())
@@ -45,3 +52,49 @@ def test_the_old_spelling_of_a_script_works_in_a_process_of_its_own():
 def test_renamed_keys_keep_the_new_value_where_both_are_there():
     assert aliases.renamed({"old": 1, "other": 2}, {"old": "new"}) == {"new": 1, "other": 2}
     assert aliases.renamed({"old": 1, "new": 3}, {"old": "new"}) == {"new": 3}
+
+
+def another_value(method, name):
+    """A value that is not the default."""
+    one = next(one for one in declared(METHODS[method]) if one.name == name)
+    return one.low if one.default != one.low else one.high
+
+
+@pytest.mark.parametrize(("method", "old", "new"), PARAMETERS)
+def test_a_parameter_is_read_by_its_old_name(method, old, new):
+    cls, value = METHODS[method], another_value(method, new)
+    expected = cls(**{new: value})
+    assert expected != cls()
+    assert cls(**{old: value}) == expected
+    assert replace(cls(), **{old: value}) == expected
+    assert from_strings(cls, {old: str(value)}) == from_strings(cls, {old.replace("_", "-"): str(value)}) == expected
+    assert from_values(cls, {old: value}) == expected
+    assert getattr(expected, old) == getattr(expected, new) == value
+    assert hx.iterate(hx.gallery.make("cube", size=8), method, **{old: value}).smoother == expected
+
+
+@pytest.mark.parametrize(("method", "old", "new"), PARAMETERS)
+def test_a_parameter_is_written_by_its_new_name_alone(method, old, new):
+    assert old not in METHODS[method]().values()
+    assert old not in {one["name"] for one in METHODS[method].to_json()["parameters"]}
+
+
+def test_of_an_old_and_a_new_name_in_a_file_the_new_one_counts():
+    mend = METHODS["mend"]
+    assert from_values(mend, {"max_p": 4.0, "highest_p": 8.0}) == from_values(mend, {"highest_p": 8.0, "max_p": 4.0})
+    assert from_values(mend, {"max_p": 4.0, "highest_p": 8.0}).max_p == 4.0
+
+
+def test_an_attribute_that_never_was_is_an_attribute_error_of_its_class():
+    with pytest.raises(AttributeError, match="'Mend' object has no attribute 'softnes'"):
+        METHODS["mend"]().softnes  # noqa: B018
+
+
+@pytest.mark.parametrize("setting", ["highest_p=4", "highest-p=4", "mend.highest_p=4", "max_p=4"])
+def test_the_command_line_compares_methods_by_old_names_of_parameters(setting, tmp_path):
+    hx.write(tmp_path / "a.vtk", hx.gallery.make("cube", size=8, scramble=0.2))
+    said = ["compare", str(tmp_path / "a.vtk"), "-o", str(tmp_path), "--methods", "mend,laplacian", "--set", setting]
+    assert main([*said, "--max-iterations", "1"]) == 0
+    (record,) = (json.loads(path.read_text("utf-8")) for path in tmp_path.glob("*.json"))
+    assert '"max_p": 4.0' in json.dumps(record)
+    assert "highest" not in json.dumps(record)

@@ -8,7 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.parameters import from_values
+from hexmend.parameters import current_name, from_values
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
@@ -25,6 +25,11 @@ class OrderData:
     def __post_init__(self) -> None:
         for method, values in self.values.items():
             from_values(METHODS[method], values, owner=method)
+        today = {
+            method: {current_name(METHODS[method], name): value for name, value in values.items()}
+            for method, values in self.values.items()
+        }
+        object.__setattr__(self, "values", today)
 
 
 class Order(QObject):

@@ -165,7 +165,7 @@ def optimum(now: Situation) -> Suggestion | None:
 
 def lift_the_worst(now: Situation) -> Suggestion | None:
     """An optimum whose worst hexes could be better."""
-    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.highest_p >= HIGH_P:
+    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
         return None
     return Suggestion(
         "GETMe, sequential",
@@ -177,13 +177,13 @@ def lift_the_worst(now: Situation) -> Suggestion | None:
 
 def raise_p(now: Situation) -> Suggestion | None:
     """An optimum for the mean, where the worst hexes matter more."""
-    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.highest_p >= HIGH_P:
+    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
         return None
     return Suggestion(
         f"Mend, p up to {HIGH_P:g}",
         f"Run Mend with p raised up to {HIGH_P:g}: the worst hexes rise at the expense of the mean.",
         "q_min",
-        Mend(**now.objective, highest_p=HIGH_P),
+        Mend(**now.objective, max_p=HIGH_P),
         StoppingCriteria(max_iterations=max(500, now.stop.max_iterations)),
     )
 

@@ -67,9 +67,9 @@ class Situation:
         return {name: value for name, value in self.smoother.values().items() if name in ("p", "offset")}
 
     @property
-    def highest_p(self) -> float:
+    def max_p(self) -> float:
         """The exponent that it was raised to."""
-        return max(self.p, getattr(self.smoother, "highest_p", 1.0))
+        return max(self.p, getattr(self.smoother, "max_p", 1.0))
 
     @property
     def aim(self) -> str:

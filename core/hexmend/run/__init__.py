@@ -11,7 +11,7 @@ from hexmend.aliases import exports
 from hexmend.errors import ParameterError
 from hexmend.iteration import Iteration, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
-from hexmend.parameters import declared, hint
+from hexmend.parameters import current_name, declared, hint
 from hexmend.run.recipe import Recipe
 from hexmend.run.run import Run
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
@@ -122,6 +122,7 @@ def _configured(
         raise TypeError(f"{type(smoother).__name__} is no method: expected a hexmend.Smoother, a Recipe or a name")
     limits = {one.name for one in declared(StoppingCriteria)}
     own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
+    settings = {current_name(type(smoother), name): value for name, value in settings.items()}
     for name in settings:
         if name not in limits and name not in own:
             raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *sorted(limits)])}")

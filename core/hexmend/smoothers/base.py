@@ -9,6 +9,7 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 
 import numpy as np
 
+from hexmend.aliases import PARAMETERS, reads_old_names
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
@@ -138,4 +139,4 @@ def method(cls: S) -> S:
         raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
     _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
-    return cls
+    return reads_old_names(cls, PARAMETERS.get(cls.name, {}))

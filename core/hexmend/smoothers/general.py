@@ -30,10 +30,10 @@ class General(SlidingSmoother):
     optimises = True
     bytes_per_hex = 3000  # of the global Newton's method that it may go on with
 
-    sufficient: float = parameter(
+    q_target: float = parameter(
         0.9, low=0, high=1, help="Least q(H) with which GETMe's result is taken as it is; 1 goes on to the optimum."
     )
-    similar: float = parameter(
+    max_size_ratio: float = parameter(
         3.0,
         low=1,
         high=1e6,
@@ -48,13 +48,13 @@ class General(SlidingSmoother):
         mesh = mesh.keeping_surface()
         points = yield from self._getme(mesh)
         figures = measure(points, mesh.hexes)
-        if not figures.n_inverted and figures.q.min() >= self.sufficient:
+        if not figures.n_inverted and figures.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
         ratio = size_ratio(points, mesh.hexes)
-        sizes = f"{'similar' if ratio <= self.similar else 'different'} sizes (ratio {ratio:.2g})"
+        sizes = f"{'similar' if ratio <= self.max_size_ratio else 'different'} sizes (ratio {ratio:.2g})"
         count = figures.n_inverted
         inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
-        chosen = METHODS["global-nr" if ratio <= self.similar and not count else "local-sd"]
+        chosen = METHODS["global-nr" if ratio <= self.max_size_ratio and not count else "local-sd"]
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
         rest = chosen(**self._sliding_values()).steps(mesh.with_points(points))
         next(rest)

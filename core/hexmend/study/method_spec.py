@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import declared, from_strings
+from hexmend.parameters import current_name, declared, from_strings
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS, Smoother
@@ -63,16 +63,17 @@ def chosen(
     words: dict[str, dict[str, str]] = {name: {} for name in keys}
     for setting in sorted(settings, key=lambda setting: "." in setting):
         owner, dot, key = setting.rpartition(".")
-        key = key.replace("-", "_")
         if dot and owner not in keys:
             raise ParameterError(f"{setting!r}: {owner!r} is not among the methods compared: {', '.join(keys)}")
-        takers = [owner] if dot else [name for name in keys if key in keys[name]]
+        today = {name: current_name(METHODS[name], key) for name in keys}
+        takers = [owner] if dot else [name for name in keys if today[name] in keys[name]]
         if not takers:
+            key = key.replace("-", "_")
             near = difflib.get_close_matches(key, {one for several in keys.values() for one in several}, n=1)
             hint = f": did you mean {near[0]}?" if near else ""
             raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
         for name in takers:
-            words[name][key] = settings[setting]
+            words[name][today[name]] = settings[setting]
     return [
         recipes[name] if name in recipes else from_strings(METHODS[name], words[name], owner=name)
         for name in dict.fromkeys(names)

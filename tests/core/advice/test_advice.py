@@ -31,7 +31,7 @@ RUNS = {
     **{f"{name}, cut short": (name, SHORT) for name in METHODS if name != "global-nr"},
     **{f"{name}, soon content": (name, LOOSE) for name in ("local-sd", "local-mnr", "global-sd")},
     "laplacian, last kept": ("laplacian", StoppingCriteria(keep_last=True)),
-    "mend, raised": (METHODS["mend"](highest_p=16), StoppingCriteria()),
+    "mend, raised": (METHODS["mend"](max_p=16), StoppingCriteria()),
     "mend, p = 4": (METHODS["mend"](p=4), StoppingCriteria()),
     "local-sd, p = 4": (METHODS["local-sd"](p=4), SHORT),
     "local-sd, no delta": (METHODS["local-sd"](delta=0.0), SHORT),

@@ -112,7 +112,7 @@ STAGE = '[[stage]]\nmethod = "getme"\n[[stage]]\n'
     (HEAD + STAGE + "method = [1]", "stage 2: there is no method '[1]'"),
     (HEAD + STAGE + 'methd = "mend"', "stage 2: the stage has no key 'methd': did you mean method?"),
     (HEAD + STAGE, "stage 2: it has no method: expected a line such as"),
-    (HEAD + STAGE + 'method = "mend"\nparameters.softnes = 1', "stage 2: mend has no parameter 'softnes': did you mean softness?"),
+    (HEAD + STAGE + 'method = "mend"\nparameters.initial_epsilo = 1', "stage 2: mend has no parameter 'initial_epsilo': did you mean initial_epsilon?"),
     (HEAD + STAGE + 'method = "mend"\nparameters.p = 99', "stage 2: p = 99 is out of range: expected a number from 1 to 32"),
     (HEAD + STAGE + 'method = "mend"\nparameters.p = nan', "stage 2: p = nan is not a number"),
     (HEAD + STAGE + 'method = "mend"\nparameters.p = "two"', "stage 2: p = 'two' is not a number"),
@@ -144,3 +144,16 @@ def test_the_recipe_of_the_docs_is_one():
     text = (Path(__file__).resolve().parents[3] / "docs" / "recipes.md").read_text(encoding="utf-8")
     (example,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
     assert [stage.smoother.name for stage in from_toml(example).stages] == ["getme", "mend"]
+
+
+def test_a_recipe_that_version_0_1_wrote_is_read_with_its_values():
+    recipe = read_recipe(Path(__file__).parent / "data" / "recipe-0.1.toml")
+    assert recipe == Recipe.of(
+        METHODS["general"](max_size_ratio=2.5, q_target=0.8),
+        METHODS["getme-sequential"](rejection_penalty=0.02),
+        METHODS["local-patch"](max_cuts=40, shrink=0.6, first_step=0.5),
+        METHODS["global-nr"](max_cuts=30),
+        METHODS["mend"](initial_epsilon=0.05, max_p=8.0, boundary="slide"),
+        title="Written by 0.1",
+    )
+    assert from_toml(to_toml(recipe)) == recipe

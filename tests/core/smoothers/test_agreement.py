@@ -38,7 +38,7 @@ def test_all_optimisers_end_at_the_same_point(name, problem):
     mesh, expected = problem
     if name == "global-sd" and mesh.name.startswith("bridge-sharp"):
         pytest.skip("global-sd does not get there within 20,000 steps, as in the thesis's Tables 4.1 to 4.4")
-    result = smooth(mesh, made(name, sufficient=1.0), PATIENT)
+    result = smooth(mesh, made(name, q_target=1.0), PATIENT)
     assert result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT), result.message
     moved = np.linalg.norm(result.mesh.points - expected, axis=1).max() / mesh.mean_edge_length
     # What is left to go after a step shorter than the tolerance depends on how slowly a method converges; towards the
@@ -64,7 +64,7 @@ def test_the_optimum_of_another_exponent_is_another_and_all_agree_on_it(name):
 def test_no_accepted_step_inverts_a_valid_mesh_or_climbs(name, seed, amplitude, p):
     mesh = scrambled(grid(4), amplitude, seed)
     assume(measure(mesh.points, mesh.hexes).n_inverted == 0)
-    smoother = made(name, p=p, getme_iterations=1, sufficient=1.0)
+    smoother = made(name, p=p, getme_iterations=1, q_target=1.0)
     exponent = getattr(smoother, "p", 2.0)
     values = []
     for step in itertools.islice(smoother.steps(mesh), 6):

@@ -66,7 +66,7 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
 @pytest.mark.parametrize(("ratio", "name"), [(2.0, "global-nr"), (2.5, "global-nr"), (2.6, "local-sd")])
 def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, name):
     monkeypatch.setattr(general, "size_ratio", lambda points, hexes: ratio)
-    method = General(getme_iterations=0, similar=2.5, sufficient=1.0)
+    method = General(getme_iterations=0, max_size_ratio=2.5, q_target=1.0)
     result = smooth(scrambled(grid(3), 0.1), method, StoppingCriteria(max_iterations=2))
     assert f"{'similar' if ratio <= 2.5 else 'different'} sizes" in result.message
     assert f"no inverted hexes: {METHODS[name].title}." in result.message

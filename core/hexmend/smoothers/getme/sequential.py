@@ -43,8 +43,8 @@ class SequentialGETMe(SlidingSmoother):
     penalty: float = parameter(
         0.001, low=0, high=1, unit="q(H)", help="By how much better a hex that moved counts for the rest of the sweep."
     )
-    setback: float = parameter(
-        0.01, low=1e-6, high=1, unit="q(H)", help="The same for a hex whose step was taken back."
+    rejection_penalty: float = parameter(
+        0.01, low=1e-6, high=1, unit="q(H)", help="By how much better a hex whose step was rejected counts for the rest of the sweep."
     )
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -77,6 +77,6 @@ class SequentialGETMe(SlidingSmoother):
         sweep_of = (
             moved, mesh.hexes, attached.start, attached.items, free,
             np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32), figures.q.copy(), ~figures.inverted,
-            self.scaling, relaxation, self.penalty, self.setback,
+            self.scaling, relaxation, self.penalty, self.rejection_penalty,
         )  # fmt: skip
         return kernels.sweep(*sweep_of) if sliding is None else on_surface.worst_first(*sweep_of, *sliding.ground)

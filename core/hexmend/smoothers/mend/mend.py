@@ -77,10 +77,10 @@ class Mend(ObjectiveSmoother):
         choices=("shape", "scaled-jacobian"),
         help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
     )
-    highest_p: float = parameter(
+    max_p: float = parameter(
         1.0, low=1, high=32, help="If higher than p: at the optimum p is doubled until it is this, for the worst hexes."
     )
-    softness: float = parameter(
+    initial_epsilon: float = parameter(
         0.03,
         low=1e-6,
         high=1,
@@ -101,7 +101,7 @@ class Mend(ObjectiveSmoother):
         Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
         minimise an energy: they record this one, for comparison, and it may rise.
         """
-        return ObjectiveNorm(max(self.p, self.highest_p), self.offset)
+        return ObjectiveNorm(max(self.p, self.max_p), self.offset)
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
@@ -179,7 +179,7 @@ class Mend(ObjectiveSmoother):
         self, mesh: Mesh, energy: MeshEnergy, locked: np.ndarray
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
-        points, e = mesh.points, self.softness
+        points, e = mesh.points, self.initial_epsilon
         figures = measure(points, mesh.hexes)
         near = brought_near(mesh, figures)
         if near is not points:
@@ -224,7 +224,7 @@ class Mend(ObjectiveSmoother):
         while True:
             energy = energy.but(ObjectiveNorm(p, self.offset), left_out)
             find = self._direction()
-            x, rises = energy.scaled(points), p < self.highest_p
+            x, rises = energy.scaled(points), p < self.max_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
             values: list[float] = []
             slow = SLOW_BESIDE_OTHERS if left_out.any() else SLOW
@@ -245,7 +245,7 @@ class Mend(ObjectiveSmoother):
                     break
             if not rises:
                 return points, _end(taken)
-            p = min(2 * p, self.highest_p)
+            p = min(2 * p, self.max_p)
 
 
 def _end(taken: Descent | None) -> Outcome:

@@ -53,7 +53,7 @@ def test_scrambled_gallery_meshes_end_untangled_at_the_optimum(name, size, scram
 
 @pytest.mark.parametrize("p", [1.0, 2.0, 4.0])
 @pytest.mark.parametrize("offset", [0.0, 1.0])
-@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"highest_p": 16.0}], ids=str)
+@pytest.mark.parametrize("how", [{}, {"boundary": "slide"}, {"max_p": 16.0}], ids=str)
 @pytest.mark.parametrize("scramble", [0.0, 0.3])
 def test_a_mesh_of_cubes_ends_as_converged(p, offset, how, scramble):
     result = smooth(make("cube", size=27, scramble=scramble), Mend(p=p, offset=offset, **how))
@@ -127,12 +127,12 @@ def test_steps_of_untangling_soften_the_barrier_less_and_less():
 
 def test_higher_p_lifts_the_worst_hex():
     mesh = make("bridge-sharp", size=864)
-    plain, raised = (smooth(mesh, Mend(highest_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0))
+    plain, raised = (smooth(mesh, Mend(max_p=p), StoppingCriteria(max_iterations=500)) for p in (1.0, 16.0))
     assert raised.outcome is Outcome.CONVERGED
     assert raised.after.q_min > plain.after.q_min + 0.01
     assert raised.after.q_mean < plain.after.q_mean
     again = smooth(
-        plain.mesh, Mend(highest_p=16.0), StoppingCriteria(max_iterations=500)
+        plain.mesh, Mend(max_p=16.0), StoppingCriteria(max_iterations=500)
     )  # from the optimum of the lower p
     assert again.after.q_min == pytest.approx(raised.after.q_min, rel=1e-3)
 
