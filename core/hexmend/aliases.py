@@ -82,7 +82,9 @@ PARAMETERS: dict[str, dict[str, str]] = {
     "mend": {"highest_p": "max_p", "softness": "initial_epsilon"},
 }
 
-ATTRIBUTES: dict[str, dict[str, str]] = {}
+ATTRIBUTES: dict[str, dict[str, str]] = {
+    "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},
+}
 
 KEYS: dict[str, dict[str, str]] = {}
 

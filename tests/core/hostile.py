@@ -36,8 +36,8 @@ ENERGY = MeshEnergy(MESH)
 SKIN = SkinSurface(X, FACES)
 SLIDING = SlidingBoundary(MESH)
 SD = hx.LocalSteepestDescent()
-MATRIX = ENERGY.hessian(ENERGY.scaled(X)).assembled()
-SLIDING_HESSIAN = SlidingEnergy(SLIDING).hessian(ENERGY.scaled(X))
+MATRIX = ENERGY.hessian(ENERGY.to_edge_units(X)).assembled()
+SLIDING_HESSIAN = SlidingEnergy(SLIDING).hessian(ENERGY.to_edge_units(X))
 
 
 @dataclass(frozen=True)
@@ -99,13 +99,13 @@ CALLS: dict[str, Callable[[object], object]] = {
     "mean_edge_length": lambda v: mean_edge_length(X, v),
     "energies": lambda v: energies(X, v),
     "energies, left out": lambda v: energies(X, H, left_out=v),
-    "MeshEnergy, left out": lambda v: MeshEnergy(MESH, left_out=v).value(ENERGY.scaled(X)),
+    "MeshEnergy, left out": lambda v: MeshEnergy(MESH, left_out=v).value(ENERGY.to_edge_units(X)),
     "MeshEnergy.value": ENERGY.value,
     "MeshEnergy.gradient": ENERGY.gradient,
     "MeshEnergy.hessian": lambda v: ENERGY.hessian(v).assembled(),
-    "MeshEnergy.placed": ENERGY.placed,
-    "MeshEnergy.moved": lambda v: ENERGY.moved(ENERGY.scaled(X), v),
-    "Hessian": lambda v: ENERGY.hessian(ENERGY.scaled(X)).matvec(v),
+    "MeshEnergy.to_mesh_units": ENERGY.to_mesh_units,
+    "MeshEnergy.moved": lambda v: ENERGY.moved(ENERGY.to_edge_units(X), v),
+    "Hessian": lambda v: ENERGY.hessian(ENERGY.to_edge_units(X)).matvec(v),
     "Assembled": lambda v: MATRIX.matvec(v),
     "Assembled.solve": lambda v: MATRIX.solve(v, 1e-3, 5),
     "SlidingHessian": lambda v: SLIDING_HESSIAN.matvec(v),

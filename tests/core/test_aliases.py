@@ -98,3 +98,11 @@ def test_the_command_line_compares_methods_by_old_names_of_parameters(setting, t
     (record,) = (json.loads(path.read_text("utf-8")) for path in tmp_path.glob("*.json"))
     assert '"max_p": 4.0' in json.dumps(record)
     assert "highest" not in json.dumps(record)
+
+
+def test_the_energy_of_a_mesh_has_the_methods_of_version_0_1():
+    mesh = hx.gallery.make("cube", size=8, scramble=0.2)
+    energy = hx.energy.MeshEnergy(mesh)
+    assert energy.placed == energy.to_mesh_units
+    assert energy.but == energy.with_objective
+    assert energy.scaled(mesh.points).tolist() == energy.to_edge_units(mesh.points).tolist()

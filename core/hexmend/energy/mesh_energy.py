@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.aliases import reads_old_names
 from hexmend.arrays import dot
 from hexmend.energy.assembled_hessian import AssembledHessian
 from hexmend.energy.hex_energy import corners_left_out, energies
@@ -20,6 +21,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 
 
+@reads_old_names
 class MeshEnergy:
     """Sum over all hexes of eta(H)^p, which has the minimisers of (3.3).
 
@@ -45,7 +47,7 @@ class MeshEnergy:
     >>> from hexmend.gallery import make
     >>> mesh = make("cube", size=27)
     >>> energy = MeshEnergy(mesh)
-    >>> x = energy.scaled(mesh.points)
+    >>> x = energy.to_edge_units(mesh.points)
     >>> round(energy.value(x), 12), energy.gradient(x).shape
     (0.0, (8, 3))
     """
@@ -78,7 +80,7 @@ class MeshEnergy:
         """What `value` is where all hexes are cubes and delta is zero."""
         return self.power.least * self.mesh.n_hexes
 
-    def but(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
+    def with_objective(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
         """The energy with another power and other corners left out; what depends on the mesh alone is shared.
 
         Both may be used by several threads at once.
@@ -93,11 +95,11 @@ class MeshEnergy:
         other.power, other.left_out = power, corners_left_out(left_out, self.mesh.n_hexes)
         return other
 
-    def scaled(self, points: np.ndarray) -> np.ndarray:
+    def to_edge_units(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
         return self._places(points) / self.unit
 
-    def placed(self, x: np.ndarray) -> np.ndarray:
+    def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
         np.multiply(self._places(x), self.unit, out=points, where=self.mesh.free[:, None])
@@ -125,11 +127,11 @@ class MeshEnergy:
         """Second derivative of `value` by the free nodes, at points x (n, 3)."""
         return Hessian(self, x, delta)
 
-    def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
+    def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
         return dot(step, gradient)
 
-    def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
+    def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         """Which nodes may not go from x (n, 3) to `there`, whatever their energy, (n,) bool; None where all may."""
         return None
 

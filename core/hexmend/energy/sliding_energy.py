@@ -43,7 +43,7 @@ class SlidingEnergy(MeshEnergy):
         there[nodes] = self.sliding.put_back(there[nodes] * self.unit) / self.unit
         return there
 
-    def descending(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
+    def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """The slope along a step (k, 3) once nodes are put back; in it, those stay that are led up.
 
         On a faceted surface a node that is led over an edge goes elsewhere than along its tangent.
@@ -60,7 +60,7 @@ class SlidingEnergy(MeshEnergy):
         inside[rows] = False
         return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
 
-    def strayed(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
+    def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         nodes = self.sliding.refused(x * self.unit, there * self.unit)
         nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
         if not nodes.size:

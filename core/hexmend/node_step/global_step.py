@@ -41,7 +41,7 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     """What the method's next step does to a node."""
     energy = MeshEnergy(mesh, smoother.power)
     search = _Recorded(smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts)
-    x, before = energy.scaled(mesh.points), mesh.points[node].copy()
+    x, before = energy.to_edge_units(mesh.points), mesh.points[node].copy()
     delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
     patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)
     known = {
@@ -59,7 +59,7 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
     return NodeStep(
         **known,
-        after=energy.placed(taken.x)[node] if taken.alpha > 0 else before,
+        after=energy.to_mesh_units(taken.x)[node] if taken.alpha > 0 else before,
         verdict=StepStatus.MOVED if taken.alpha > 0 else StepStatus.NO_DESCENT,
         energy=taken.value,
         energy_after=search.trials[-1].energy if taken.alpha > 0 else taken.value,

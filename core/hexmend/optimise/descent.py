@@ -89,21 +89,21 @@ def descend(
         ring = energy.mesh.topology.rings
         shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
         restrain(energy, x, delta, found.p)
-    slope = energy.descending(x, delta, found.p, gradient)
+    slope = energy.directional_derivative(x, delta, found.p, gradient)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
         shorten_to_range(found.p, energy.unit)
         if np.isfinite(reach):
             restrain(energy, x, delta, found.p)
-        slope = energy.descending(x, delta, found.p, gradient)
+        slope = energy.directional_derivative(x, delta, found.p, gradient)
     for trial in range(TRIALS):
         alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
         there = energy.moved(x, found.p, alpha)
-        strayed = energy.strayed(x, there)
+        strayed = energy.infeasible_nodes(x, there)
         if strayed is None:
             return Descent(there, value, slope, length, found, alpha, cuts)
         found.p[strayed[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
-        slope, search = energy.descending(x, delta, found.p, gradient), replace(search, first=alpha)
+        slope, search = energy.directional_derivative(x, delta, found.p, gradient), replace(search, first=alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
 
 
@@ -148,7 +148,7 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
     for _ in range(HALVINGS):
         there = energy.moved(x, share[energy.nodes, None] * step)
         spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
-        strayed = energy.strayed(x, there)
+        strayed = energy.infeasible_nodes(x, there)
         halved = np.zeros(len(x), dtype=bool) if strayed is None else strayed.copy()
         share[halved & (share <= STAYS)] = 0.0
         halved[hexes[spoilt]] = True

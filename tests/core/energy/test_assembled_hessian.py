@@ -21,7 +21,7 @@ exponents = st.sampled_from([1.0, 2.0, 3.5])
 
 def hessian_of(mesh, delta=0.0, p=2.0, left_out=None, shift=0.0):
     energy = MeshEnergy(mesh, ObjectiveNorm(p), left_out)
-    return energy.hessian(energy.scaled(mesh.points), delta).shifted(shift)
+    return energy.hessian(energy.to_edge_units(mesh.points), delta).shifted(shift)
 
 
 def some_left_out(mesh, share, seed):
@@ -234,7 +234,7 @@ def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_
 def test_a_vector_of_another_length_is_refused_by_every_matrix(of, shape):
     mesh = grid(3)
     energy = of(mesh)
-    hessian = energy.hessian(energy.scaled(mesh.points))
+    hessian = energy.hessian(energy.to_edge_units(mesh.points))
     assembled, vector, words = hessian.assembled(), np.ones(shape), rf"has shape .*: expected \({hessian.shape[0]},\)"
     for take in (hessian.matvec, assembled.matvec, lambda v: assembled.solve(v, 1e-3, 5)):
         with pytest.raises(MeshError, match=words):

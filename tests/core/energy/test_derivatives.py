@@ -121,7 +121,7 @@ def test_derivatives_of_a_mesh_are_those_of_differences(seed, power, delta):
     mesh = scrambled(grid(3), 0.2 if delta == 0 else 0.8, seed)
     assume(delta > 0 or measure(mesh.points, mesh.hexes).q.min() > 0.2)
     energy = MeshEnergy(mesh, power)
-    x, v = energy.scaled(mesh.points), np.random.default_rng(seed + 1).normal(size=(8, 3))
+    x, v = energy.to_edge_units(mesh.points), np.random.default_rng(seed + 1).normal(size=(8, 3))
     gradient, hessian = energy.gradient(x, delta), energy.hessian(x, delta)
     step = 1e-6
 
@@ -144,4 +144,4 @@ def test_lengths_do_not_matter(seed):
     here = scrambled(grid(3), 0.8, seed)
     there = here.with_points(here.points * 1e3)
     one, other = MeshEnergy(here), MeshEnergy(there)
-    assert one.value(one.scaled(here.points), 0.01) == pytest.approx(other.value(other.scaled(there.points), 0.01))
+    assert one.value(one.to_edge_units(here.points), 0.01) == pytest.approx(other.value(other.to_edge_units(there.points), 0.01))

@@ -31,7 +31,7 @@ def at(solid, seed, p):
     there = slid(SOLIDS[solid](), 0.2, seed)
     sliding = SlidingBoundary(SOLIDS[solid]())
     energy = SlidingEnergy(sliding, ObjectiveNorm(p))
-    return energy, energy.scaled(there.points), along_the_surface(sliding, there.points, seed)
+    return energy, energy.to_edge_units(there.points), along_the_surface(sliding, there.points, seed)
 
 
 cases = given(st.sampled_from(sorted(SOLIDS)), st.integers(0, 2**32 - 1), st.sampled_from([1.0, 2.0, 3.5]))

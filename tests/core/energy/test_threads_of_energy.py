@@ -17,7 +17,7 @@ def energies_of(kind):
     """Two energies of one mesh, the second of which shares with the first what depends on the mesh alone."""
     mesh = make("bridge-sharp", size=2000)
     first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(SlidingBoundary(mesh), POWERS[0])
-    return first, first.but(POWERS[1], first.left_out)
+    return first, first.with_objective(POWERS[1], first.left_out)
 
 
 def answers(energy, x, steps=30):
@@ -35,7 +35,7 @@ def answers(energy, x, steps=30):
 def test_two_threads_get_what_each_gets_alone(kind, copies):
     first, second = energies_of(kind)
     both = (first, second if copies else first)
-    x = first.scaled(first.mesh.points)
+    x = first.to_edge_units(first.mesh.points)
     places = (x, 1.7 * x)
     alone = [answers(energy, place) for energy, place in zip(both, places, strict=True)]
     together = Barrier(2)

@@ -18,7 +18,7 @@ from hexmend.quality import METRICS, measure
 assert kernels.BUILD == sys.argv[1]
 mesh = gallery.make("five-side", size=700, scramble=0.6)
 energy = MeshEnergy(mesh, ObjectiveNorm(2.5))
-x, v = energy.scaled(mesh.points), np.random.default_rng(0).normal(size=(energy.nodes.size, 3))
+x, v = energy.to_edge_units(mesh.points), np.random.default_rng(0).normal(size=(energy.nodes.size, 3))
 sigma = np.empty((mesh.n_hexes, 8))
 elements.corner_determinants(mesh.points, mesh.hexes, sigma)
 matrix = energy.hessian(x, 0.1).shifted(50.0).assembled(np.float64)

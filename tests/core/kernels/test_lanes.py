@@ -132,7 +132,7 @@ def test_an_inverted_tetrahedron_that_is_left_out_makes_no_energy_infinite():
     left_out = np.packbits(sigma <= 0, axis=1, bitorder="little")[:, 0]
     assert 0 < np.count_nonzero(left_out) < mesh.n_hexes
     energy = MeshEnergy(mesh, SQUARES, left_out)
-    x = energy.scaled(mesh.points)
+    x = energy.to_edge_units(mesh.points)
     assert np.isfinite(energy.value(x))
     assert np.isfinite(energy.gradient(x)).all()
     assert np.isfinite(energy.hessian(x) @ np.ones(3 * energy.nodes.size)).all()
@@ -228,7 +228,7 @@ def test_public_functions_take_any_whole_numbers_and_order():
     np.testing.assert_array_equal(energies(points, hexes), energies(mesh.points, mesh.hexes))
     np.testing.assert_array_equal(measure(points, hexes.tolist()).q, measure(mesh.points, mesh.hexes).q)
     energy = MeshEnergy(mesh)
-    assert energy.value(energy.scaled(points)) == energy.value(energy.scaled(mesh.points))
+    assert energy.value(energy.to_edge_units(points)) == energy.value(energy.to_edge_units(mesh.points))
 
 
 @pytest.mark.parametrize("parts", [1, 3])
@@ -237,7 +237,7 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     energy = MeshEnergy(mesh)
     energy.couplings = BlockSparsity(mesh, parts)
     assert energy.couplings.bounds.size == 2 * parts
-    x, most, answers = energy.scaled(mesh.points), kernels.threads(), []
+    x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
     corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
     rings = mesh.topology.rings
     try:

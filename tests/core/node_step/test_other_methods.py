@@ -34,10 +34,10 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
         assert step.delta == step_of_all.notes["delta"]
         assert (step.alpha, step.cuts) == (step_of_all.notes["step_length"], step_of_all.notes["cuts"])
         assert step.shift == step_of_all.notes["shift"]
-        row, x = int(np.flatnonzero(energy.nodes == node)[0]), energy.scaled(mesh.points)
+        row, x = int(np.flatnonzero(energy.nodes == node)[0]), energy.to_edge_units(mesh.points)
         assert step.energy == energy.value(x, step.delta)
         assert step.energy_after == pytest.approx(
-            energy.value(energy.scaled(step_of_all.points), step.delta), rel=1e-12
+            energy.value(energy.to_edge_units(step_of_all.points), step.delta), rel=1e-12
         )
         np.testing.assert_allclose(step.gradient, energy.gradient(x, step.delta)[row], rtol=1e-8, atol=1e-9)
         block = energy.hessian(x, step.delta).assembled(np.float64).own_blocks[row]

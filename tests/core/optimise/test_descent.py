@@ -17,7 +17,7 @@ seeds = st.integers(0, 2**32 - 1)
 def problem(seed, amplitude=0.2):
     mesh = scrambled(grid(4), amplitude, seed)
     energy = MeshEnergy(mesh)
-    return mesh, energy, energy.scaled(mesh.points)
+    return mesh, energy, energy.to_edge_units(mesh.points)
 
 
 def own_edges(mesh, x):
@@ -61,7 +61,7 @@ def test_a_direction_that_does_not_descend_gives_way_to_steepest_descent(factor,
 def test_a_step_from_perfect_cubes_stays():
     mesh = grid(3)
     energy = MeshEnergy(mesh)
-    x = energy.scaled(mesh.points)
+    x = energy.to_edge_units(mesh.points)
     taken = descend(energy, x, 0.0, steepest_descent, BackLineSearch())
     assert taken.x is x
     assert (taken.alpha, taken.slope, taken.cuts) == (0.0, 0.0, 0)

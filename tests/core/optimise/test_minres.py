@@ -55,7 +55,7 @@ def test_nothing_is_solved_by_nothing():
 
 def test_a_newton_direction_is_as_good_as_its_tolerance_says():
     energy = MeshEnergy(make("bridge-sharp", size=500))
-    x = energy.scaled(energy.mesh.points)
+    x = energy.to_edge_units(energy.mesh.points)
     hessian, right = energy.hessian(x), -energy.gradient(x).ravel()
     step, count = Minres(tolerance=1e-6, iterations=10_000)(hessian, right)
     assert count < 10_000

@@ -49,7 +49,7 @@ def test_the_line_search_ends_where_descent_is_less_than_rounding():
 def problem():
     mesh = scrambled(grid(5), 0.15, 3)
     energy = MeshEnergy(mesh)
-    x = energy.scaled(mesh.points)
+    x = energy.to_edge_units(mesh.points)
     return energy, x, energy.value(x), energy.gradient(x), energy.hessian(x)
 
 
@@ -122,7 +122,7 @@ def test_adaptive_delta_gives_the_worst_determinant_the_h_that_is_asked():
 def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():
     mesh = make("five-side", size=300, scramble=0.1)
     energy, find = MeshEnergy(mesh), TruncatedNewton()
-    x, residuals, norms = energy.scaled(mesh.points), [], []
+    x, residuals, norms = energy.to_edge_units(mesh.points), [], []
     for _ in range(7):
         gradient, hessian = energy.gradient(x), energy.hessian(x)
         found = find(energy.value(x), gradient, hessian)
@@ -150,7 +150,7 @@ def test_a_hessian_that_is_not_positive_definite_is_damped_until_it_is(problem):
 def test_a_spoilt_hex_holds_back_its_own_nodes_alone():
     mesh = grid(6)
     energy = MeshEnergy(mesh)
-    x, step = energy.scaled(mesh.points), np.full((energy.nodes.size, 3), 0.01)
+    x, step = energy.to_edge_units(mesh.points), np.full((energy.nodes.size, 3), 0.01)
     thrown = int(energy.nodes.size // 2)
     step[thrown] = [1.8, 0.1, 0.2]
     before = step.copy()

@@ -28,14 +28,14 @@ def test_a_mesh_of_cubes_is_perfect_and_one_a_little_away_is_not(p, offset):
     cubes, other = grid(4), scrambled(grid(4), 0.01)
     for mesh, answer in ((cubes, True), (other, False)):
         energy = MeshEnergy(mesh, ObjectiveNorm(p, offset))
-        assert perfect(energy, energy.value(energy.scaled(mesh.points)), 0.0) == answer
+        assert perfect(energy, energy.value(energy.to_edge_units(mesh.points)), 0.0) == answer
 
 
 @pytest.mark.parametrize("p", [8.0, 16.0, 32.0])
 def test_a_hessian_below_the_range_of_single_precision_keeps_its_digits(p):
     mesh = scrambled(grid(4), 0.005)
     energy = MeshEnergy(mesh, ObjectiveNorm(p))
-    hessian = energy.hessian(energy.scaled(mesh.points))
+    hessian = energy.hessian(energy.to_edge_units(mesh.points))
     v = np.random.default_rng(0).normal(size=hessian.shape[0])
     product = hessian @ v
     size = np.abs(product).max()

@@ -106,7 +106,7 @@ def test_where_eigenvalues_are_not_found_the_least_counts_as_0_and_the_greatest_
     monkeypatch.setattr(scipy.sparse.linalg, "eigsh", fails)
     mesh = scrambled(grid(3), 0.2, 1)
     energy = MeshEnergy(mesh)
-    hessian = energy.hessian(energy.scaled(mesh.points), 0.0)
+    hessian = energy.hessian(energy.to_edge_units(mesh.points), 0.0)
     least, greatest = search_direction.extreme_eigenvalues(hessian)
     assert least == 0.0
     matrix = np.column_stack([hessian.assembled() @ row for row in np.eye(hessian.shape[0])])

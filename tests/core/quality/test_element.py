@@ -55,7 +55,7 @@ def test_a_node_says_what_the_mesh_says_of_it():
     pinned[inner[3]] = True
     mesh = mesh.replace(pinned=pinned)
     energy = MeshEnergy(mesh)
-    gradient = energy.gradient(energy.scaled(mesh.points))
+    gradient = energy.gradient(energy.to_edge_units(mesh.points))
     for k, i in enumerate(energy.nodes):
         one = node(mesh, int(i))
         assert one.kind == "free"

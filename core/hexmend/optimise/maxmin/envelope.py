@@ -42,7 +42,7 @@ class Envelope:
             return np.zeros(nodes.size, dtype=bool)
         return self.sliding.slides(nodes) & ~self.lifted[nodes]
 
-    def placed(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
+    def project(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
         """The points (n, 3) after a step of some nodes (k,) from `before`: put back, and no quad turned over.
 
         `points` is changed.
@@ -72,17 +72,17 @@ class Envelope:
         self._seen = after
         return False
 
-    def follow(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> None:
+    def track(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> None:
         """Know that nodes (k,) have gone from `before` to points, both (n, 3): quicker than to look at all anew."""
         self._seen = self._apart(before).moved(points, nodes)
 
-    def furthest(self, points: np.ndarray) -> float:
+    def largest_deviation(self, points: np.ndarray) -> float:
         """The largest distance of the boundary, nodes being at points (n, 3), and the surface, both ways."""
         if self.sliding is None:
             return 0.0
         return max(float(off.far.max(initial=0.0)) for off in self._off(points, 0.0))
 
-    def strayed(self, points: np.ndarray) -> np.ndarray:
+    def infeasible_nodes(self, points: np.ndarray) -> np.ndarray:
         """Nodes where the boundary, at points (n, 3), is out of its room, ascending, (k,) int."""
         return np.unique(np.concatenate([off.nodes for off in self._off(points, self.room)]))
 

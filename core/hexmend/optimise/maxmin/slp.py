@@ -145,17 +145,17 @@ class MaxMinOptimiser:
         self._begin()
         self.corners.unsettle()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
-        while self._radius > SMALLEST and (far := envelope.furthest(self.points)) > room * (1 + EXACT):
+        while self._radius > SMALLEST and (far := envelope.largest_deviation(self.points)) > room * (1 + EXACT):
             radius = self._radius
             envelope.room = max(room, far - NEARER * radius * edge)
             low = np.flatnonzero(corners.raised().ravel() < corners.least + NARROWEST)[: self._most]
-            strayed = envelope.strayed(self.points)
+            strayed = envelope.infeasible_nodes(self.points)
             _, points, moved = self._step(low, NARROWEST, strayed[self.mesh.free[strayed]])
-            if envelope.furthest(points) > far - BRINGS * (far - envelope.room):
+            if envelope.largest_deviation(points) > far - BRINGS * (far - envelope.room):
                 self._radius *= SHRINK
                 continue
             corners.measure(points, corners.hexes_at(moved))
-            envelope.follow(self.points, points, moved)
+            envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(GROW * self._radius, LARGEST)
             yield MaxMinStep(points, corners.least, low.size, radius)
         envelope.room = room
@@ -213,7 +213,7 @@ class MaxMinOptimiser:
         self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
         np.add.at(points, nodes[ways.of], solved.far[:, None] * ways.aims)
-        return solved.gain, envelope.placed(self.points, points, nodes), nodes
+        return solved.gain, envelope.project(self.points, points, nodes), nodes
 
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Move to `points` if that brings enough, and fit the trust region; returns what was gained."""

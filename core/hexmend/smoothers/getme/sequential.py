@@ -44,7 +44,7 @@ class SequentialGETMe(SlidingSmoother):
         0.001, low=0, high=1, unit="q(H)", help="By how much better a hex that moved counts for the rest of the sweep."
     )
     rejection_penalty: float = parameter(
-        0.01, low=1e-6, high=1, unit="q(H)", help="By how much better a hex whose step was rejected counts for the rest of the sweep."
+        0.01, low=1e-6, high=1, unit="q(H)", help="By how much better a hex counts whose step was rejected."
     )
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -45,7 +45,7 @@ class GlobalDescent(Optimiser):
         search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
         find, policy = self.direction(), self.policy(energy)
         points = energy.mesh.points
-        x = energy.scaled(points)
+        x = energy.to_edge_units(points)
         yield Step(points)
         while True:
             delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4
@@ -55,5 +55,5 @@ class GlobalDescent(Optimiser):
             if taken.alpha == 0 and taken.slope < 0:
                 return Outcome.NO_DESCENT
             x = taken.x
-            points = energy.placed(x)
+            points = energy.to_mesh_units(x)
             yield Step(points, taken.notes(delta))

@@ -81,7 +81,7 @@ def lifted(
         yield step.step(detour=True)
     envelope.turns = False
     turned = envelope.sliding.turned(envelope.sliding.points, raising.points).size > 0
-    far = envelope.furthest(raising.points) > room * (1 + NEAR_ENOUGH)
+    far = envelope.largest_deviation(raising.points) > room * (1 + NEAR_ENOUGH)
     if turned or far or corners.lowest < other.corners.lowest:
         yield Step(other.points, {"least": other.corners.lowest}, more=True)
         return other, limit

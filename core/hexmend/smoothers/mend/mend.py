@@ -144,7 +144,7 @@ class Mend(ObjectiveSmoother):
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
         """Untangle, then go to the optimum of shape; `more` where that is not the end."""
         locked = locked_corners(mesh)
-        energy = energy.but(energy.power, locked)
+        energy = energy.with_objective(energy.power, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
         if left_out.any() and not self.slides:
             yield Step(points, decision=what_is_left(left_out, locked), more=True, power=energy.power)
@@ -185,7 +185,7 @@ class Mend(ObjectiveSmoother):
         if near is not points:
             points, figures = near, measure(near, mesh.hexes)
             yield Step(points, more=True, figures=figures, power=energy.power)
-        x = energy.scaled(points)
+        x = energy.to_edge_units(points)
         tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
         least, idle = tangled, 0
         patience = SLIDING_PATIENCE if energy.faceted else PATIENCE
@@ -198,7 +198,7 @@ class Mend(ObjectiveSmoother):
                 taken = descend(energy, x, delta, find, SEARCH, REACH)
                 if taken is None or taken.alpha == 0:
                     break
-                x, points = taken.x, energy.placed(taken.x)
+                x, points = taken.x, energy.to_mesh_units(taken.x)
                 figures = measure(points, mesh.hexes)
                 yield Step(points, taken.notes(delta), more=True, figures=figures, power=energy.power)
                 tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
@@ -206,7 +206,7 @@ class Mend(ObjectiveSmoother):
                     break
             if tangled:
                 x = local_sweeps(energy, x, figures.inverted, locked, delta, sweeps)
-                points = energy.placed(x)
+                points = energy.to_mesh_units(x)
                 figures = measure(points, mesh.hexes)
                 notes = {"delta": delta, "sweeps": sweeps}
                 yield Step(points, notes, more=True, figures=figures, power=energy.power)
@@ -222,9 +222,9 @@ class Mend(ObjectiveSmoother):
         """Behind the barrier to the optimum, then, where it is asked for, with higher and higher p."""
         p = self.p
         while True:
-            energy = energy.but(ObjectiveNorm(p, self.offset), left_out)
+            energy = energy.with_objective(ObjectiveNorm(p, self.offset), left_out)
             find = self._direction()
-            x, rises = energy.scaled(points), p < self.max_p
+            x, rises = energy.to_edge_units(points), p < self.max_p
             whole = False  # whether the last step was taken whole: then no hex is in the way
             values: list[float] = []
             slow = SLOW_BESIDE_OTHERS if left_out.any() else SLOW
@@ -238,8 +238,8 @@ class Mend(ObjectiveSmoother):
                 values.append(taken.value - energy.least)
                 if energy.faceted and len(values) > LATELY and values[-LATELY] - values[-1] < slow * values[-1]:
                     return points, Outcome.NO_IMPROVEMENT
-                move = float(np.sqrt(np.square(taken.x - energy.scaled(points)).sum(axis=1).max()))
-                x, points, whole = taken.x, energy.placed(taken.x), taken.cuts == 0
+                move = float(np.sqrt(np.square(taken.x - energy.to_edge_units(points)).sum(axis=1).max()))
+                x, points, whole = taken.x, energy.to_mesh_units(taken.x), taken.cuts == 0
                 yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more, power=energy.power)
                 if rises and move < SETTLED:
                     break

@@ -34,7 +34,7 @@ def _seconds(*calls: Callable[[], Any]) -> list[list[float]]:
 def _kernels() -> dict[str, Any]:
     mesh = make("bridge-sharp")
     energy = MeshEnergy(mesh)
-    x, hexes, m = energy.scaled(mesh.points), mesh.hexes, mesh.n_hexes
+    x, hexes, m = energy.to_edge_units(mesh.points), mesh.hexes, mesh.n_hexes
     hessian, none = energy.hessian(x), energy.left_out
     gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
     matrix, right = hessian.assembled(), -gradient.ravel()
@@ -111,7 +111,7 @@ def _preconditioners() -> dict[str, Any]:
         optimum = smooth(make("five-side", size=size), "mend", StoppingCriteria(max_iterations=1000)).mesh
         mesh = scrambled(optimum, _MOVED, seed=0)
         energy = MeshEnergy(mesh)
-        x = energy.scaled(mesh.points)
+        x = energy.to_edge_units(mesh.points)
         right = -energy.gradient(x).ravel()
         for parts in (None, 1):
             energy.couplings = BlockSparsity(mesh, parts)

@@ -29,10 +29,10 @@ def test_without_sliding_nothing_is_bounded():
     points = mesh.points + 1.0
     assert envelope.room == np.inf
     assert not envelope.slides(nodes).any()
-    assert envelope.placed(mesh.points, points, nodes) is points
+    assert envelope.project(mesh.points, points, nodes) is points
     assert envelope.bounds(points, np.ones(mesh.n_nodes)).above.size == 0
     assert not envelope.leaves(mesh.points, points, nodes)
-    assert envelope.furthest(points) == 0
+    assert envelope.largest_deviation(points) == 0
 
 
 def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
@@ -41,7 +41,7 @@ def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
     envelope.lifted[lifted] = True
     assert (envelope.slides(nodes) == ~np.isin(nodes, lifted)).all()
     outside = pushed(sliding, nodes, 0.05)
-    points = envelope.placed(sliding.mesh.points, outside.copy(), nodes)
+    points = envelope.project(sliding.mesh.points, outside.copy(), nodes)
     np.testing.assert_array_equal(points[lifted], outside[lifted])
     others = nodes[1:]
     np.testing.assert_allclose(sliding.put_back(points[others], others), points[others], atol=1e-9)
@@ -53,14 +53,14 @@ def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
     envelope, edge = Envelope(mesh.n_nodes, sliding), mesh.mean_edge_length
     points = pushed(sliding, node, 0.3)
     assert not envelope.leaves(mesh.points, points, node)  # where there is no end of room
-    far = envelope.furthest(points)
+    far = envelope.largest_deviation(points)
     assert 0.2 * edge < far <= 0.3 * edge * (1 + 1e-9)
     envelope.room = 0.99 * far
     assert envelope.leaves(mesh.points, points, node)
-    assert node[0] in envelope.strayed(points)
+    assert node[0] in envelope.infeasible_nodes(points)
     envelope.room = 1.01 * far
     assert not envelope.leaves(mesh.points, points, node)
-    assert envelope.strayed(points).size == 0
+    assert envelope.infeasible_nodes(points).size == 0
 
 
 def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
@@ -69,7 +69,7 @@ def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     followed.room = anew.room = 0.2 * mesh.mean_edge_length
     points, moves = pushed(sliding, node, 0.1), np.zeros(mesh.n_nodes)
     moves[sliding.nodes] = 0.2 * mesh.mean_edge_length
-    followed.follow(mesh.points, points, node)
+    followed.track(mesh.points, points, node)
     one, other = (envelope.bounds(points, moves) for envelope in (followed, anew))
     assert one.above.size
     assert (one.rises == 0).all()

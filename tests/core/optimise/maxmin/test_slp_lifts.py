@@ -31,17 +31,17 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
     raising = lifted(sliding, mesh.points, edge, 4)
     assert raising.envelope.lifted.any()
     assert sliding.slides(np.flatnonzero(raising.envelope.lifted)).all()
-    far = raising.envelope.furthest(raising.points)
+    far = raising.envelope.largest_deviation(raising.points)
     assert 0.1 * edge < far <= edge * (1 + 1e-9)
     for step in raising.into(0.1 * edge):
         assert np.isfinite(step.points).all()
-    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
+    assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
     assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
     assert raising.envelope.room == 0.1 * edge
     least = raising.corners.least
     steps, _ = raised(raising)
     assert all(step.least > least for step in steps)
-    assert raising.envelope.furthest(raising.points) <= 0.1 * edge * (1 + 1e-5)
+    assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
 
 
 def test_nothing_is_lifted_off_a_surface_without_room():
@@ -67,10 +67,10 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
             limit = step
         if not isinstance(limit, ActiveCorners) or not raising.lift(limit):
             break
-    assert raising.envelope.furthest(raising.points) > room
+    assert raising.envelope.largest_deviation(raising.points) > room
     for _ in raising.into(room):
         pass
-    assert raising.envelope.furthest(raising.points) <= room * (1 + 1e-5)
+    assert raising.envelope.largest_deviation(raising.points) <= room * (1 + 1e-5)
     change = surface_change(mesh, mesh.with_points(raising.points))
     assert change.furthest <= room * (1 + 1e-5)
 

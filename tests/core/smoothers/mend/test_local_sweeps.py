@@ -26,10 +26,10 @@ def swept(monkeypatch):
     def around(which, left_out=(), sweeps=2):
         hexes, omitted = np.zeros(mesh.n_hexes, bool), np.zeros(mesh.n_hexes, np.uint8)
         hexes[list(which)], omitted[list(left_out)] = True, 1
-        x = energy.scaled(mesh.points)
+        x = energy.to_edge_units(mesh.points)
         there = local_sweeps(energy, x, hexes, omitted, 0.0, sweeps)
         assert len(asked) == sweeps
-        np.testing.assert_array_equal(x, energy.scaled(mesh.points))
+        np.testing.assert_array_equal(x, energy.to_edge_units(mesh.points))
         asked.clear()
         return set(np.flatnonzero((there != x).any(axis=1)).tolist())
 
@@ -71,7 +71,7 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     points[points[:, 0] == 2, 0] = -1.0
     mesh = mesh.with_points(points)
     energy, locked = MeshEnergy(mesh), mend.locked_corners(mesh)
-    walk = mend.Mend()._untangled(mesh, energy.but(energy.power, locked), locked)  # noqa: SLF001
+    walk = mend.Mend()._untangled(mesh, energy.with_objective(energy.power, locked), locked)  # noqa: SLF001
     while True:
         try:
             next(walk)

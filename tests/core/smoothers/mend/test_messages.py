@@ -100,5 +100,5 @@ def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatc
     assert best is off
     assert of is not limit
     assert off.corners.lowest > other.corners.lowest
-    assert 0.5 * room < off.envelope.furthest(off.points) <= room * (1 + 1e-5)
+    assert 0.5 * room < off.envelope.largest_deviation(off.points) <= room * (1 + 1e-5)
     assert not off.envelope.turns
