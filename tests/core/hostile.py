@@ -18,8 +18,8 @@ from hexmend.energy import MeshEnergy, SlidingEnergy, energies
 from hexmend.errors import HexmendError
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.fixing import with_pinned, with_region_free
-from hexmend.mesh.patches import grown
-from hexmend.mesh.tags import tagged
+from hexmend.mesh.patches import partition_patches
+from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
 from hexmend.node_step import Sweep, explain
 from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
@@ -119,7 +119,7 @@ CALLS: dict[str, Callable[[object], object]] = {
     "colouring": MESH.topology.colouring,
     "wavefronts": MESH.topology.wavefronts,
     "levels": MESH.topology.levels,
-    "ring_of": lambda v: MESH.topology.ring_of(v, 1),
+    "ring_of": lambda v: MESH.topology.hexes_around(v, 1),
     "Skin, points": lambda v: SkinSurface(v, FACES),
     "Skin, faces": lambda v: SkinSurface(X, v),
     "Skin.closest": SKIN.closest,
@@ -134,8 +134,8 @@ CALLS: dict[str, Callable[[object], object]] = {
     "SlidingEnergy.gradient": lambda v: SlidingEnergy(SLIDING).gradient(v),
     "with_pinned": lambda v: with_pinned(MESH, v),
     "with_region_free": lambda v: with_region_free(MESH, v),
-    "tagged": lambda v: tagged(MESH, "a", v),
-    "grown": lambda v: grown(MESH, v, 1),
+    "tagged": lambda v: with_tag(MESH, "a", v),
+    "grown": lambda v: partition_patches(MESH, v, 1),
     "element": lambda v: element(MESH, v),
     "node": lambda v: node(MESH, v),
     "explain": lambda v: explain(MESH, SD, v),

@@ -54,7 +54,7 @@ class Filters:
             self._part(
                 "isolation",
                 look.isolation,
-                lambda: topology.ring_of(look.isolation.hexes, 0),
+                lambda: topology.hexes_around(look.isolation.hexes, 0),
             ),
             self._part("dug", look.dug or None, lambda: _all_but(look.dug, self._mesh.n_hexes)),
             self._part("quality", chosen and (chosen, figures), lambda: self._within(chosen, points, figures)),
@@ -92,7 +92,7 @@ class Filters:
             self._known.pop("ghosts", None)
             return None
         topology = self._mesh.topology
-        near = self._part("ghosts", around, lambda: topology.ring_of(around.hexes, around.rings))
+        near = self._part("ghosts", around, lambda: topology.hexes_around(around.hexes, around.rings))
         isolated, others = (
             self._known["isolation"][1],
             [self._known[name][1] for name in ("clip", "dug") if name in self._known],

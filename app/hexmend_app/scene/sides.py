@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import clip_planes
-from hexmend.mesh.validation import as_hexes, as_points, real_numbers
+from hexmend.mesh.validation import as_hexes, as_points, as_reals
 
 
 def centres_kept(
@@ -53,7 +53,7 @@ def touched(points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets:
 def _checked(
     points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    points, normals, offsets = as_points(points), as_points(normals, "normals"), real_numbers(offsets, "offsets")
+    points, normals, offsets = as_points(points), as_points(normals, "normals"), as_reals(offsets, "offsets")
     if offsets.shape != (len(normals),):
         raise MeshError(f"offsets have shape {offsets.shape}: expected ({len(normals)},), one for each plane")
     return points, as_hexes(hexes, len(points)), normals, offsets

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend.mesh.fixing import with_pinned, with_region_free
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.tags import renamed_tag, tagged, without_tag
+from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag
 from hexmend.quality import summarise
 from hexmend.run.memory import Shortage, available, shortage
 from hexmend.run.recipe import Recipe, Stage
@@ -144,9 +144,9 @@ class Commands(QObject):
         A group of which nothing is left is no more.
         """
         before = self.document.now.mesh.hex_sets.get(name, ())
-        after = tagged(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
+        after = with_tag(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
         if len(before) != len(after):
-            self._amend("tag" if on else "untag", tagged, name, np.asarray(hexes, dtype=np.int64), on)
+            self._amend("tag" if on else "untag", with_tag, name, np.asarray(hexes, dtype=np.int64), on)
 
     def remove_tag(self, name: str) -> None:
         """Let a named group of elements be no more, while the mesh may be changed."""
@@ -154,7 +154,7 @@ class Commands(QObject):
 
     def rename_tag(self, name: str, other: str) -> None:
         """Call a group of elements otherwise, while the mesh may be changed."""
-        self._amend("rename the tag", renamed_tag, name, other)
+        self._amend("rename the tag", with_tag_renamed, name, other)
 
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
         """Change what the mesh carries beside its nodes' places, by a function of the core that the script names."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import Structure, structure
+from hexmend.mesh.structure import Structure, find_structure
 from hexmend_app.state.document import Document
 from hexmend_app.state.task import Task, drop
 
@@ -59,7 +59,7 @@ class Finder(QObject):
         if self._task is not None:
             return
         self._mesh = mesh = self._document.start.mesh
-        self._task = Task(f"reading {mesh.name}: its structure", lambda _: structure(mesh))
+        self._task = Task(f"reading {mesh.name}: its structure", lambda _: find_structure(mesh))
         self._task.ended.connect(self._finish)
         self._task.start()
 

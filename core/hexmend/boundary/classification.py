@@ -10,9 +10,9 @@ import numpy as np
 from hexmend.boundary.edges import SurfaceEdges, chains, components
 from hexmend.boundary.features import DEGREES, WHISKER, feature_edges, given_corners, given_edges, turns
 from hexmend.errors import MeshError
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import as_faces, as_points, check_node_numbers, whole_numbers
+from hexmend.mesh.validation import as_faces, as_integers, as_points, check_node_numbers
 
 
 class NodeClass(IntEnum):
@@ -121,7 +121,7 @@ def classify(
     points = as_points(points)
     n = len(points)
     faces, kept = as_faces(faces, n), np.zeros(n, dtype=bool)
-    kept[members([] if corners is None else corners, "corners", n)] = True
+    kept[as_set([] if corners is None else corners, "corners", n)] = True
     edges = SurfaceEdges(faces, n)
     given = np.isin(edges.key, edges.keys_of(_edges([] if sharp is None else sharp, n)))
     feature = feature_edges(points, edges, degrees, given, kept, whisker)
@@ -142,7 +142,7 @@ def classify(
 
 def _edges(edges: np.ndarray, n: int) -> np.ndarray:
     """Edges of nodes below n, (e, 2) int; `MeshError` where they are none."""
-    array = whole_numbers(edges, "sharp edges", ("edge", "end"))
+    array = as_integers(edges, "sharp edges", ("edge", "end"))
     if not array.size:
         return array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import closest_point
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.validation import as_faces, as_points, points_like
 
 #: Coordinates from which on distances leave the range of numbers.
@@ -61,7 +61,7 @@ class ClosestPointTrees:
     def __init__(self, points: np.ndarray, pieces: np.ndarray, group: np.ndarray):
         points = as_points(points)
         pieces = as_faces(pieces, len(points))
-        group = members(group, "group", len(pieces))
+        group = as_set(group, "group", len(pieces))
         if pieces.shape[1] != 3 or len(group) != len(pieces):
             raise MeshError(
                 f"pieces have shape {pieces.shape} and group {group.shape}: expected (k, 3), and a group for each"
@@ -95,7 +95,7 @@ class ClosestPointTrees:
             For a point that is infinite or next to it, and for arrays of another shape or type.
         """
         x = as_points(x, "places")
-        group = members(group, "group", len(self.roots))
+        group = as_set(group, "group", len(self.roots))
         if len(group) != len(x):
             raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
         piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)

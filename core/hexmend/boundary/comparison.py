@@ -160,11 +160,12 @@ class SkinSurface:
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
         on = np.flatnonzero(mesh.topology.boundary)
-        far = float(np.quantile(self.distances(mesh.surface[on]), 0.9)) / (mesh.mean_edge_length or 1.0)
+        far = float(np.quantile(self.distances(mesh.surface_points[on]), 0.9)) / (mesh.mean_edge_length or 1.0)
         if far <= NEAR:
             return
         boxes = (
-            " x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0)) for x in (self.points[self.nodes], mesh.surface[on])
+            " x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0))
+            for x in (self.points[self.nodes], mesh.surface_points[on])
         )
         raise MeshError(
             f"{self.name or 'the surface'}: one in ten nodes of the mesh's boundary is {far:.3g} mean edge lengths "
@@ -195,7 +196,7 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
     Parameters
     ----------
     before, after : Mesh
-        Of the same hexes. Of the first its `Mesh.surface` counts: where nothing else is kept, its boundary.
+        Of the same hexes. Of the first its `Mesh.surface_points` counts: where nothing else is kept, its boundary.
     degrees : float
         Angle beyond which an edge is a feature.
 
@@ -214,7 +215,7 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = DEGREES) -> Surfa
     """
     if before.n_nodes != after.n_nodes or not np.array_equal(before.hexes, after.hexes):
         raise MeshError(f"{before.n_hexes} and {after.n_hexes} hexes that are not the same: expected one mesh, moved")
-    before = before.with_points(before.surface)
+    before = before.with_points(before.surface_points)
     old = SkinSurface(before.points, before.topology.boundary_faces)
     new = old.with_points(after.points)
     ways = distances(after.target or old, new)

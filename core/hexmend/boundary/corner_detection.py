@@ -20,7 +20,7 @@ def sliding_boundary(mesh: Mesh, degrees: float = DEGREES) -> Boundary:
     degrees : float
         See `boundary_of`.
     """
-    original = mesh.with_points(mesh.surface)
+    original = mesh.with_points(mesh.surface_points)
     boundary = boundary_of(original, degrees)
     bends = kept_bends(original, boundary)
     if not bends.size:

@@ -56,10 +56,10 @@ class SlidingBoundary(Band):
         self.boundary = sliding_boundary(mesh, degrees)
         target = mesh.target
         if target is None:
-            self.surface = Surface(mesh.surface, self.boundary)
+            self.surface = Surface(mesh.surface_points, self.boundary)
         else:
             whole = Surface(target.points, classify(target.points, target.faces, degrees))
-            self.surface = whole.attached(mesh.surface, self.boundary, NEAR * mesh.mean_edge_length)
+            self.surface = whole.attached(mesh.surface_points, self.boundary, NEAR * mesh.mean_edge_length)
         self.kind = self.surface.kind
         slides = self.kind >= NodeClass.CURVE
         self.nodes = np.flatnonzero(slides)
@@ -68,10 +68,10 @@ class SlidingBoundary(Band):
         self._group = self.surface.group_of(self.nodes)
         self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
         self._number[self.nodes] = np.arange(self.nodes.size)
-        start = mesh.surface
+        start = mesh.surface_points
         if target is not None:
             start, mesh = self._put_on(start), mesh.with_points(self._put_on(mesh.points))
-        super().__init__(mesh.surface, self.boundary.faces, start, target, room)
+        super().__init__(mesh.surface_points, self.boundary.faces, start, target, room)
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:

@@ -45,7 +45,7 @@ class Smooth:
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.io import read, writer_for
         from hexmend.mesh.fixing import with_region_free, with_sets_fixed
-        from hexmend.quality.selection import hexes_of
+        from hexmend.quality.selection import hexes_in_set
         from hexmend.run import iterate
         from hexmend.run.recipe_files import write_recipe
 
@@ -60,7 +60,7 @@ class Smooth:
         if args.fix:
             mesh = with_sets_fixed(mesh, *args.fix)
         if args.only:
-            mesh = with_region_free(mesh, hexes_of(mesh, args.only), max(args.rings, 0))
+            mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
         check_memory(args, [what], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
         run = iterate(on_surface(args, mesh, what), what, stop)
         if args.save_recipe:

@@ -18,14 +18,14 @@ class CrowdedFaces(Ailment):
     rank = 8
 
     def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        if not mesh.topology.crowded_faces:
+        if not mesh.topology.n_nonmanifold_faces:
             return NOWHERE
         faces = np.sort(mesh.hexes[:, FACES], axis=2).reshape(-1, 4)
         _, which, times = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
         return np.unique(np.flatnonzero(times[which.reshape(-1)] > 2) // 6)
 
     def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        count = mesh.topology.crowded_faces
+        count = mesh.topology.n_nonmanifold_faces
         return Finding(
             self.name, count,
             f"{count:,} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",

@@ -7,7 +7,7 @@ import numpy as np
 from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
 from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import mirrored_parts, turned
+from hexmend.mesh.orientation import mirror_hexes, mirrored_parts
 from hexmend.quality import corner_determinants
 
 
@@ -30,7 +30,7 @@ class MirroredParts(Ailment):
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        return turned(mesh, mirrored_parts(mesh))
+        return mirror_hexes(mesh, mirrored_parts(mesh))
 
 
 @ailment
@@ -53,7 +53,7 @@ class FlippedHexes(Ailment):
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        return turned(mesh, self._which(mesh))
+        return mirror_hexes(mesh, self._which(mesh))
 
     def _which(self, mesh: Mesh) -> np.ndarray:
         sigma = corner_determinants(mesh.points, mesh.hexes)

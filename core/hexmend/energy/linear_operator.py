@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.mesh.validation import real_numbers
+from hexmend.mesh.validation import as_reals
 
 
 class SymmetricOperator(ABC):
@@ -40,7 +40,7 @@ class SymmetricOperator(ABC):
 
     def _vector(self, v: object, what: str = "the vector") -> np.ndarray:
         """A vector as (size,) float64, contiguous; `MeshError` where it has another shape or type."""
-        array = real_numbers(v, what)
+        array = as_reals(v, what)
         if array.shape != self.shape[1:]:
             raise MeshError(f"{what} has shape {array.shape}: expected {self.shape[1:]}")
         return array

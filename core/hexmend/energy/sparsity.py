@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.kernels import ordering
 from hexmend.kernels import sparsity as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.size_limits import MOST_ITEMS, too_many
+from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 
 #: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
@@ -57,9 +57,9 @@ class BlockSparsity:
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.order = np.argsort(self.nodes)
         self.slots = slot[mesh.hexes]
-        with too_many("pairs of free nodes that share a hex"):
+        with overflow_as_mesh_error("pairs of free nodes that share a hex"):
             self.row_start, self.columns, self.target = kernels.pattern(
-                self.slots, self.nodes, corners.start, corners.items, MOST_ITEMS
+                self.slots, self.nodes, corners.start, corners.items, MAX_ITEMS
             )
         self._hexes = mesh.hexes
         self._shares: dict[int, tuple[np.ndarray, ...]] = {}

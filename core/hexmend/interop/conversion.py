@@ -9,7 +9,7 @@ from pathlib import Path
 from hexmend.errors import FileError, InstallationError, MeshError
 from hexmend.interop.side_marks import with_side_sets
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import upright
+from hexmend.mesh.orientation import with_consistent_orientation
 
 
 @contextmanager
@@ -44,4 +44,4 @@ def mesh_of(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Mesh:
         mesh = with_side_sets(read(Path(title)))
     except FileError as error:
         raise MeshError(str(error)) from None
-    return mesh if as_is else upright(mesh)
+    return mesh if as_is else with_consistent_orientation(mesh)

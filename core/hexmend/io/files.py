@@ -15,7 +15,7 @@ from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.base.plugins import further
 from hexmend.io.storage.atomic import check_writable, replacing
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import upright
+from hexmend.mesh.orientation import with_consistent_orientation
 
 
 def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_place: bool = False) -> Mesh:
@@ -50,7 +50,7 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_pla
             mesh = format.read(path).replace(name=path.stem)
         finally:
             PLACING.reset(placing)
-        return mesh if as_is else upright(mesh)
+        return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
     except MemoryError:

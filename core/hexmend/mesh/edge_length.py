@@ -8,22 +8,32 @@ from hexmend.kernels import elements
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.validation import as_hexes, as_points
 
-#: By what factor the longest edges may raise the mean length of all.
-SPOILED = 4.0
-#: In how many hexes, about, it is looked for that.
-_LOOKED_AT = 10_000
+#: Edges count as outliers where they make the mean of all more than so many times the trimmed mean.
+OUTLIER_FACTOR = 4.0
+#: About how many hexes the trimmed mean is taken over.
+_SAMPLE_HEXES = 10_000
 
 
 def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Mean length of the edges of hexes, each counted once a hex; the longest are left out where they spoil it.
+    """Compute the mean edge length of hexes; an edge counts once for each hex that has it.
 
-    That is where it is more than `SPOILED` times the mean of all but the longest tenth: one node far away makes edges
-    so long that in their mean all others would have no length.
+    Where the mean exceeds `OUTLIER_FACTOR` times the mean of all but the longest tenth, the latter is returned: one
+    node far away makes edges so long that all others would be negligible in the unit that the mean defines.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
+
+    Returns
+    -------
+    float
+        In the unit of the points; 0 if there are no hexes.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
 
     Examples
     --------
@@ -36,13 +46,13 @@ def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
     if not len(hexes):
         return 0.0
     mean = elements.mean_edge_length(points, hexes)
-    usual = _usual(points, hexes)
-    return usual if mean > SPOILED * usual > 0 else mean
+    trimmed = _trimmed_mean(points, hexes)
+    return trimmed if mean > OUTLIER_FACTOR * trimmed > 0 else mean
 
 
-def _usual(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Mean length of the edges of hexes without the longest tenth; of many hexes some are looked at."""
-    ends = points[hexes[:: len(hexes) // _LOOKED_AT + 1]][:, EDGES]
+def _trimmed_mean(points: np.ndarray, hexes: np.ndarray) -> float:
+    """Mean length of all but the longest tenth of the edges, over a sample of the hexes."""
+    ends = points[hexes[:: len(hexes) // _SAMPLE_HEXES + 1]][:, EDGES]
     with np.errstate(over="ignore"):
         lengths = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).ravel()
     kept = lengths.size - lengths.size // 10

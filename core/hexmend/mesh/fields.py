@@ -9,11 +9,11 @@ import numpy as np
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import CELL_KINDS, Cells
-from hexmend.mesh.second_order import MID_PLACES
-from hexmend.mesh.validation import as_array, as_bools, check_node_numbers, place, whole_numbers
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
+from hexmend.mesh.validation import as_array, as_bools, as_integers, check_node_numbers, location
 
 
-def checked(field: str, value: object, nodes: int, hexes: int) -> object:
+def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
     """The value of a field of a mesh, checked, its arrays immutable; of a field without a check the value itself.
 
     Parameters
@@ -41,14 +41,14 @@ def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
     MeshError
         For another shape or type, and for a node that does not exist.
     """
-    array = whole_numbers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
-    if array.shape != (hexes, len(MID_PLACES)):
-        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {len(MID_PLACES)})")
+    array = as_integers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
+    if array.shape != (hexes, len(MID_NODE_POSITIONS)):
+        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {len(MID_NODE_POSITIONS)})")
     check_node_numbers(array, nodes, ("hex", "mid-node"), -1)
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
-def members(values: object, what: str, count: int) -> np.ndarray:
+def as_set(values: object, what: str, count: int) -> np.ndarray:
     """A named set as an array of integers (k,), each from 0 to `count` - 1.
 
     Raises
@@ -56,14 +56,14 @@ def members(values: object, what: str, count: int) -> np.ndarray:
     MeshError
         For another shape or type, and naming the first member that does not exist.
     """
-    array = whole_numbers(values, what, ("member",))
+    array = as_integers(values, what, ("member",))
     if array.ndim != 1:
         raise MeshError(f"{what} has shape {array.shape}: expected (k,)")
     _check_members(array, what, ("member",), (count,))
     return array
 
 
-def sides(values: object, what: str, hexes: int) -> np.ndarray:
+def as_side_set(values: object, what: str, hexes: int) -> np.ndarray:
     """A named set of faces as an array of integers (k, 2): a hex, and the number of one of its six faces.
 
     Raises
@@ -71,7 +71,7 @@ def sides(values: object, what: str, hexes: int) -> np.ndarray:
     MeshError
         For another shape or type, and naming the first side that does not exist.
     """
-    array = whole_numbers(values, what, ("side", "column"))
+    array = as_integers(values, what, ("side", "column"))
     if not array.size:
         return array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
@@ -86,11 +86,11 @@ def _check_members(array: np.ndarray, what: str, places: tuple[str, ...], counts
         if numbers.size and (numbers.min() < 0 or numbers.max() >= count):
             at = int(np.flatnonzero((numbers < 0) | (numbers >= count))[0])
             raise MeshError(
-                f"{what} has {numbers[at]} at {place(places, (at, column))}: expected numbers from 0 to {count - 1}"
+                f"{what} has {numbers[at]} at {location(places, (at, column))}: expected numbers from 0 to {count - 1}"
             )
 
 
-def rows(values: object, what: str, count: int) -> np.ndarray:
+def as_rows(values: object, what: str, count: int) -> np.ndarray:
     """Data as an array of so many rows; `MeshError` where they are more or fewer."""
     array = as_array(values, what)
     if array.ndim == 0:
@@ -114,15 +114,15 @@ def check_cells(cells: object, nodes: int) -> Cells:
     if not isinstance(kind, str) or kind not in CELL_KINDS:
         raise MeshError(f"there is no kind of cells {kind!r}: expected one of {', '.join(CELL_KINDS)}")
     places, width = (kind, "corner"), CELL_KINDS[kind].nodes
-    array = whole_numbers(cells.nodes, f"{kind} cells", places)
+    array = as_integers(cells.nodes, f"{kind} cells", places)
     if array.ndim != 2 or array.shape[1] != width:
         raise MeshError(f"{kind} cells have shape {array.shape}: expected (k, {width})")
     check_node_numbers(array, nodes, places)
     return Cells(
         kind,
         as_immutable(np.asarray(array, dtype=np.int32)),
-        _arrays(cells.data, f"data of {kind} cells", len(array), rows),
-        _arrays(cells.sets, f"set of {kind} cells", len(array), members),
+        _arrays(cells.data, f"data of {kind} cells", len(array), as_rows),
+        _arrays(cells.sets, f"set of {kind} cells", len(array), as_set),
     )
 
 
@@ -156,9 +156,9 @@ _CHECKS: dict[str, Callable[..., object]] = {
     "pinned": _pinned,
     "mid_nodes": _mid_nodes,
     "cells": _cells,
-    "node_data": _table("node data", True, rows),
-    "hex_data": _table("hex data", False, rows),
-    "node_sets": _table("node set", True, members),
-    "hex_sets": _table("hex set", False, members),
-    "side_sets": _table("side set", False, sides),
+    "node_data": _table("node data", True, as_rows),
+    "hex_data": _table("hex data", False, as_rows),
+    "node_sets": _table("node set", True, as_set),
+    "hex_sets": _table("hex set", False, as_set),
+    "side_sets": _table("side set", False, as_side_set),
 }

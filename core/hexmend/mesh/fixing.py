@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 
@@ -34,7 +34,7 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
     (8, 6)
     """
     pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
-    pinned[members(np.atleast_1d(nodes), "nodes", mesh.n_nodes)] = on
+    pinned[as_set(np.atleast_1d(nodes), "nodes", mesh.n_nodes)] = on
     return mesh.replace(pinned=pinned)
 
 
@@ -60,7 +60,7 @@ def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
     (6, 8)
     """
     for name in names:
-        mesh = with_pinned(mesh, nodes_of(mesh, name))
+        mesh = with_pinned(mesh, nodes_in_set(mesh, name))
     return mesh
 
 
@@ -80,11 +80,11 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
         For a hex that does not exist.
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
-    region[mesh.hexes[mesh.topology.ring_of(hexes, rings)]] = True
+    region[mesh.hexes[mesh.topology.hexes_around(hexes, rings)]] = True
     return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
 
 
-def nodes_of(mesh: Mesh, name: str) -> np.ndarray:
+def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     """The nodes of a set of nodes, hexes or sides, (k,) int; raises `MeshError` for a set that there is not."""
     if name in mesh.node_sets:
         return np.asarray(mesh.node_sets[name])

@@ -16,14 +16,14 @@ from hexmend.hooks import provided
 from hexmend.html_repr import html_of
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
-from hexmend.mesh.fields import checked
-from hexmend.mesh.second_order import following
+from hexmend.mesh.fields import check_field
+from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
 
 
-class Target(Protocol):
+class TargetSurface(Protocol):
     """A surface that the boundary of a mesh can slide on; `hexmend.boundary.Skin` is one."""
 
     points: np.ndarray
@@ -122,7 +122,7 @@ class Mesh:
         """Check the values of some fields and keep them; points and hexes stay."""
         for name, value in values.items():
             if name not in ("points", "hexes"):
-                self._set(**{name: checked(name, value, self.n_nodes, self.n_hexes)})
+                self._set(**{name: check_field(name, value, self.n_nodes, self.n_hexes)})
 
     def _set(self, **values: object) -> None:
         for name, value in values.items():
@@ -184,22 +184,24 @@ class Mesh:
         points = points_like(points, self.points.shape)
         check_finite(points)
         if self.mid_nodes is not None:
-            points = following(self.points, points, self.hexes, self.mid_nodes)
+            points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
         mesh = self._copy("fixed", "free")
         mesh._set(points=as_immutable(points))
         return mesh
 
     @property
-    def surface(self) -> np.ndarray:
-        """Places of nodes, (n, 3), at which the boundary is the surface that it slides on; see `keeping_surface`."""
+    def surface_points(self) -> np.ndarray:
+        """Node positions, (n, 3), that define the surface on which the boundary slides; see `keeping_surface`."""
         return self.__dict__.get("_surface", self.points)
 
+    surface = surface_points  # its name in version 0.1
+
     @property
-    def target(self) -> Target | None:
+    def target(self) -> TargetSurface | None:
         """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
         return self.__dict__.get("_target")
 
-    def sliding_on(self, surface: Target, *, check: bool = True) -> Mesh:
+    def sliding_on(self, surface: TargetSurface, *, check: bool = True) -> Mesh:
         """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
 
         Methods that let the boundary slide put its nodes on that surface first; others do as ever.
@@ -224,7 +226,7 @@ class Mesh:
     def keeping_surface(self) -> Mesh:
         """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
         copy = self._copy("fixed", "free")
-        copy._set(_surface=self.surface)
+        copy._set(_surface=self.surface_points)
         return copy
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
@@ -240,7 +242,7 @@ class Mesh:
             For another length or type.
         """
         copy = self._copy()
-        copy._set(fixed=as_immutable(as_bools(fixed, "fixed", self.n_nodes)), _surface=self.surface)
+        copy._set(fixed=as_immutable(as_bools(fixed, "fixed", self.n_nodes)), _surface=self.surface_points)
         return copy
 
     def replace(self, **changes: object) -> Mesh:

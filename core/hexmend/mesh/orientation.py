@@ -6,14 +6,14 @@ import numpy as np
 
 from hexmend.kernels import elements
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import EXCHANGED
+from hexmend.mesh.second_order import MIRRORED_MID_NODES
 
 #: Corners of a hex whose lower and upper face are exchanged; and its faces.
-TURNED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
-TURNED_FACES = np.array([0, 1, 2, 3, 5, 4])
+MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
+MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
 
-def upright(mesh: Mesh) -> Mesh:
+def with_consistent_orientation(mesh: Mesh) -> Mesh:
     """The mesh with every part turned that is wound the other way, and a note that says so.
 
     Single inverted hexes are never turned: they are what is to be mended.
@@ -23,7 +23,7 @@ def upright(mesh: Mesh) -> Mesh:
     if not count:
         return mesh
     where = "All hexes" if count == mesh.n_hexes else f"{count:,} hexes, which make whole parts,"
-    return turned(mesh, which).replace(
+    return mirror_hexes(mesh, which).replace(
         notes=(*mesh.notes, f"{where} were wound the other way (inside out) in the file, and have been turned.")
     )
 
@@ -55,19 +55,19 @@ def _rounding(mesh: Mesh) -> np.ndarray:
     return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2
 
 
-def turned(mesh: Mesh, which: np.ndarray) -> Mesh:
+def mirror_hexes(mesh: Mesh, which: np.ndarray) -> Mesh:
     """The mesh with the lower and the upper face of some hexes, (m,) bool, exchanged: each is turned inside out."""
     hexes = mesh.hexes.copy()
-    hexes[which] = hexes[which][:, TURNED_CORNERS]
+    hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     mids = None
     if mesh.mid_nodes is not None:
         mids = mesh.mid_nodes.copy()
-        mids[which] = mids[which][:, EXCHANGED]
+        mids[which] = mids[which][:, MIRRORED_MID_NODES]
     sides = {}
     for name, rows in mesh.side_sets.items():
         sides[name] = rows = np.array(rows)
         there = which[rows[:, 0]]
-        rows[there, 1] = TURNED_FACES[rows[there, 1]]
+        rows[there, 1] = MIRRORED_FACES[rows[there, 1]]
     return mesh.rebuilt(hexes=hexes, mid_nodes=mids, side_sets=sides)
 
 

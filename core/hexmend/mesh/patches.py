@@ -34,7 +34,7 @@ class Patches:
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> patches = grown(make("cube", size=125), size=8, overlap=0)
+    >>> patches = partition_patches(make("cube", size=125), size=8, overlap=0)
     >>> len(patches.nodes), patches.nodes[0].size
     (8, 8)
     """
@@ -46,7 +46,7 @@ class Patches:
     colours: CSR
 
 
-def grown(mesh: Mesh, size: int, overlap: int) -> Patches:
+def partition_patches(mesh: Mesh, size: int, overlap: int) -> Patches:
     """Divide the free nodes of a mesh into patches.
 
     Parameters

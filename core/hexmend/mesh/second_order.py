@@ -22,26 +22,30 @@ MID_EDGES = np.array(
 )
 
 #: Places of nodes 8 to 26 in the unit cube, (19, 3).
-MID_PLACES = np.concatenate(
+MID_NODE_POSITIONS = np.concatenate(
     [UNIT_CUBE[MID_EDGES].mean(axis=1), UNIT_CUBE[FACES].mean(axis=1), UNIT_CUBE.mean(axis=0)[None]]
 )
 
 #: Shares of the corners in nodes 8 to 26, (19, 8): the trilinear functions of the corners there.
-SHARES = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLACES[:, None]), axis=2)
+MID_NODE_WEIGHTS = np.prod(
+    np.where(UNIT_CUBE[None] == 1, MID_NODE_POSITIONS[:, None], 1 - MID_NODE_POSITIONS[:, None]), axis=2
+)
 
 #: Where nodes 8 to 26 are in a hex whose lower and upper face are exchanged.
-EXCHANGED = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
+MIRRORED_MID_NODES = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
 
 #: Places of all 27 nodes, and of the 3 x 3 x 3 Gauss points.
-PLACES = np.concatenate([UNIT_CUBE, MID_PLACES])
-_GAUSS = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
-GAUSS_PLACES = np.stack(np.meshgrid(_GAUSS, _GAUSS, _GAUSS, indexing="ij"), axis=-1).reshape(-1, 3)
+NODE_POSITIONS = np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS])
+_GAUSS_ABSCISSAE = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
+GAUSS_POINTS = np.stack(
+    np.meshgrid(_GAUSS_ABSCISSAE, _GAUSS_ABSCISSAE, _GAUSS_ABSCISSAE, indexing="ij"), axis=-1
+).reshape(-1, 3)
 
 #: Hexes of which Jacobians are computed at a time.
-_AT_A_TIME = 1 << 15
+_CHUNK_HEXES = 1 << 15
 
 
-def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
     """Places of all nodes once those of second order have followed the corners.
 
     A node moves as the trilinear map of the corners moves its place, so that an element that is carried as a whole
@@ -64,14 +68,14 @@ def following(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_node
         chosen = np.flatnonzero(mid_nodes[:, corner] >= 0)
         nodes = mid_nodes[chosen, corner]
         nodes, first = np.unique(nodes, return_index=True)  # hexes that share it agree on it
-        used = np.flatnonzero(SHARES[corner])
+        used = np.flatnonzero(MID_NODE_WEIGHTS[corner])
         corners = hexes[chosen[first]][:, used]
-        moves = np.einsum("c,kcx->kx", SHARES[corner, used], after[corners] - before[corners])
+        moves = np.einsum("c,kcx->kx", MID_NODE_WEIGHTS[corner, used], after[corners] - before[corners])
         answer[nodes] = before[nodes] + moves
     return answer
 
 
-def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
+def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
     """The least determinant of each hex's map from the unit cube, over its nodes and the Gauss points, scaled.
 
     Parameters
@@ -89,9 +93,9 @@ def jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> n
     answer = np.full(len(hexes), np.nan)
     more = (mid_nodes >= 0).sum(axis=1)
     for width, functions in ((20, serendipity), (27, lagrange)):
-        gradients = functions(np.concatenate([PLACES[:width], GAUSS_PLACES]), PLACES[:width])[1]
+        gradients = functions(np.concatenate([NODE_POSITIONS[:width], GAUSS_POINTS]), NODE_POSITIONS[:width])[1]
         chosen = np.flatnonzero(more == width - 8)
-        for some in np.split(chosen, range(_AT_A_TIME, len(chosen), _AT_A_TIME)):
+        for some in np.split(chosen, range(_CHUNK_HEXES, len(chosen), _CHUNK_HEXES)):
             nodes = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
             least = np.full(len(some), np.inf)
             for gradient in gradients:

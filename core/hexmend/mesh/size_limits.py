@@ -10,18 +10,18 @@ import numpy as np
 from hexmend.errors import MeshError
 
 #: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
-LARGEST, SMALLEST = 1e75, 1e-75
+MAX_COORDINATE, MIN_EXTENT = 1e75, 1e-75
 
 #: Nodes have numbers of 32 bits, and so have corners, each of which is 8 * hex + corner.
-MOST_NODES = 2**31 - 1
-MOST_HEXES = MOST_NODES // 8
+MAX_NODES = 2**31 - 1
+MAX_HEXES = MAX_NODES // 8
 
 #: Items of compressed rows, such as the neighbours of all nodes, are numbered by 32 bits too.
-MOST_ITEMS = MOST_NODES
+MAX_ITEMS = MAX_NODES
 
 
 @contextmanager
-def too_many(what: str) -> Iterator[None]:
+def overflow_as_mesh_error(what: str) -> Iterator[None]:
     """Turn a kernel's `OverflowError`, about more items than it can number, into a `MeshError` that names them."""
     try:
         yield
@@ -35,7 +35,11 @@ def check_size(points: np.ndarray) -> None:
         return
     low, high = points.min(axis=0), points.max(axis=0)
     far, size = max(-low.min(), high.max()), float((high - low).max())
-    if far > LARGEST:
-        raise MeshError(f"coordinates go up to {far:.3g}: expected {LARGEST:g} at most; choose a larger unit of length")
-    if 0 < size < SMALLEST:
-        raise MeshError(f"the mesh is {size:.3g} wide: expected {SMALLEST:g} at least; choose a smaller unit of length")
+    if far > MAX_COORDINATE:
+        raise MeshError(
+            f"coordinates go up to {far:.3g}: expected {MAX_COORDINATE:g} at most; choose a larger unit of length"
+        )
+    if 0 < size < MIN_EXTENT:
+        raise MeshError(
+            f"the mesh is {size:.3g} wide: expected {MIN_EXTENT:g} at least; choose a smaller unit of length"
+        )

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 
 #: Neighbouring faces whose normals differ by more than this, in degrees, meet in a sharp edge.
-SHARP = 30.0
+SHARP_DEGREES = 30.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,13 +41,13 @@ class Structure:
     sharp: np.ndarray
 
 
-def structure(mesh: Mesh) -> Structure:
+def find_structure(mesh: Mesh) -> Structure:
     """Find the structure of a mesh; what depends on its connectivity alone is kept in its topology.
 
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> found = structure(make("five-side", size=40))
+    >>> found = find_structure(make("five-side", size=40))
     >>> set(found.interior_valence.tolist()), len(found.boundary)
     ({5}, 0)
     """
@@ -61,7 +61,7 @@ def structure(mesh: Mesh) -> Structure:
     )  # fmt: skip
 
 
-def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP) -> np.ndarray:
+def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DEGREES) -> np.ndarray:
     """Edges in which two faces meet at an angle, or one or more than two faces meet at all, (e, 2) of nodes.
 
     Parameters

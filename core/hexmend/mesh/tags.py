@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
 
 
-def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
+def with_tag(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
     """The mesh with some hexes in a named group, or out of it where `on` is false.
 
     Parameters
@@ -29,13 +29,13 @@ def tagged(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = 
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> mesh = tagged(make("cube", size=27), "corner", [0, 3])
-    >>> mesh.hex_sets["corner"].tolist(), sorted(tagged(mesh, "corner", [0, 3], on=False).hex_sets)
+    >>> mesh = with_tag(make("cube", size=27), "corner", [0, 3])
+    >>> mesh.hex_sets["corner"].tolist(), sorted(with_tag(mesh, "corner", [0, 3], on=False).hex_sets)
     ([0, 3], [])
     """
     sets = dict(mesh.hex_sets)
     before = sets.get(name, np.empty(0, dtype=np.int64))
-    hexes = members(hexes, f"hex set {name!r}", mesh.n_hexes)
+    hexes = as_set(hexes, f"hex set {name!r}", mesh.n_hexes)
     sets[name] = np.union1d(before, hexes) if on else np.setdiff1d(before, hexes)
     if not len(sets[name]):
         del sets[name]
@@ -47,6 +47,6 @@ def without_tag(mesh: Mesh, name: str) -> Mesh:
     return mesh.replace(hex_sets={key: hexes for key, hexes in mesh.hex_sets.items() if key != name})
 
 
-def renamed_tag(mesh: Mesh, name: str, other: str) -> Mesh:
+def with_tag_renamed(mesh: Mesh, name: str, other: str) -> Mesh:
     """The mesh with a group under another name."""
     return mesh.replace(hex_sets={other if key == name else key: hexes for key, hexes in mesh.hex_sets.items()})

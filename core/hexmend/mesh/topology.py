@@ -11,9 +11,9 @@ import numpy as np
 from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
-from hexmend.mesh.size_limits import MOST_ITEMS, too_many
+from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 from hexmend.mesh.validation import as_bools, as_hexes
 
 
@@ -96,7 +96,7 @@ class Topology:
         return self._faces[0]
 
     @property
-    def crowded_faces(self) -> int:
+    def n_nonmanifold_faces(self) -> int:
         """Faces that more than two hexes share, counted once a hex; a sound mesh has none. They count as boundary."""
         return self._faces[1]
 
@@ -121,7 +121,7 @@ class Topology:
         """
         return incidence.layers(self.face_neighbours)
 
-    def ring_of(self, hexes: Iterable[int], rings: int) -> np.ndarray:
+    def hexes_around(self, hexes: Iterable[int], rings: int) -> np.ndarray:
         """True for some hexes and those around them, (m,) bool.
 
         Parameters
@@ -135,7 +135,7 @@ class Topology:
         MeshError
             For a hex that does not exist.
         """
-        chosen = members(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
+        chosen = as_set(hexes if isinstance(hexes, np.ndarray) else list(hexes), "the set of hexes", len(self.hexes))
         rows = self.node_corners
         return incidence.around(self.hexes, rows.start, rows.items, chosen.astype(np.int32), rings)
 
@@ -148,14 +148,14 @@ class Topology:
     def rings(self) -> CSR:
         """Edge neighbours of each node, ascending."""
         rows = self.node_corners
-        with too_many("neighbours of nodes"):
-            return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MOST_ITEMS))
+        with overflow_as_mesh_error("neighbours of nodes"):
+            return CSR(*incidence.node_rings(self.hexes, rows.start, rows.items, MAX_ITEMS))
 
     @cached_property
     def _edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         rows = self.node_corners
-        with too_many("edges"):
-            return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours, MOST_ITEMS)
+        with overflow_as_mesh_error("edges"):
+            return structure.edges(self.hexes, rows.start, rows.items, self.face_neighbours, MAX_ITEMS)
 
     @property
     def edges(self) -> np.ndarray:
@@ -232,7 +232,7 @@ class Topology:
         MeshError
             For a node that does not exist.
         """
-        rows, nodes = self.node_corners, members(sequence, "sequence", self.n)
+        rows, nodes = self.node_corners, as_set(sequence, "sequence", self.n)
         return CSR(*wavefronts.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
 
     def levels(self, start: np.ndarray) -> np.ndarray:

@@ -9,10 +9,10 @@ import numpy as np
 
 from hexmend.arrays import is_immutable
 from hexmend.errors import MeshError
-from hexmend.mesh.size_limits import MOST_HEXES, MOST_NODES
+from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 
 # Lowest and highest number in each immutable array that was checked, by its `id`, for as long as the array lives.
-_RANGES: dict[int, tuple[weakref.ref, int, int]] = {}
+_known_ranges: dict[int, tuple[weakref.ref, int, int]] = {}
 
 
 def as_array(values: object, what: str) -> np.ndarray:
@@ -23,7 +23,7 @@ def as_array(values: object, what: str) -> np.ndarray:
         raise MeshError(f"{what} cannot be made an array ({error}): expected rows of numbers of one length") from None
 
 
-def real_numbers(values: object, what: str) -> np.ndarray:
+def as_reals(values: object, what: str) -> np.ndarray:
     """Values as float64, contiguous; the same array where it is that already.
 
     Raises
@@ -39,7 +39,7 @@ def real_numbers(values: object, what: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def whole_numbers(values: object, what: str, places: tuple[str, ...]) -> np.ndarray:
+def as_integers(values: object, what: str, places: tuple[str, ...]) -> np.ndarray:
     """Values as an array of integers; reals are taken where all of them are whole.
 
     Parameters
@@ -66,14 +66,14 @@ def whole_numbers(values: object, what: str, places: tuple[str, ...]) -> np.ndar
     wrong = ~(np.abs(array) < 2.0**53) | (array != np.trunc(array))  # nan and inf too
     if wrong.any():
         at = tuple(np.argwhere(wrong)[0].tolist())
-        raise MeshError(f"{place(places, at)} is {array[at]:g} in {what}: expected a whole number")
+        raise MeshError(f"{location(places, at)} is {array[at]:g} in {what}: expected a whole number")
     return array.astype(np.int64)
 
 
-def place(names: tuple[str, ...], at: tuple[int, ...]) -> str:
+def location(names: tuple[str, ...], at: tuple[int, ...]) -> str:
     """Where a value is in an array, for a message.
 
-    >>> place(("hex", "corner"), (3, 7))
+    >>> location(("hex", "corner"), (3, 7))
     'hex 3, corner 7 (counted from 0)'
     """
     return ", ".join(f"{name} {i}" for name, i in zip(names, at, strict=False)) + " (counted from 0)"
@@ -95,7 +95,7 @@ def as_bools(values: object, what: str, count: int) -> np.ndarray:
             raise MeshError(f"{what} is of type {array.dtype}: expected true or false")
         wrong = np.flatnonzero((array != 0) & (array != 1))
         if wrong.size:
-            raise MeshError(f"{what} is {array[wrong[0]]} at {place(('row',), (wrong[0],))}: expected true or false")
+            raise MeshError(f"{what} is {array[wrong[0]]} at {location(('row',), (wrong[0],))}: expected true or false")
     return np.ascontiguousarray(array, dtype=bool)
 
 
@@ -110,12 +110,12 @@ def as_points(points: object, what: str = "points") -> np.ndarray:
     array = as_array(points, what)
     if array.ndim != 2 or array.shape[1] != 3:
         raise MeshError(f"{what} have shape {array.shape}: expected (n, 3)")
-    if len(array) > MOST_NODES:
+    if len(array) > MAX_NODES:
         raise MeshError(
-            f"there are {len(array):,} nodes: expected {MOST_NODES:,} at most, because their numbers have 32 bits; "
+            f"there are {len(array):,} nodes: expected {MAX_NODES:,} at most, because their numbers have 32 bits; "
             "divide the mesh"
         )
-    return real_numbers(array, what)
+    return as_reals(array, what)
 
 
 def points_like(points: object, shape: tuple[int, ...], what: str = "points") -> np.ndarray:
@@ -143,12 +143,12 @@ def as_hexes(hexes: object, nodes: int) -> np.ndarray:
     array = as_array(hexes, "hexes")
     if array.ndim != 2 or array.shape[1] != 8:
         raise MeshError(f"hexes have shape {array.shape}: expected (m, 8)")
-    if len(array) > MOST_HEXES:
+    if len(array) > MAX_HEXES:
         raise MeshError(
-            f"there are {len(array):,} hexes: expected {MOST_HEXES:,} at most, because the numbers of their corners "
+            f"there are {len(array):,} hexes: expected {MAX_HEXES:,} at most, because the numbers of their corners "
             "have 32 bits; divide the mesh"
         )
-    array = whole_numbers(array, "hexes", ("hex", "corner"))
+    array = as_integers(array, "hexes", ("hex", "corner"))
     check_node_numbers(array, nodes)
     return np.ascontiguousarray(array, dtype=np.int32)
 
@@ -161,7 +161,7 @@ def as_faces(faces: object, nodes: int) -> np.ndarray:
     MeshError
         For another shape or type, and for a node that does not exist.
     """
-    array = whole_numbers(faces, "faces", ("face", "corner"))
+    array = as_integers(faces, "faces", ("face", "corner"))
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise MeshError(f"faces have shape {array.shape}: expected (k, 3) or (k, 4)")
     check_node_numbers(array, nodes, ("face", "corner"))
@@ -194,7 +194,7 @@ def check_node_numbers(
 
 def _range(numbers: np.ndarray) -> tuple[int, int]:
     """The lowest and the highest of some integers, (0, -1) of none; of an immutable array found once."""
-    known = _RANGES.get(id(numbers))
+    known = _known_ranges.get(id(numbers))
     if known is not None and known[0]() is numbers:
         return known[1:]
     if not numbers.size:
@@ -202,11 +202,11 @@ def _range(numbers: np.ndarray) -> tuple[int, int]:
     least, greatest = int(numbers.min()), int(numbers.max())
     if is_immutable(numbers):
         key = id(numbers)
-        _RANGES[key] = weakref.ref(numbers, lambda _, pop=_RANGES.pop: pop(key, None)), least, greatest
+        _known_ranges[key] = weakref.ref(numbers, lambda _, pop=_known_ranges.pop: pop(key, None)), least, greatest
     return least, greatest
 
 
-def number(value: object, count: int, what: str) -> int:
+def as_index(value: object, count: int, what: str) -> int:
     """The number of a node or hex as an int.
 
     Raises

@@ -6,7 +6,7 @@ from functools import singledispatch
 
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import number
+from hexmend.mesh.validation import as_index
 from hexmend.node_step.global_step import whole_step
 from hexmend.node_step.local import local_step
 from hexmend.node_step.mean_step import straight_step
@@ -41,7 +41,7 @@ def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:
     >>> step.verdict.name, step.trials[-1].alpha == step.alpha, step.trials[-1].energy < step.energy
     ('MOVED', True, True)
     """
-    node = number(node, mesh.n_nodes, "node")
+    node = as_index(node, mesh.n_nodes, "node")
     if mesh.fixed[node]:
         raise MeshError(f"node {node} is fixed, and no method moves it: name a free node")
     return explained(smoother, mesh, node)

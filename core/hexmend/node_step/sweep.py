@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import number
+from hexmend.mesh.validation import as_index
 from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep
 from hexmend.smoothers.local.single_node import LocalDescent
@@ -74,7 +74,7 @@ class Sweep(Iterator[NodeStep]):
 
     def look(self, node: int) -> NodeStep:
         """What the method would do to a node if its turn were now."""
-        node = number(node, self.mesh.n_nodes, "node")
+        node = as_index(node, self.mesh.n_nodes, "node")
         return local_step(self.smoother, self.mesh, self._points, node, self.delta)
 
     def place(self, node: int) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.kernels import binning
-from hexmend.mesh.validation import as_bools, real_numbers
+from hexmend.mesh.validation import as_bools, as_reals
 
 
 def bin_counts(
@@ -38,7 +38,7 @@ def bin_counts(
     """
     counts = np.empty(bins + 3, dtype=np.int64)
     low, high = ends
-    values = real_numbers(values, "values")
+    values = as_reals(values, "values")
     if values.ndim != 1:
         raise MeshError(f"values have shape {values.shape}: expected (m,)")
     inverted = as_bools(inverted, "inverted", len(values))

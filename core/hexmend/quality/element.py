@@ -10,8 +10,8 @@ from hexmend.errors import MeshError
 from hexmend.kernels.objective import gradient
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import number as checked_number
-from hexmend.mesh.validation import real_numbers
+from hexmend.mesh.validation import as_index as checked_number
+from hexmend.mesh.validation import as_reals
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS
 
@@ -162,7 +162,7 @@ def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int =
     better : int
         +1 where a higher value is better, -1 where a lower one is.
     """
-    keys = better * real_numbers(values, "values")
+    keys = better * as_reals(values, "values")
     if keys.shape != figures.q.shape:
         raise MeshError(f"values have shape {keys.shape}: expected {figures.q.shape}, one for each hex")
     keys[np.isnan(keys)] = -np.inf

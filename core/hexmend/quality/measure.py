@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.kernels import elements
-from hexmend.mesh.fields import members
+from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.validation import as_bools, as_hexes, as_points
 
@@ -109,7 +109,7 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
     points = as_points(points)
     chosen = as_hexes(hexes, len(points))
     if which is not None:
-        chosen = chosen[members(which, "which", len(chosen))]
+        chosen = chosen[as_set(which, "which", len(chosen))]
     sigma = np.empty((len(chosen), 8))
     elements.corner_determinants(points, chosen, sigma)
     return sigma

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.figures import count, quality
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import jacobians
+from hexmend.mesh.second_order import scaled_jacobians
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,6 @@ def summarise_second_order(mesh: Mesh) -> SecondOrder | None:
     """The hexes of second order of a mesh; None where there are none."""
     if mesh.mid_nodes is None:
         return None
-    least = jacobians(mesh.points, mesh.hexes, mesh.mid_nodes)
+    least = scaled_jacobians(mesh.points, mesh.hexes, mesh.mid_nodes)
     least = least[~np.isnan(least)]
     return SecondOrder(len(least), int(np.count_nonzero(least <= 0)), float(least.min())) if len(least) else None

@@ -9,7 +9,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import measure
 
 
-def hexes_of(mesh: Mesh, name: str) -> np.ndarray:
+def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     """The hexes of an element set, or, by the name "inverted", the inverted ones.
 
     Parameters

@@ -27,9 +27,9 @@ def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
 def test_a_mesh_keeps_the_surface_that_it_is_told_to():
     mesh = ball(3)
     moved = mesh.keeping_surface().with_points(1.1 * mesh.points)
-    np.testing.assert_array_equal(moved.surface, mesh.points)
-    np.testing.assert_array_equal(moved.keeping_surface().with_points(mesh.points).surface, mesh.points)
-    np.testing.assert_array_equal(mesh.with_points(1.1 * mesh.points).surface, 1.1 * mesh.points)
+    np.testing.assert_array_equal(moved.surface_points, mesh.points)
+    np.testing.assert_array_equal(moved.keeping_surface().with_points(mesh.points).surface_points, mesh.points)
+    np.testing.assert_array_equal(mesh.with_points(1.1 * mesh.points).surface_points, 1.1 * mesh.points)
     np.testing.assert_array_equal(SlidingBoundary(moved).mesh.points, moved.points)
     places = SlidingBoundary(moved).put_back(moved.points[SlidingBoundary(moved).nodes])
     np.testing.assert_allclose(np.linalg.norm(places, axis=1), 1, atol=0.2)

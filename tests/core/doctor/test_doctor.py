@@ -12,7 +12,7 @@ from hexmend.doctor.cells import _WEDGES
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import turned, upright
+from hexmend.mesh.orientation import mirror_hexes, with_consistent_orientation
 from hexmend.quality import measure
 from tests.core.grids import grid
 
@@ -36,7 +36,7 @@ def blocks(gap=0.0):
 def flipped(*which):
     marks = np.zeros(SOUND.n_hexes, dtype=bool)
     marks[list(which)] = True
-    return turned(SOUND, marks)
+    return mirror_hexes(SOUND, marks)
 
 
 def collapsed():
@@ -60,7 +60,7 @@ TROUBLES = [
     (with_hexes(np.vstack([SOUND.hexes, SOUND.hexes[:2]])), "duplicate-hexes", 2, True),
     (collapsed(), "degenerate-hexes", 1, True),
     (with_hexes(SOUND.hexes[[0, 26]]), "parts", 1, False),
-    (turned(SOUND, np.ones(27, dtype=bool)), "mirrored-parts", 27, True),
+    (mirror_hexes(SOUND, np.ones(27, dtype=bool)), "mirrored-parts", 27, True),
     (flipped(13), "flipped-hexes", 1, True),
     (with_hexes(SOUND.hexes[:, VOXEL_ORDER]), "voxel-order", 27, True),
     (blocks(), "coincident-nodes", 16, True),
@@ -143,8 +143,8 @@ def test_nodes_of_second_order_are_no_unused_ones_and_turn_with_their_hex():
     points = np.vstack([UNIT_CUBE, UNIT_CUBE[ends].mean(axis=1)])
     mesh = Mesh(points, [range(8)], mid_nodes=mids)
     assert examine(mesh) == ()
-    wrong = turned(mesh, np.array([True]))
-    again = upright(wrong)
+    wrong = mirror_hexes(mesh, np.array([True]))
+    again = with_consistent_orientation(wrong)
     np.testing.assert_array_equal(again.hexes, mesh.hexes)
     np.testing.assert_array_equal(again.mid_nodes, mesh.mid_nodes)
     assert "turned" in again.notes[-1]
@@ -204,13 +204,13 @@ def test_flat_hexes_do_not_keep_a_part_from_being_turned(degrees):
     angle = np.deg2rad(degrees)  # which makes volumes of nearly zero, of either sign
     spin = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
     flat = Mesh(points @ spin.T + degrees, SOUND.hexes)
-    mirrored = turned(flat, np.ones(27, dtype=bool))
+    mirrored = mirror_hexes(flat, np.ones(27, dtype=bool))
     assert found_in(mirrored)["mirrored-parts"].count == 27
-    np.testing.assert_array_equal(upright(mirrored).hexes, flat.hexes)
-    assert "have been turned" in upright(mirrored).notes[-1]
-    assert upright(flat) is flat
+    np.testing.assert_array_equal(with_consistent_orientation(mirrored).hexes, flat.hexes)
+    assert "have been turned" in with_consistent_orientation(mirrored).notes[-1]
+    assert with_consistent_orientation(flat) is flat
     nothing = Mesh(points * [1, 1, 0] @ spin.T, SOUND.hexes)  # flat all over
-    assert upright(nothing) is nothing
+    assert with_consistent_orientation(nothing) is nothing
 
 
 def test_names_and_titles_are_of_their_own():

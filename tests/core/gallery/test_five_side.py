@@ -11,7 +11,7 @@ from hexmend.gallery import make
 from hexmend.gallery.five_side import DIVISIONS
 from hexmend.gallery.pairing import angles, paired
 from hexmend.gallery.pentagon import CORNERS, divided, fan, pentagon
-from hexmend.mesh.structure import structure
+from hexmend.mesh.structure import find_structure
 from hexmend.quality import summarise
 
 #: The thesis's FiveSide4, 5, 6, 60k, 90k and 110k: hexes, quads, boundary nodes of the quads' mesh, free nodes.
@@ -106,7 +106,7 @@ def test_it_is_a_turned_and_tapered_prism():
 
 def test_irregular_edges_stand_upright_and_end_on_the_boundary():
     mesh = make("five-side")
-    found = structure(mesh)
+    found = find_structure(mesh)
     layers = DIVISIONS[7350].layers
     assert len(found.interior)
     assert len(found.interior) % layers == 0

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_PLACES, SHARES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS, MID_NODE_WEIGHTS
 from tests.core.grids import grid, scrambled
 
 #: Edges of the cells of second order whose middles are the nodes behind their corners, as VTK orders them.
@@ -26,9 +26,9 @@ def middles_are_in_the_middle(mesh: Mesh) -> None:
     """Fail unless nodes of second order lie where their places in the cell say; of cells with straight edges."""
     if mesh.mid_nodes is not None:
         corners = mesh.points[mesh.hexes]
-        for k in range(len(MID_PLACES)):
+        for k in range(len(MID_NODE_POSITIONS)):
             there = mesh.mid_nodes[:, k] >= 0
-            expected = np.einsum("c,hcx->hx", SHARES[k], corners[there])
+            expected = np.einsum("c,hcx->hx", MID_NODE_WEIGHTS[k], corners[there])
             np.testing.assert_allclose(mesh.points[mesh.mid_nodes[there, k]], expected, atol=1e-9)
     for cells in mesh.cells:
         for k, ends in enumerate(MIDDLES.get(cells.kind, ())):
@@ -44,7 +44,7 @@ def with_everything(second_order: int = 8) -> Mesh:
     if second_order > 8:
         mids = np.full((m, 19), -1, np.int32)
         mids[:, : second_order - 8] = n + np.arange(m * (second_order - 8)).reshape(m, -1)
-        middles = np.einsum("kc,hcx->hkx", SHARES[: second_order - 8], points[bare.hexes]).reshape(-1, 3)
+        middles = np.einsum("kc,hcx->hkx", MID_NODE_WEIGHTS[: second_order - 8], points[bare.hexes]).reshape(-1, 3)
         points = np.concatenate([points, middles])
     apart = len(points)
     other = np.array([[9, 0, 0], [10, 0, 0], [10, 1, 0], [9, 1, 0], [9.5, 0.5, 1], [9.5, 0.5, 2]], float)

@@ -72,7 +72,7 @@ def test_hexes_behind_faces_are_those_with_the_same_nodes():
     one, other = order[1:][same], order[:-1][same]
     expected[one], expected[other] = other // 6, one // 6
     np.testing.assert_array_equal(topology.face_neighbours.ravel(), expected)
-    assert topology.crowded_faces == 0
+    assert topology.n_nonmanifold_faces == 0
 
 
 @given(st.integers(1, 8), st.integers(2, 12), st.integers(0, 2**32 - 1))
@@ -81,7 +81,7 @@ def test_faces_of_collapsed_hexes_are_paired_by_their_nodes(m, n, seed):
     topology = Topology(hexes, n)
     faces = [tuple(sorted(face)) for h in hexes for face in h[FACES].tolist()]
     count = Counter(faces)
-    assert topology.crowded_faces == sum(k for k in count.values() if k > 2)
+    assert topology.n_nonmanifold_faces == sum(k for k in count.values() if k > 2)
     for i, face in enumerate(faces):
         partners = [j // 6 for j, other in enumerate(faces) if j != i and other == face]
         assert topology.face_neighbours.ravel()[i] == (partners[0] if len(partners) == 1 else -1)
@@ -174,6 +174,6 @@ def test_more_items_than_there_are_numbers_for_are_refused_before_they_are_writt
 )
 def test_a_mesh_whose_neighbours_cannot_be_numbered_is_to_be_divided(monkeypatch, module, most, make, words):
     make()
-    monkeypatch.setattr(f"hexmend.{module}.MOST_ITEMS", most)
+    monkeypatch.setattr(f"hexmend.{module}.MAX_ITEMS", most)
     with pytest.raises(MeshError, match=f"the mesh has too many {words}"):
         make()

@@ -8,7 +8,7 @@ import pytest
 from hexmend import io
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
-from hexmend.mesh.fixing import nodes_of, with_region_free, with_sets_fixed
+from hexmend.mesh.fixing import nodes_in_set, with_region_free, with_sets_fixed
 from hexmend.mesh.hexahedron import FACES
 from tests.core.grids import grid, scrambled
 
@@ -18,11 +18,11 @@ MESH = scrambled(grid(5), 0.4).replace(
 
 
 def test_sets_of_nodes_hexes_and_sides_are_fixed():
-    assert set(nodes_of(MESH, "part")) == set(MESH.hexes[62])
-    assert set(nodes_of(MESH, "side")) == set(MESH.hexes[62][FACES[3]])
+    assert set(nodes_in_set(MESH, "part")) == set(MESH.hexes[62])
+    assert set(nodes_in_set(MESH, "side")) == set(MESH.hexes[62][FACES[3]])
     fixed = with_sets_fixed(MESH, "some", "side").fixed
     assert fixed[[100, 101]].all()
-    assert fixed[nodes_of(MESH, "side")].all()
+    assert fixed[nodes_in_set(MESH, "side")].all()
     with pytest.raises(MeshError, match="there is no set 'sme': there are 'some', 'part', 'side'"):
         with_sets_fixed(MESH, "sme")
 
@@ -31,7 +31,7 @@ def test_sets_of_nodes_hexes_and_sides_are_fixed():
 def test_of_a_region_and_its_rings_alone_nodes_are_free(rings):
     free = with_region_free(MESH, np.array([62]), rings).free
     expected = np.zeros(MESH.n_nodes, dtype=bool)
-    expected[MESH.hexes[MESH.topology.ring_of([62], rings)]] = True
+    expected[MESH.hexes[MESH.topology.hexes_around([62], rings)]] = True
     np.testing.assert_array_equal(free, expected & MESH.free)
 
 

@@ -13,7 +13,7 @@ import hexmend as hx
 from hexmend.errors import MeshError
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.size_limits import MOST_HEXES, MOST_NODES
+from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_hexes
 from tests.core.grids import grid
@@ -207,10 +207,10 @@ def test_points_of_a_step_have_to_be_those_of_all_nodes():
 
 
 def test_more_hexes_than_corners_have_numbers_are_refused_before_anything_is_computed():
-    many = np.broadcast_to(np.arange(8), (MOST_HEXES + 1, 8))  # one row in memory
+    many = np.broadcast_to(np.arange(8), (MAX_HEXES + 1, 8))  # one row in memory
     for make in (lambda: as_hexes(many, 8), lambda: Topology(many, 8), lambda: Mesh(UNIT_CUBE, many)):
         with pytest.raises(MeshError, match=r"there are 268,435,456 hexes: expected 268,435,455 at most, .* divide"):
             make()
     with pytest.raises(MeshError, match="there are 2,147,483,648 nodes: expected 2,147,483,647 at most"):
-        Mesh(np.broadcast_to(np.zeros(3), (MOST_NODES + 1, 3)), ONE)
-    assert 8 * MOST_HEXES + 7 <= MOST_NODES
+        Mesh(np.broadcast_to(np.zeros(3), (MAX_NODES + 1, 3)), ONE)
+    assert 8 * MAX_HEXES + 7 <= MAX_NODES

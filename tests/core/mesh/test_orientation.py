@@ -5,7 +5,13 @@ import pytest
 
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.orientation import TURNED_CORNERS, mirrored_parts, parts_of, turned, upright
+from hexmend.mesh.orientation import (
+    MIRRORED_CORNERS,
+    mirror_hexes,
+    mirrored_parts,
+    parts_of,
+    with_consistent_orientation,
+)
 from hexmend.quality import corner_determinants
 from tests.core.grids import grid
 
@@ -13,7 +19,7 @@ from tests.core.grids import grid
 def mirrored(mesh, which):
     """The mesh with some hexes numbered left-handed, and the side sets of the sound one on the same faces as before."""
     hexes = mesh.hexes.copy()
-    hexes[which] = hexes[which][:, TURNED_CORNERS]
+    hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     return mesh.rebuilt(hexes=hexes, side_sets={})
 
 
@@ -34,17 +40,17 @@ def test_faces_of_side_sets_stay_where_they_are():
     rows = np.array([(hexa, face) for hexa in range(8) for face in range(6)])
     mesh = mesh.replace(side_sets={"all": rows})
     which = np.arange(8) % 3 == 0
-    back = turned(mesh, which)
+    back = mirror_hexes(mesh, which)
     assert nodes_of(back, "all") == nodes_of(mesh, "all")
     np.testing.assert_array_equal(back.side_sets["all"][:, 0], rows[:, 0])
     assert (back.side_sets["all"][~which[rows[:, 0]]] == rows[~which[rows[:, 0]]]).all()
-    np.testing.assert_array_equal(turned(back, which).side_sets["all"], rows)
+    np.testing.assert_array_equal(mirror_hexes(back, which).side_sets["all"], rows)
     np.testing.assert_array_equal(mesh.side_sets["all"], rows)  # the given mesh is as it was
 
 
 def test_turning_changes_the_sign_of_every_determinant_of_these_hexes_alone():
     mesh, which = grid(2), np.arange(8) < 3
-    before, after = (corner_determinants(one.points, one.hexes) for one in (mesh, turned(mesh, which)))
+    before, after = (corner_determinants(one.points, one.hexes) for one in (mesh, mirror_hexes(mesh, which)))
     assert (before > 0).all()
     assert (after[which] < 0).all()
     assert (after[~which] > 0).all()
@@ -55,7 +61,7 @@ def test_whole_parts_are_turned_and_a_note_counts_them(which):
     mesh = two_grids()
     wrong = mirrored(mesh, np.isin(np.arange(9), which))
     np.testing.assert_array_equal(np.flatnonzero(mirrored_parts(wrong)), which)
-    back = upright(wrong)
+    back = with_consistent_orientation(wrong)
     assert (corner_determinants(back.points, back.hexes) > 0).all()
     assert len(back.notes) == 1
     assert back.notes[0].startswith("All hexes" if len(which) == 9 else f"{len(which)} hexes, which make whole parts,")
@@ -65,7 +71,7 @@ def test_whole_parts_are_turned_and_a_note_counts_them(which):
 def test_a_part_with_one_sound_hex_is_left_as_it_is(which):
     wrong = mirrored(two_grids(), np.isin(np.arange(9), which))
     assert not mirrored_parts(wrong).any()
-    assert upright(wrong) is wrong
+    assert with_consistent_orientation(wrong) is wrong
 
 
 def test_parts_hang_together_by_nodes_and_are_counted_from_0():

@@ -12,7 +12,7 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_PLACES, PLACES, following, jacobians
+from hexmend.mesh.second_order import MID_NODE_POSITIONS, NODE_POSITIONS, move_mid_nodes, scaled_jacobians
 from hexmend.mesh.shape_functions import lagrange, serendipity
 from hexmend.quality import summarise_second_order
 from tests.core.grids import grid
@@ -23,7 +23,7 @@ places = arrays(np.float64, (3, 3), elements=st.floats(-0.2, 1.2))
 
 def one(width, moved=None):
     """A mesh of one hex, the unit cube; `moved` is added to its nodes."""
-    points = PLACES[:width] + (0 if moved is None else moved)
+    points = NODE_POSITIONS[:width] + (0 if moved is None else moved)
     mids = np.full((1, 19), -1)
     mids[0, : width - 8] = np.arange(8, width)
     return Mesh(points, [range(8)], mid_nodes=mids)
@@ -31,17 +31,17 @@ def one(width, moved=None):
 
 @every_function
 def test_each_function_is_one_at_its_node_and_zero_at_the_others(functions, width):
-    np.testing.assert_allclose(functions(PLACES[:width], PLACES[:width])[0], np.eye(width), atol=1e-14)
+    np.testing.assert_allclose(functions(NODE_POSITIONS[:width], NODE_POSITIONS[:width])[0], np.eye(width), atol=1e-14)
 
 
 @every_function
 @given(at=places)
 def test_functions_place_every_point_where_it_is(functions, width, at):
-    values, gradients = functions(at, PLACES[:width])
+    values, gradients = functions(at, NODE_POSITIONS[:width])
     np.testing.assert_allclose(values.sum(axis=1), 1, atol=1e-12)
-    np.testing.assert_allclose(values @ PLACES[:width], at, atol=1e-12)
+    np.testing.assert_allclose(values @ NODE_POSITIONS[:width], at, atol=1e-12)
     np.testing.assert_allclose(
-        np.einsum("kwa,wx->kax", gradients, PLACES[:width]), np.broadcast_to(np.eye(3), (3, 3, 3)), atol=1e-12
+        np.einsum("kwa,wx->kax", gradients, NODE_POSITIONS[:width]), np.broadcast_to(np.eye(3), (3, 3, 3)), atol=1e-12
     )
 
 
@@ -49,10 +49,10 @@ def test_functions_place_every_point_where_it_is(functions, width, at):
 @given(at=places)
 def test_derivatives_are_those_of_differences(functions, width, at):
     step = 1e-6
-    gradients = functions(at, PLACES[:width])[1]
+    gradients = functions(at, NODE_POSITIONS[:width])[1]
     for axis in range(3):
         move = step * np.eye(3)[axis]
-        change = functions(at + move, PLACES[:width])[0] - functions(at - move, PLACES[:width])[0]
+        change = functions(at + move, NODE_POSITIONS[:width])[0] - functions(at - move, NODE_POSITIONS[:width])[0]
         np.testing.assert_allclose(gradients[..., axis], change / (2 * step), atol=1e-7)
 
 
@@ -62,7 +62,7 @@ def test_a_cube_has_the_scaled_jacobian_one_wherever_it_lies(width):
     turn *= np.sign(np.linalg.det(turn))
     mesh = one(width)
     mesh = mesh.rebuilt(points=1e-3 * mesh.points @ turn + 7)
-    np.testing.assert_allclose(jacobians(mesh.points, mesh.hexes, mesh.mid_nodes), 1, atol=1e-9)
+    np.testing.assert_allclose(scaled_jacobians(mesh.points, mesh.hexes, mesh.mid_nodes), 1, atol=1e-9)
 
 
 @pytest.mark.parametrize("width", [20, 27])
@@ -85,8 +85,12 @@ def test_hexes_of_first_order_have_none():
 @given(moves=arrays(np.float64, (8, 3), elements=st.floats(-1, 1)))
 def test_an_element_that_is_moved_by_its_corners_moves_as_their_map_does(moves):
     mesh = one(27)
-    after = following(mesh.points, np.concatenate([UNIT_CUBE + moves, MID_PLACES]), mesh.hexes, mesh.mid_nodes)
-    shares = np.prod(np.where(UNIT_CUBE[None] == 1, MID_PLACES[:, None], 1 - MID_PLACES[:, None]), axis=2)
+    after = move_mid_nodes(
+        mesh.points, np.concatenate([UNIT_CUBE + moves, MID_NODE_POSITIONS]), mesh.hexes, mesh.mid_nodes
+    )
+    shares = np.prod(
+        np.where(UNIT_CUBE[None] == 1, MID_NODE_POSITIONS[:, None], 1 - MID_NODE_POSITIONS[:, None]), axis=2
+    )
     np.testing.assert_allclose(after[8:], shares @ (UNIT_CUBE + moves), atol=1e-12)
 
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend.gallery import make
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import structure
+from hexmend.mesh.structure import find_structure
 from hexmend.mesh.topology import Topology
 from tests.core.grids import grid
 from tests.core.mesh.test_topology import closed, loose
@@ -78,7 +78,7 @@ def test_a_grid_is_regular_but_for_the_edges_of_its_box(size):
     assert not len(topology.irregular_nodes)
     assert len(topology.irregular_boundary_edges) == 4 * sum(size)
     assert set(topology.edge_valence[topology.irregular_boundary_edges].tolist()) == {1}
-    found = structure(mesh)
+    found = find_structure(mesh)
     assert not len(found.boundary)  # a box wants one hex at its edges
     assert sorted(map(tuple, found.sharp.tolist())) == sorted(
         map(tuple, topology.edges[topology.irregular_boundary_edges].tolist())
@@ -94,7 +94,7 @@ def test_a_mesh_without_boundary_has_none():
 
 def test_five_blocks_meet_in_one_line_that_ends_on_the_boundary():
     mesh = make("five-side", size=60)  # so few that each layer is five blocks
-    found = structure(mesh)
+    found = find_structure(mesh)
     assert len(found.interior) == 3  # one for each layer
     assert set(found.interior_valence.tolist()) == {5}
     np.testing.assert_allclose(mesh.points[found.interior][..., :2], 0, atol=1e-12)  # along the axis
@@ -104,7 +104,7 @@ def test_five_blocks_meet_in_one_line_that_ends_on_the_boundary():
 
 def test_a_tetrahedron_of_four_hexes_has_an_irregular_node_where_four_edges_fork():
     mesh = tetrahedron()
-    found = structure(mesh)
+    found = find_structure(mesh)
     assert found.nodes.tolist() == [14]
     assert sorted(map(tuple, found.interior.tolist())) == [(10, 14), (11, 14), (12, 14), (13, 14)]
     assert found.interior_valence.tolist() == [3] * 4
@@ -117,15 +117,15 @@ def test_three_hexes_around_a_concave_edge_are_as_they_should_be_and_around_a_fl
     corner = Mesh(mesh.points, np.delete(mesh.hexes, 3, axis=0))
     topology = corner.topology
     (concave,) = topology.edges[(topology.edge_valence == 3) & topology.edge_on_boundary].tolist()
-    assert concave in structure(corner).sharp.tolist()
-    assert not len(structure(corner).boundary)
+    assert concave in find_structure(corner).sharp.tolist()
+    assert not len(find_structure(corner).boundary)
     points = corner.points.copy()
     angle = np.arctan2(points[:, 1] - 1, points[:, 0] - 1) % (2 * np.pi)
     angle = np.where(angle < np.pi / 4, angle + 2 * np.pi, angle)
     radius = np.hypot(points[:, 0] - 1, points[:, 1] - 1)
     turned = (angle - np.pi / 2) * (2 / 3) + np.pi / 2  # three right angles become two
     points[:, 0], points[:, 1] = radius * np.cos(turned), radius * np.sin(turned)
-    flat = structure(Mesh(points, corner.hexes))
+    flat = find_structure(Mesh(points, corner.hexes))
     assert flat.boundary.tolist() == [concave]
     assert flat.boundary_valence.tolist() == [3]
 
@@ -144,7 +144,7 @@ def test_a_hex_that_has_an_edge_twice_counts_once():
 
 @pytest.mark.parametrize("name", ["cube", "bridge-sharp", "plane"])
 def test_moving_nodes_of_the_inside_changes_no_structure(name):
-    before = structure(make(name, size=500))
-    after = structure(make(name, size=500, scramble=0.5, seed=3))
+    before = find_structure(make(name, size=500))
+    after = find_structure(make(name, size=500, scramble=0.5, seed=3))
     for field in ("interior", "interior_valence", "nodes", "boundary", "boundary_valence", "sharp"):
         np.testing.assert_array_equal(getattr(before, field), getattr(after, field))

@@ -24,7 +24,7 @@ def test_counts_of_a_grid(size):
     assert mesh.free.sum() == (nx - 1) * (ny - 1) * (nz - 1)
     edges = nx * (ny + 1) * (nz + 1) + ny * (nx + 1) * (nz + 1) + nz * (nx + 1) * (ny + 1)
     assert len(topology.edges) == edges
-    assert topology.crowded_faces == 0
+    assert topology.n_nonmanifold_faces == 0
 
 
 @given(SIZES)
@@ -46,7 +46,7 @@ def test_a_face_of_three_hexes_counts_as_boundary_and_is_reported():
     mesh = grid(2, 1, 1)
     hexes = np.vstack([mesh.hexes, mesh.hexes[:1]])
     topology = Mesh(mesh.points, hexes).topology
-    assert topology.crowded_faces == 3
+    assert topology.n_nonmanifold_faces == 3
     assert topology.boundary[mesh.points[:, 0] == 1].all()
 
 
@@ -121,10 +121,10 @@ def test_rings_are_hexes_that_share_nodes_again_and_again(topology, rings, data)
     expected = np.isin(np.arange(len(topology.hexes)), hexes)
     for _ in range(rings):
         expected = np.isin(topology.hexes, topology.hexes[expected]).any(axis=1)
-    assert topology.ring_of(hexes, rings).tolist() == expected.tolist()
+    assert topology.hexes_around(hexes, rings).tolist() == expected.tolist()
 
 
 @pytest.mark.parametrize("wrong", [-1, 8])
 def test_there_is_no_ring_of_a_hex_that_does_not_exist(wrong):
     with pytest.raises(MeshError, match=f"has {wrong} at .*: expected numbers from 0 to 7"):
-        grid(2).topology.ring_of([0, wrong], 1)
+        grid(2).topology.hexes_around([0, wrong], 1)

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.mesh.orientation import TURNED_CORNERS, mirrored_parts
+from hexmend.mesh.orientation import MIRRORED_CORNERS, mirrored_parts
 from hexmend.quality.metric import METRICS
 from tests.core.grids import grid
 
@@ -30,7 +30,7 @@ def folded(shift):
     mesh = grid(1, 1, 2)
     points = mesh.points.copy()
     points[points[:, 2] == 2, 2] -= shift
-    return mesh.rebuilt(hexes=mesh.hexes[:, TURNED_CORNERS]).with_points(points)
+    return mesh.rebuilt(hexes=mesh.hexes[:, MIRRORED_CORNERS]).with_points(points)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
 from hexmend.kernels.patches import colours, sweep
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.patches import grown
+from hexmend.mesh.patches import partition_patches
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
@@ -57,8 +57,8 @@ def part(mesh, patches, k):
 @given(st.tuples(*[st.integers(1, 5)] * 3), SIZES, OVERLAPS)
 def test_patches_hold_each_free_node_and_know_their_hexes(size, nodes, overlap):
     mesh = grid(*size)
-    patches, free = grown(mesh, nodes, overlap), np.flatnonzero(mesh.free)
-    cores = grown(mesh, nodes, 0).nodes
+    patches, free = partition_patches(mesh, nodes, overlap), np.flatnonzero(mesh.free)
+    cores = partition_patches(mesh, nodes, 0).nodes
     np.testing.assert_array_equal(np.sort(cores.items), free)  # each once
     assert (np.diff(cores.start) <= nodes).all()
     assert len(cores) == len(patches.nodes)
@@ -79,7 +79,7 @@ def test_patches_hold_each_free_node_and_know_their_hexes(size, nodes, overlap):
 @settings(max_examples=40)
 @given(st.tuples(*[st.integers(2, 5)] * 3), SIZES, OVERLAPS)
 def test_patches_of_a_colour_share_no_hex(size, nodes, overlap):
-    patches = grown(grid(*size), nodes, overlap)
+    patches = partition_patches(grid(*size), nodes, overlap)
     np.testing.assert_array_equal(np.sort(patches.colours.items), np.arange(len(patches.nodes)))
     for g in range(len(patches.colours)):
         chosen = np.concatenate([patches.chosen[k] for k in patches.colours[g]])
@@ -96,7 +96,7 @@ def test_more_colours_than_bits_are_no_trouble():
 def test_nodes_of_a_patch_hang_together():
     mesh = make("five-side", size=800)
     pairs = mesh.hexes[:, list(itertools.combinations(range(8), 2))].reshape(-1, 2)
-    patches = grown(mesh, 27, 0).nodes
+    patches = partition_patches(mesh, 27, 0).nodes
     for k in range(len(patches)):
         nodes = patches[k]
         label = {int(i): int(i) for i in nodes}
@@ -126,7 +126,7 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
     mesh = mesh.with_points(0.3 * mesh.points)
     if measure(mesh.points, mesh.hexes).n_inverted:
         return
-    patches, smoother = grown(mesh, size, 0), LocalPatch(p=p)
+    patches, smoother = partition_patches(mesh, size, 0), LocalPatch(p=p)
     small, used, unit = part(mesh, patches, 0)
     energy = MeshEnergy(small, smoother.power)
     scale = energy.unit  # 1 but for rounding
@@ -147,7 +147,7 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
 @pytest.mark.parametrize("overlap", [0, 1])
 def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
     mesh = scrambled(grid(9), 0.1, 3)
-    patches, smoother = grown(mesh, 216, overlap), LocalPatch()
+    patches, smoother = partition_patches(mesh, 216, overlap), LocalPatch()
     assert 3 * patches.nodes[0].size > 600
     small, used, unit = part(mesh, patches, 0)
     energy = MeshEnergy(small)
@@ -164,7 +164,7 @@ def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
 @given(st.integers(0, 2**32 - 1), SIZES, OVERLAPS, st.sampled_from([1.0, 2.0, 5.0]), st.sampled_from([0.2, 0.7, 1.5]))
 def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overlap, p, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
-    patches, smoother = grown(mesh, size, overlap), LocalPatch(p=p)
+    patches, smoother = partition_patches(mesh, size, overlap), LocalPatch(p=p)
     delta = smoother.delta_at(mesh, mesh.points)
     k = seed % len(patches.nodes)
     points, _ = swept(mesh, patches, k, smoother, delta)
@@ -213,7 +213,7 @@ def test_a_tangled_cube_becomes_the_perfect_grid(size, overlap):
 def test_a_perfect_grid_and_a_mesh_without_free_nodes_stay():
     np.testing.assert_array_equal(after(grid(4), LocalPatch()), grid(4).points)
     assert smooth(grid(1), LocalPatch()).iterations == 0
-    assert len(grown(grid(1), 8, 1).nodes) == 0
+    assert len(partition_patches(grid(1), 8, 1).nodes) == 0
 
 
 def test_overlap_saves_sweeps():

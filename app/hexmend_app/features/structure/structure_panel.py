@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from hexmend.boundary import NodeClass
-from hexmend.mesh.structure import SHARP as DEGREES
+from hexmend.mesh.structure import SHARP_DEGREES as DEGREES
 from hexmend.mesh.structure import Structure as Found
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.scene.layers.structure import (

@@ -10,7 +10,7 @@ from hexmend.boundary.features import DEGREES
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import Structure as Found
-from hexmend.mesh.structure import structure
+from hexmend.mesh.structure import find_structure
 from hexmend.quality import ElementQuality, locked
 from hexmend_app.scene.camera.fitting import pixels
 from hexmend_app.scene.layers.marks import Marks
@@ -145,7 +145,7 @@ class StructureLayers:
 
     def _choose_edges(self, wanted: Structure, points: np.ndarray) -> None:
         if self._found is None:
-            self._found = structure(self._mesh)
+            self._found = find_structure(self._mesh)
         found = self._found
         if wanted.irregular:
             shown = self._shown(found.interior, points)

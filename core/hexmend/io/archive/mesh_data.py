@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import CELL_KINDS, Cells
-from hexmend.mesh.mesh import Mesh, Target
+from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
@@ -28,7 +28,7 @@ def mesh_data(mesh: Mesh) -> dict[str, Any]:
     return {
         "points": mesh.points,
         "hexes": mesh.hexes,
-        "surface": mesh.surface,
+        "surface": mesh.surface_points,
         "target": target and {"points": target.points, "faces": target.faces, "name": target.name},
         "pinned": mesh.pinned,
         "mid_nodes": mesh.mid_nodes,
@@ -52,7 +52,7 @@ class Meshes:
         self._fields = {name for name, since in _SINCE.items() if since <= version}
         self._bare: dict[int, Mesh] = {}  # by their array of hexes
         self._carriers: dict[tuple, Mesh] = {}  # with all but what is of each mesh alone
-        self._targets: dict[tuple, Target] = {}
+        self._targets: dict[tuple, TargetSurface] = {}
 
     def mesh(self, data: Any) -> Mesh:
         """The mesh that `mesh_data` describes.
@@ -82,7 +82,7 @@ class Meshes:
             self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
         return self._carriers[key]
 
-    def _target(self, data: Any) -> Target | None:
+    def _target(self, data: Any) -> TargetSurface | None:
         """The surface that the boundary slides on where that is not the boundary itself."""
         if data is None:
             return None
@@ -135,7 +135,7 @@ def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
     }
 
 
-def _skin(data: Any) -> Target:
+def _skin(data: Any) -> TargetSurface:
     from hexmend.boundary import SkinSurface  # not before it is needed: commands start without it
 
     check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})

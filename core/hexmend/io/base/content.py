@@ -15,7 +15,7 @@ from hexmend.io.base.fixed_marks import marks_in
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import SHARES
+from hexmend.mesh.second_order import MID_NODE_WEIGHTS
 from hexmend.mesh.validation import check_node_numbers
 
 #: Kinds of hexes, and how many nodes they have; in the order of VTK's types 12, 25 and 29.
@@ -214,7 +214,7 @@ def _neighbours(kind: str) -> list[tuple[int, int]]:
     """Pairs of a hex's nodes beside each other: along edges; each node of second order with the corners around."""
     pairs = [(int(a), int(b)) for a, b in EDGES]
     middles = range(8, HEX_KINDS[kind])
-    return pairs + [(k, int(corner)) for k in middles for corner in np.flatnonzero(SHARES[k - 8])]
+    return pairs + [(k, int(corner)) for k in middles for corner in np.flatnonzero(MID_NODE_WEIGHTS[k - 8])]
 
 
 def _placed(points: np.ndarray, blocks: list[Block]) -> tuple[np.ndarray, str]:

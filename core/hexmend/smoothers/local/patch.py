@@ -11,7 +11,7 @@ from hexmend.kernels import local
 from hexmend.kernels import patches as kernels
 from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.patches import grown
+from hexmend.mesh.patches import partition_patches
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.local.base import LocalOptimiser
@@ -40,7 +40,7 @@ class LocalPatch(LocalOptimiser):
     )
 
     def steps(self, mesh: Mesh) -> Steps:
-        sliding, patches = self.sliding(mesh), grown(mesh, self.patch, self.overlap)
+        sliding, patches = self.sliding(mesh), partition_patches(mesh, self.patch, self.overlap)
         if sliding is not None:
             corners, alone = mesh.topology.node_corners, mesh.topology.colouring(~sliding.mesh.fixed & mesh.fixed)
             derived = int(np.diff(corners.start)[sliding.nodes].sum())

@@ -185,7 +185,7 @@ def test_everything_combines(window):
     view = window.session.view
     mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
     clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
-    patch = mesh.topology.ring_of([444], 3)
+    patch = mesh.topology.hexes_around([444], 3)
     view.isolate(np.flatnonzero(patch), 1)  # which gives up what would hide some of it
     view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
     view.dig(443)

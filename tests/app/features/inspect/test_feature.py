@@ -82,7 +82,7 @@ def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
     key(window, Qt.Key.Key_N)
     drawn, worst = window.canvas.viewport, window.session.selection.hex
     assert set(drawn.body.faces.hexes) == {worst}
-    around = window.session.document.now.mesh.topology.ring_of([worst], 1)
+    around = window.session.document.now.mesh.topology.hexes_around([worst], 1)
     assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
 
 

@@ -12,7 +12,7 @@ from hexmend import gallery, io
 from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import structure
+from hexmend.mesh.structure import find_structure
 from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette import CommandPalette
 from hexmend_app.state.classer import PIN
@@ -181,7 +181,7 @@ def test_nothing_is_cut_off(five, qtbot, size):
     panel = five.features["structure"].panel
     panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
     five.session.view.change(structure=Structure(irregular=True))
-    found = structure(tetrahedron())
+    found = find_structure(tetrahedron())
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))
     five.refresh()

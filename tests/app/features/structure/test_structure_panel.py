@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtWidgets import QLabel
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.structure import structure
+from hexmend.mesh.structure import find_structure
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.shell.program import application
 from hexmend_app.state.look import Structure
@@ -53,19 +53,19 @@ def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
 
 
 def test_edges_are_counted_by_valence(panel):
-    panel.set_found(structure(tetrahedron()))
+    panel.set_found(find_structure(tetrahedron()))
     assert texts(panel, "irregular") == ["4 of 3", "1 node"]
     assert "120° at three" in panel.layers["irregular"].box.toolTip()
     mesh = grid(8)
     p = mesh.points / 4 - 1
     size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
-    panel.set_found(structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
+    panel.set_found(find_structure(Mesh(p * np.abs(p).max(axis=1, keepdims=True) / size, mesh.hexes)))
     assert texts(panel, "boundary") == [f"{12 * 8} of 1"]
 
 
 def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
     valence = np.repeat([3, 5, 6, 7], [14461, 10776, 1048, 313])
-    panel.set_found(dataclasses.replace(structure(tetrahedron()), interior_valence=valence))
+    panel.set_found(dataclasses.replace(find_structure(tetrahedron()), interior_valence=valence))
     panel.set_nodes(9156, 120, 28317, 44)
     panel.resize(280, 400)
     turn()
@@ -75,7 +75,7 @@ def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
 
 
 def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
-    panel.set_found(structure(grid(2)))
+    panel.set_found(find_structure(grid(2)))
     panel.set_nodes(26, 0, 1, 0)
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
@@ -94,7 +94,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
 
 
 def test_a_click_chooses_one_layer_more(panel):
-    panel.set_found(structure(grid(2)))
+    panel.set_found(find_structure(grid(2)))
     heard = []
     panel.structure_changed.connect(heard.append)
     panel.set_structure(Structure(locked=True))

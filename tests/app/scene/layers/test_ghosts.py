@@ -79,7 +79,7 @@ def test_what_was_looked_for_is_seen_through_its_ghosts(stage, viewport):
 def test_ghosts_follow_the_nodes():
     ghosts, keep = Ghosts(vtkRenderer()), np.zeros(MESH.n_hexes, bool)
     keep[MIDDLE] = True
-    around = MESH.topology.ring_of([MIDDLE], 1) & ~keep
+    around = MESH.topology.hexes_around([MIDDLE], 1) & ~keep
     ghosts.draw(frame(), around, keep)
     assert ghosts.shown
     before = ghosts.places.copy()

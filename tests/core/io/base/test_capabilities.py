@@ -9,7 +9,7 @@ from hexmend.io import FORMATS
 from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 
 WAYS = [(name, encoding) for name, one in FORMATS.items() for encoding in one.encodings]
@@ -21,7 +21,7 @@ def quadratic(width):
     rows, points = [], []
     corners = grid(2, 1, 1)
     for x in range(2):
-        whole = np.concatenate([corners.points[corners.hexes[0]], MID_PLACES])[:width] * 2 + [2 * x, 0, 0]
+        whole = np.concatenate([corners.points[corners.hexes[0]], MID_NODE_POSITIONS])[:width] * 2 + [2 * x, 0, 0]
         rows.append([points.index(p) if p in points else points.append(p) or len(points) - 1 for p in whole.tolist()])
     rows = np.array(rows)
     return Mesh(points, rows[:, :8], mid_nodes=np.pad(rows[:, 8:], ((0, 0), (0, 27 - width)), constant_values=-1))

@@ -71,7 +71,7 @@ def test_everything_that_a_mesh_carries_is_there_again(tmp_path):
     back = read_session(tmp_path / "a.hexmend")
     for mesh, other in zip((opened, moved, tagged), back.meshes, strict=True):
         assert_same(mesh, other)
-        np.testing.assert_array_equal(mesh.surface, other.surface)
+        np.testing.assert_array_equal(mesh.surface_points, other.surface_points)
     assert (back.now, back.window) == (1, window)
 
 
@@ -82,7 +82,7 @@ def test_meshes_that_shared_arrays_share_them_again(tmp_path):
     one, other = read_session(tmp_path / "a.hexmend").meshes
     for field in ("hexes", "topology", "pinned", "hex_sets", "node_data"):
         assert getattr(one, field) is getattr(other, field)
-    assert other.surface is one.points
+    assert other.surface_points is one.points
 
 
 def test_the_surface_that_a_boundary_slides_on_is_there_again(tmp_path):

@@ -18,7 +18,7 @@ from hexmend.io.formats.cgns.zone import (
     results,
     sizes,
 )
-from hexmend.mesh.orientation import TURNED_CORNERS, TURNED_FACES
+from hexmend.mesh.orientation import MIRRORED_CORNERS, MIRRORED_FACES
 from hexmend.quality import corner_determinants
 
 #: The faces of hexes at the lower and the upper end of i, j and k.
@@ -44,7 +44,7 @@ def structured(node: CGNSNode) -> Zone:
     _add_conditions(zone, node, count)
     if mirrored:
         for rows in zone.side_sets.values():
-            rows[:, 1] = TURNED_FACES[rows[:, 1]]
+            rows[:, 1] = MIRRORED_FACES[rows[:, 1]]
     for parent in node.children("ZoneGridConnectivity_t"):
         for one in parent.children("GridConnectivity1to1_t"):
             ends = _interface(one, count)
@@ -73,7 +73,7 @@ def hexes_between(points: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, bo
     hexes = corner[:, None] + steps @ [1, count[0], count[0] * count[1]]
     with np.errstate(all="ignore"):
         mirrored = np.count_nonzero(corner_determinants(points, hexes).sum(axis=1) < 0) > len(hexes) / 2
-    return hexes[:, TURNED_CORNERS] if mirrored else hexes, bool(mirrored)
+    return hexes[:, MIRRORED_CORNERS] if mirrored else hexes, bool(mirrored)
 
 
 def _add_conditions(zone: Zone, node: CGNSNode, count: np.ndarray) -> None:

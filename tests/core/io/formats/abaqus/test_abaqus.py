@@ -8,7 +8,7 @@ import pytest
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from hexmend.quality import summarise
 from tests.core.io.kept import assert_same, middles_are_in_the_middle, with_everything
 
@@ -84,7 +84,7 @@ def test_the_sides_of_a_hex_are_those_of_the_manual(side, tmp_path):
 
 
 def test_the_27_nodes_of_a_hex_are_where_they_belong(tmp_path):
-    places = [*UNIT_CUBE, *MID_PLACES[:12], [0.5, 0.5, 0.5]]
+    places = [*UNIT_CUBE, *MID_NODE_POSITIONS[:12], [0.5, 0.5, 0.5]]
     places += [UNIT_CUBE[[int(k) - 1 for k in side.split()]].mean(axis=0) for side in SIDES]
     nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(places))
     row = ", ".join(map(str, range(1, 16))) + ",\n" + ", ".join(map(str, range(16, 28)))
@@ -202,7 +202,7 @@ def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_p
 def test_surfaces_stay_on_their_elements_where_those_of_second_order_come_first(tmp_path):
     """Hexes are written by the number of their nodes."""
     far = "".join(f"{k}, {x + 5:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 21))
-    middles = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(MID_PLACES[:12], 9))
+    middles = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(MID_NODE_POSITIONS[:12], 9))
     deck = (
         f"*NODE\n{cube()}{middles}{far}*ELEMENT, TYPE=C3D20\n100, {', '.join(map(str, range(1, 16)))},\n"
         "16, 17, 18, 19, 20\n*ELEMENT, TYPE=C3D8\n200, 21, 22, 23, 24, 25, 26, 27, 28\n"

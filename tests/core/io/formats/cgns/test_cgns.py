@@ -6,7 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, structured, unstructured
@@ -41,9 +41,9 @@ def test_nodes_of_every_order_are_where_vtk_has_them(kind, width, tmp_path):
     mesh = io.read(tmp_path / "one.cgns")
     np.testing.assert_array_equal(mesh.points[mesh.hexes[0]], UNIT_CUBE)
     if width > 8:
-        np.testing.assert_array_equal(mesh.points[mesh.mid_nodes[0, : width - 8]], MID_PLACES[: width - 8])
+        np.testing.assert_array_equal(mesh.points[mesh.mid_nodes[0, : width - 8]], MID_NODE_POSITIONS[: width - 8])
     of_vtk = points_of_vtk(tmp_path / "one.cgns")
-    np.testing.assert_array_equal(of_vtk[0], np.concatenate([UNIT_CUBE, MID_PLACES])[:width])
+    np.testing.assert_array_equal(of_vtk[0], np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS])[:width])
 
 
 def points_of_vtk(path):

@@ -8,7 +8,7 @@ import pytest
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, SIDES, letters, written
 
@@ -19,7 +19,7 @@ def test_nodes_of_every_order_are_where_vtk_has_them(width, tmp_path):
     mesh = io.read(path)
     np.testing.assert_array_equal(mesh.points[mesh.hexes[0]], UNIT_CUBE)
     if width > 8:
-        np.testing.assert_array_equal(mesh.points[mesh.mid_nodes[0, : width - 8]], MID_PLACES[: width - 8])
+        np.testing.assert_array_equal(mesh.points[mesh.mid_nodes[0, : width - 8]], MID_NODE_POSITIONS[: width - 8])
     io.write(tmp_path / "again.exo", mesh)
     again = io.read(tmp_path / "again.exo")
     np.testing.assert_array_equal(again.hexes, mesh.hexes)

@@ -6,7 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
 
@@ -31,7 +31,7 @@ def test_hexes_of_both_orders_keep_what_is_said_of_each(tmp_path):
     bare = grid(3, 1, 1)
     mids = np.full((3, 19), -1)
     mids[0, :12] = np.arange(16, 28)
-    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_PLACES[:12]])
+    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_NODE_POSITIONS[:12]])
     mesh = Mesh(
         points, bare.hexes, mid_nodes=mids, hex_data={"p": np.arange(3.0)}, side_sets={"in": np.array([[0, 0], [2, 1]])}
     )
@@ -72,7 +72,7 @@ def test_vtk_reads_what_is_written(tmp_path):
     io.write(tmp_path / "again.exo", io.read(path))
     ((_, kind, cells),) = of_vtk(tmp_path / "again.exo")
     assert kind == 29
-    np.testing.assert_array_equal(cells[0], np.concatenate([UNIT_CUBE, MID_PLACES]))
+    np.testing.assert_array_equal(cells[0], np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS]))
 
 
 def test_a_file_on_hdf5_is_read_as_one_of_the_classic_format(tmp_path):

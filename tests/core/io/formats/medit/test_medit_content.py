@@ -6,7 +6,7 @@ import pytest
 from hexmend import io
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from tests.core.grids import grid
 
 
@@ -15,7 +15,7 @@ def test_cells_of_second_order_are_written_with_their_corners(suffix, tmp_path):
     bare = grid(2, 1, 1)
     mids = np.full((2, 19), -1)
     mids[0, :12] = np.arange(12, 24)
-    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_PLACES[:12] - 0.5])
+    points = np.vstack([bare.points, bare.points[bare.hexes[0]].mean(axis=0) + MID_NODE_POSITIONS[:12] - 0.5])
     face = np.array([[*bare.hexes[0, [0, 1, 2, 3]], 12, 13, 14, 15]])
     mesh = Mesh(
         points,

@@ -7,7 +7,7 @@ from hexmend import io
 from hexmend.errors import FileError
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
-from hexmend.mesh.second_order import MID_PLACES
+from hexmend.mesh.second_order import MID_NODE_POSITIONS
 
 vtk = pytest.importorskip("vtk")
 SUFFIXES = pytest.mark.parametrize("suffix", [".vtu", ".vtk"])
@@ -66,7 +66,7 @@ def test_every_kind_is_read_in_vtks_order(suffix, tmp_path):
     np.testing.assert_array_equal(corners, UNIT_CUBE + np.outer(3 * which, [1, 0, 0])[:, None])
     for row, k in zip(mesh.mid_nodes, which, strict=True):
         found = mesh.points[row[row >= 0]]
-        np.testing.assert_array_equal(found, MID_PLACES[: {25: 12, 29: 19}.get(numbers[k], 0)] + [3 * k, 0, 0])
+        np.testing.assert_array_equal(found, MID_NODE_POSITIONS[: {25: 12, 29: 19}.get(numbers[k], 0)] + [3 * k, 0, 0])
     by_cell = {
         int(k): (cells.kind, nodes)
         for cells in mesh.cells
