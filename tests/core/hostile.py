@@ -22,7 +22,15 @@ from hexmend.mesh.patches import partition_patches
 from hexmend.mesh.tags import with_tag
 from hexmend.mesh.topology import Topology
 from hexmend.node_step import Sweep, explain
-from hexmend.quality import METRICS, corner_determinants, corner_qualities, element, locked, node, worst
+from hexmend.quality import (
+    METRICS,
+    corner_determinants,
+    corner_qualities,
+    describe_hex,
+    describe_node,
+    locked,
+    rank_worst,
+)
 from hexmend.quality.binning import bin_counts
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from tests.core.grids import grid, scrambled
@@ -92,7 +100,7 @@ CALLS: dict[str, Callable[[object], object]] = {
     "corner_determinants": lambda v: corner_determinants(X, v),
     "corner_determinants, which": lambda v: corner_determinants(X, H, v),
     "corner_qualities": lambda v: corner_qualities(X, v),
-    "worst, values": lambda v: worst(v, FIGURES, 3),
+    "worst, values": lambda v: rank_worst(v, FIGURES, 3),
     "bin_counts": lambda v: bin_counts(v, FIGURES.inverted, (0.0, 1.0), 5),
     **{f"{name}, hexes": lambda v, of=one.of: of(X, v, FIGURES) for name, one in METRICS.items()},
     **{f"{name}, points": lambda v, of=one.of: of(v, H, FIGURES) for name, one in METRICS.items()},
@@ -136,8 +144,8 @@ CALLS: dict[str, Callable[[object], object]] = {
     "with_region_free": lambda v: with_region_free(MESH, v),
     "tagged": lambda v: with_tag(MESH, "a", v),
     "grown": lambda v: partition_patches(MESH, v, 1),
-    "element": lambda v: element(MESH, v),
-    "node": lambda v: node(MESH, v),
+    "element": lambda v: describe_hex(MESH, v),
+    "node": lambda v: describe_node(MESH, v),
     "explain": lambda v: explain(MESH, SD, v),
     "Sweep.look": lambda v: Sweep(MESH, SD).look(v),
 }

@@ -7,7 +7,7 @@ import pytest
 
 import hexmend as hx
 from hexmend.errors import FileError, MeshError, ParameterError
-from hexmend.quality import METRICS, element, worst_hexes
+from hexmend.quality import METRICS, describe_hex, worst_hexes
 
 MESH = hx.gallery.make("bridge-sharp", size=500, scramble=0.4, seed=1)
 
@@ -95,4 +95,4 @@ def test_worst_hexes_need_a_better_end_and_a_count():
 @pytest.mark.parametrize("number", [-1, MESH.n_hexes, 1.5, "a", None, True])
 def test_there_is_nothing_to_know_of_a_hex_or_node_that_does_not_exist(number):
     with pytest.raises(MeshError, match="expected a whole number from 0 to"):
-        element(MESH, number)
+        describe_hex(MESH, number)

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
-from hexmend.quality import ElementQuality, Node
+from hexmend.quality import ElementQuality, NodeDetails
 from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
@@ -145,7 +145,7 @@ class Canvas(CameraView):
 
     # What is pointed at
 
-    def select(self, h: int | None, corners: bool, node: Node | None = None) -> None:
+    def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
         """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
         self._chosen = h, corners
         self.viewport.extras.selection.select(h, corners, node)

@@ -33,10 +33,10 @@ class Report:
         from hexmend.cli.command.memory_check import check_memory
         from hexmend.cli.command.progress import Progress
         from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
-        from hexmend.figures import printable
         from hexmend.io.storage.atomic import check_writable
         from hexmend.io.storage.suffixes import suffix_for
         from hexmend.report.charts import check_matplotlib
+        from hexmend.terminal_text import printable
         from hexmend_app.scene.graphics import prepare_off_screen
 
         path = Path(args.output)

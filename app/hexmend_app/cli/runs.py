@@ -51,7 +51,7 @@ def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stopping
 
 def names(args: argparse.Namespace, count: int) -> list[str]:
     """What versions are called where that is said: those of the mesh as given and of so many methods."""
-    from hexmend.figures import printable
+    from hexmend.terminal_text import printable
     from hexmend_app.cli.numbers import wrong
 
     given = [printable(name.strip()) for name in args.names.split(",")] if args.names else []

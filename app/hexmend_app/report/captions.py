@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from hexmend.figures import printable
 from hexmend.report import write_text
 from hexmend.report.markdown import escaped
+from hexmend.terminal_text import printable
 from hexmend_app.report.figure_set import Figure
 
 #: What stands above the commands.

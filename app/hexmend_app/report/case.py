@@ -13,7 +13,6 @@ from typing import Any
 from hexmend.advice import Advice, advise
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import FileError
-from hexmend.figures import printable
 from hexmend.io import read
 from hexmend.iteration import Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
@@ -23,6 +22,7 @@ from hexmend.run.recipe import Recipe
 from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import Smoother
 from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
+from hexmend.terminal_text import printable
 
 #: What the mesh as it was given is called.
 INITIAL = "initial"

@@ -8,8 +8,8 @@ from html import escape
 from io import BytesIO
 from pathlib import Path
 
-from hexmend.figures import Worse
 from hexmend.report.tables import Table
+from hexmend.terminal_text import WorsenedText
 from hexmend_app.report.vectors import inline
 
 #: Of pictures in pixels: half the size of PNG, and nobody sees the difference.
@@ -80,7 +80,7 @@ def table(table: Table, words: int = 0) -> str:
     width = len(table.head)
 
     def cell(text: str, column: int) -> str:
-        kinds = ["worse"] * isinstance(text, Worse) + ["words"] * (column >= width - words)
+        kinds = ["worse"] * isinstance(text, WorsenedText) + ["words"] * (column >= width - words)
         return f'<td class="{" ".join(kinds)}">{escape(text)}</td>' if kinds else f"<td>{escape(text)}</td>"
 
     head = "".join(

@@ -11,11 +11,12 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hexmend import __version__
-from hexmend.figures import count, printable, quality, significant
 from hexmend.io.storage.atomic import replacing
+from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.tables import Table
 from hexmend.study.bench.sections import machine
 from hexmend.study.table_row import Row
+from hexmend.terminal_text import printable
 from hexmend_app.report import hypertext as html
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Style, table_of, write_behind, write_figures
@@ -82,8 +83,8 @@ def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: 
         "Commands that repeat it": [html.commands(map(command_line, again))],
     }
     first, last = case.initial.summary, case.versions[-1].summary
-    row = [case.name, count(first.hexes), _change(first.inverted, last.inverted, count)]
-    row += [_change(one, other, quality) for one, other in (
+    row = [case.name, format_count(first.hexes), _change(first.inverted, last.inverted, format_count)]
+    row += [_change(one, other, format_quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
     told = [(name, "\n".join(filter(None, parts))) for name, parts in sections.items()]
@@ -143,17 +144,22 @@ def write_page(path: Path, text: str) -> None:
 
 def _preface(case: Case) -> str:
     first = case.initial.summary
-    said = [f"{count(first.hexes)} hexes, {count(first.nodes)} nodes, of which {count(first.free_nodes)} are free."]
-    said.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {quality(first.q_min)}.")
+    said = [
+        f"{format_count(first.hexes)} hexes, {format_count(first.nodes)} nodes, of which "
+        f"{format_count(first.free_nodes)} are free."
+    ]
+    said.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {format_quality(first.q_min)}.")
     for one in case.versions[1:]:
-        said.append(f"{one.name}: {_inverted(one.summary.inverted).lower()}, least q {quality(one.summary.q_min)}.")
+        said.append(
+            f"{one.name}: {_inverted(one.summary.inverted).lower()}, least q {format_quality(one.summary.q_min)}."
+        )
     if case.interrupted:
         said.append("The runs were interrupted: what is told is what was reached until then.")
     return html.paragraph(" ".join(said))
 
 
 def _inverted(number: int) -> str:
-    return f"{count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
+    return f"{format_count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
 
 
 def _figures(case: Case, style: Style, alive: bool, place: str) -> list[str]:
@@ -210,7 +216,14 @@ def _run(one: Version) -> list[str]:
     else:
         said = _values(values)
     name = one.name if one.name == row.method else f"{one.name} ({row.method})"
-    return [name, significant(row.setup_seconds), significant(row.seconds), count(row.iterations), row.message, said]
+    return [
+        name,
+        format_significant(row.setup_seconds),
+        format_significant(row.seconds),
+        format_count(row.iterations),
+        row.message,
+        said,
+    ]
 
 
 def _values(values: Mapping[str, object]) -> str:
@@ -226,7 +239,7 @@ def _origin(case: Case) -> str:
     if case.source is not None:
         pairs |= {
             "file": printable(case.source.path),
-            "size": f"{count(case.source.size)} bytes, read in {significant(case.source.seconds, 3)} s",
+            "size": f"{format_count(case.source.size)} bytes, read in {format_significant(case.source.seconds, 3)} s",
             "SHA-256": case.source.sha256,
         }
     if case.initial.mesh.notes:

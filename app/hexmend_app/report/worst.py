@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary import freed_by_sliding
-from hexmend.figures import count, quality
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, corner_determinants, locked, worst
+from hexmend.quality import ElementQuality, corner_determinants, locked, rank_worst
+from hexmend.quantity import format_count, format_quality
 from hexmend.report.tables import Table
 
 #: Hexes that are told of one by one.
@@ -45,9 +45,10 @@ class Locked:
         rest = many - freed
         which = "hex is" if many == 1 else "hexes are"
         return (
-            f"{count(many)} inverted {which} locked: at a corner with σ ≤ 0 all four nodes are fixed, so that no "
-            f"method that keeps these nodes can mend them. "
-            f"{count(freed)} can be freed where the boundary slides (--boundary slide), {count(rest)} cannot."
+            f"{format_count(many)} inverted {which} locked: at a corner with σ ≤ 0 all four nodes are fixed, so that "
+            f"no method that keeps these nodes can mend them. "
+            f"{format_count(freed)} can be freed where the boundary slides (--boundary slide), "
+            f"{format_count(rest)} cannot."
         )
 
 
@@ -56,12 +57,12 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) ->
 
     Inverted hexes come first.
     """
-    order = worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MOST)
+    order = rank_worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MOST)
     rows = [
         [
-            count(int(hex)),
-            quality(figures.q[hex]),
-            quality(figures.scaled_jacobian[hex]),
+            format_count(int(hex)),
+            format_quality(figures.q[hex]),
+            format_quality(figures.scaled_jacobian[hex]),
             ", ".join(_number(part) for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
             reason(mesh, figures, held, int(hex)),
         ]

@@ -8,9 +8,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from hexmend.figures import printable
 from hexmend.iteration import Iteration
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import printable
 from hexmend_app.state.document import State
 from hexmend_app.state.history_data import HistoryData, given
 from hexmend_app.state.record import Moment, Record

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.quality import METRICS, ElementFigure, Metric
+from hexmend.quality import METRICS, HexQuantity, Metric
 
 
 def metrics_offered() -> list[Metric]:
@@ -10,7 +10,7 @@ def metrics_offered() -> list[Metric]:
     return sorted(METRICS.values(), key=lambda metric: metric.name != "q")
 
 
-def described(metric: ElementFigure) -> str:
+def described(metric: HexQuantity) -> str:
     """Formula, meaning, ranges and source of a metric, as a tooltip."""
     low, high = metric.acceptable
     return (
@@ -19,7 +19,7 @@ def described(metric: ElementFigure) -> str:
     )
 
 
-def in_sentence(metric: ElementFigure) -> str:
+def in_sentence(metric: HexQuantity) -> str:
     """The title of a metric within a sentence.
 
     >>> from hexmend.quality import METRICS

@@ -10,7 +10,7 @@ from hexmend.advice.rules import RULES
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, Result
-from hexmend.quality import worse_in_words
+from hexmend.quality import describe_regressions
 from hexmend.run.messages import kept
 
 
@@ -59,7 +59,7 @@ def advise(result: Result) -> Advice:
         told = [one for one in told if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
     nothing = "" if untried else "Nothing is known that would better this mesh."
-    fallen = worse_in_words(result.before, result.after)
+    fallen = describe_regressions(result.before, result.after)
     limits, none = result.limits, np.empty(0, dtype=np.int64)
     return Advice(
         why=_why(now),

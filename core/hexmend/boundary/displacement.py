@@ -13,7 +13,7 @@ from hexmend.boundary import SkinSurface
 from hexmend.kernels import corner_values
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
-from hexmend.quality import METRICS, ElementFigure, ElementQuality
+from hexmend.quality import METRICS, ElementQuality, HexQuantity
 
 #: Changes of q, and ways in mean edge lengths, that are rounding.
 NOTHING = 1e-9
@@ -22,7 +22,7 @@ _MOVED = "of where each node is and where it was, in mean edge lengths of the me
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change(ElementFigure):
+class Change(HexQuantity):
     """A figure of every hex between two moments of one mesh.
 
     Parameters
@@ -118,7 +118,7 @@ MOVEMENTS: dict[str, Change] = {
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
 
 
-def named(name: str) -> ElementFigure:
+def named(name: str) -> HexQuantity:
     """What colours show under a name: a metric, or a change."""
     return MOVEMENTS.get(name) or METRICS[name]
 

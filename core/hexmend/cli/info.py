@@ -38,13 +38,13 @@ class Info:
         from hexmend.cli.command.files import say_notes
         from hexmend.doctor import examine
         from hexmend.io import read
-        from hexmend.quality import measure, spreads, summarise, summarise_second_order
+        from hexmend.quality import measure, metric_statistics, summarise, summarise_second_order
 
         mesh = read(args.mesh, as_is=args.as_is)
         say_notes(mesh)
         figures = measure(mesh.points, mesh.hexes)
         summary = summarise(mesh, figures)
-        metrics = spreads(mesh, figures) if args.metrics else {}
+        metrics = metric_statistics(mesh, figures) if args.metrics else {}
         curved = summarise_second_order(mesh)
         if args.json:
             from hexmend.report import to_json
@@ -59,7 +59,7 @@ class Info:
             print(to_json(answer))
             return 0
         from hexmend.cli.command.text_tables import print_spreads, print_summaries
-        from hexmend.figures import count
+        from hexmend.quantity import format_count
 
         print_summaries(args.mesh, [""], [summary])
         if summary.locked_inverted:
@@ -70,8 +70,8 @@ class Info:
             freed = int(freed_by_sliding(mesh, which).sum())
             left = summary.locked_inverted - freed
             print(
-                f"Locked: {count(freed)} can be freed where the boundary slides (--boundary slide), "
-                f"{count(left)} cannot."
+                f"Locked: {format_count(freed)} can be freed where the boundary slides (--boundary slide), "
+                f"{format_count(left)} cannot."
             )
         if curved is not None:
             print(f"Second order: {curved.words}.")

@@ -120,7 +120,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
     import argparse
 
     from hexmend.errors import FileError, HexmendError, MeshError, ShortageError
-    from hexmend.figures import printable
+    from hexmend.terminal_text import printable
 
     try:
         command = load()

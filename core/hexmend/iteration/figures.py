@@ -5,31 +5,31 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from hexmend.figures import Figure, count, objective, significant
-from hexmend.quality.summary import FIGURES
+from hexmend.quality.summary import SUMMARY_QUANTITIES
+from hexmend.quantity import Quantity, format_count, format_objective, format_significant
 
 #: The columns of a history, in order; a row of it is `Iteration.row`.
-HISTORY: dict[str, Figure] = {
+HISTORY: dict[str, Quantity] = {
     figure.key: figure
     for figure in (
-        Figure("iteration", "iteration", "Number of the iteration; 0 is the mesh before the first.", count),
-        Figure("seconds", "seconds", "Time in the method since its preparation ended.", significant, -1),
-        Figure(
+        Quantity("iteration", "iteration", "Number of the iteration; 0 is the mesh before the first.", format_count),
+        Quantity("seconds", "seconds", "Time in the method since its preparation ended.", format_significant, -1),
+        Quantity(
             "objective",
             "objective",
             "The objective that the method minimises at this step, Σ η(H)^p with its p and offset (3.3): infinite "
             "while any element is inverted. Steps that raise the least scaled Jacobian do not minimise it.",
-            objective,
+            format_objective,
             -1,
         ),
-        FIGURES["q_min"],
-        FIGURES["q_mean"],
-        FIGURES["inverted"],
-        Figure(
+        SUMMARY_QUANTITIES["q_min"],
+        SUMMARY_QUANTITIES["q_mean"],
+        SUMMARY_QUANTITIES["inverted"],
+        Quantity(
             "largest_move",
             "largest move",
             "How far the node went that went furthest, in mean edge lengths: what Algorithm A.1 stops at.",
-            significant,
+            format_significant,
         ),
     )
 }
@@ -46,18 +46,27 @@ def objective_changes(rows: Sequence[Mapping[str, Any]]) -> list[int]:
 
 
 #: What methods note of a step.
-NOTES: dict[str, Figure] = {
+NOTES: dict[str, Quantity] = {
     figure.key: figure
     for figure in (
-        Figure("gradient_norm", "gradient norm", "Norm of the objective's gradient before the step.", significant),
-        Figure("step_length", "step length", "α, the share of the search direction that was gone (A.5).", significant),
-        Figure(
+        Quantity(
+            "gradient_norm", "gradient norm", "Norm of the objective's gradient before the step.", format_significant
+        ),
+        Quantity(
+            "step_length",
+            "step length",
+            "α, the share of the search direction that was gone (A.5).",
+            format_significant,
+        ),
+        Quantity(
             "solver_iterations",
             "solver iterations",
             "Iterations of the linear solver that the Newton direction took (A.3, A.4).",
-            count,
+            format_count,
         ),
-        Figure("cuts", "line search cuts", "How often the line search cut the step (A.5).", count),
-        Figure("delta", "delta", "δ, the softness of the barrier (3.2); 0 once no element is inverted.", significant),
+        Quantity("cuts", "line search cuts", "How often the line search cut the step (A.5).", format_count),
+        Quantity(
+            "delta", "delta", "δ, the softness of the barrier (3.2); 0 once no element is inverted.", format_significant
+        ),
     )
 }

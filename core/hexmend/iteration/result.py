@@ -239,7 +239,7 @@ class Result:
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """What is worse than before: names of `hexmend.quality.JUDGED`."""
+        """What is worse than before: names of `hexmend.quality.REGRESSION_KEYS`."""
         return regressions(self.before, self.after)
 
     def _repr_html_(self) -> str:

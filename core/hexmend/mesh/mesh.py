@@ -155,7 +155,7 @@ class Mesh:
         return mean_edge_length(self.points, self.hexes)
 
     def quality(self, metric: str = "q") -> np.ndarray:
-        """The values of a metric of `hexmend.METRICS`, (m,) float64: see `hexmend.quality.values`."""
+        """The values of a metric of `hexmend.METRICS`, (m,) float64: see `hexmend.quality.metric_values`."""
         return provided("quality")(self, metric)
 
     def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from html import escape
 
 from hexmend.energy.norm import SQUARES
-from hexmend.figures import Figure
 from hexmend.iteration import Result
 from hexmend.iteration.figures import HISTORY, objective_changes
 from hexmend.mesh.mesh import Mesh
 from hexmend.notebook.sparkline import sparkline
-from hexmend.quality.summary import FIGURES, Summary, summarise
+from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, summarise
+from hexmend.quantity import Quantity
 
 _ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
 _IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
@@ -39,7 +39,9 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
         Why there is no picture.
     """
     summary = summarise(mesh)
-    rows = [f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, summary)}</tr>' for one in FIGURES.values()]
+    rows = [
+        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, summary)}</tr>' for one in SUMMARY_QUANTITIES.values()
+    ]
     return _page(_title(mesh), picture, problem, f"<table>{''.join(rows)}</table>")
 
 
@@ -49,7 +51,7 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
     rows = [
         f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
         f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
-        for one in FIGURES.values()
+        for one in SUMMARY_QUANTITIES.values()
     ]
     table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
     return _page(_title(result.mesh), picture, problem, table, f'<p style="{_SAID}">{escape(result.message)}</p>')
@@ -68,11 +70,11 @@ def _page(title: str, picture: bytes | None, problem: str, inside: str, said: st
     return f'<div><strong>{title}</strong>{said}<div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
 
 
-def _head(figure: Figure) -> str:
+def _head(figure: Quantity) -> str:
     return f'<span title="{escape(figure.help)}">{escape(figure.label)}</span>'
 
 
-def _cell(figure: Figure, summary: Summary, worse: bool = False) -> str:
+def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
     value = getattr(summary, figure.key)
     text = escape(figure.text(value)) if value is not None else "∞"
     return f'<td style="{_WORSE}">{text}</td>' if worse else f"<td>{text}</td>"
@@ -103,7 +105,7 @@ def _has_one_objective(result: Result) -> bool:
     return all(row["objective_formula"] == SQUARES.formula for row in result.history)
 
 
-def _line(figure: Figure, result: Result) -> str:
+def _line(figure: Quantity, result: Result) -> str:
     if figure.key not in _LINES or (figure.key == "objective" and not _has_one_objective(result)):
         return ""
     return _sparkline(figure.key, result)

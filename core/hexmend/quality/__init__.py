@@ -9,48 +9,48 @@ import pkgutil
 
 from hexmend.aliases import exports
 from hexmend.quality import metrics
-from hexmend.quality.element import Element, Node, element, node, worst
+from hexmend.quality.inspection import HexDetails, NodeDetails, describe_hex, describe_node, rank_worst
 from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
-from hexmend.quality.mesh_quality import values, worst_hexes
-from hexmend.quality.metric import METRICS, ElementFigure, Metric
+from hexmend.quality.mesh_quality import metric_values, worst_hexes
+from hexmend.quality.metric import METRICS, HexQuantity, Metric
 from hexmend.quality.metrics.q import Q
 from hexmend.quality.metrics.scaled_jacobian import SCALED_JACOBIAN
-from hexmend.quality.regressions import JUDGED, regressions, worse_in_words
-from hexmend.quality.second_order import SecondOrder, summarise_second_order
-from hexmend.quality.statistics import Spread, spreads
-from hexmend.quality.summary import FIGURES, Summary, objective, summarise
+from hexmend.quality.regressions import REGRESSION_KEYS, describe_regressions, regressions
+from hexmend.quality.second_order import SecondOrderSummary, summarise_second_order
+from hexmend.quality.statistics import MetricStatistics, metric_statistics
+from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, objective, summarise
 
 for _module in pkgutil.iter_modules(metrics.__path__):
     importlib.import_module(f"{metrics.__name__}.{_module.name}")
 
 __all__ = [
-    "FIGURES",
-    "JUDGED",
     "METRICS",
+    "REGRESSION_KEYS",
     "SCALED_JACOBIAN",
-    "Element",
-    "ElementFigure",
+    "SUMMARY_QUANTITIES",
     "ElementQuality",
+    "HexDetails",
+    "HexQuantity",
     "Metric",
-    "Node",
+    "MetricStatistics",
+    "NodeDetails",
     "Q",
-    "SecondOrder",
-    "Spread",
+    "SecondOrderSummary",
     "Summary",
     "corner_determinants",
     "corner_qualities",
-    "element",
+    "describe_hex",
+    "describe_node",
+    "describe_regressions",
     "locked",
     "measure",
-    "node",
+    "metric_statistics",
+    "metric_values",
     "objective",
+    "rank_worst",
     "regressions",
-    "spreads",
     "summarise",
     "summarise_second_order",
-    "values",
-    "worse_in_words",
-    "worst",
     "worst_hexes",
 ]
 

@@ -7,14 +7,14 @@ import numpy as np
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parameter
-from hexmend.quality.element import worst
+from hexmend.quality.inspection import rank_worst
 from hexmend.quality.measure import ElementQuality, measure
 from hexmend.quality.metric import METRICS, Metric
 
 _COUNT = Parameter("count", int, 10, 0, None, None, "", "")
 
 
-def values(mesh: Mesh, metric: str = "q") -> np.ndarray:
+def metric_values(mesh: Mesh, metric: str = "q") -> np.ndarray:
     """The values of a metric, one for each hex.
 
     Parameters
@@ -35,7 +35,7 @@ def values(mesh: Mesh, metric: str = "q") -> np.ndarray:
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> float(values(make("cube", size=8), "scaled_jacobian").min())
+    >>> float(metric_values(make("cube", size=8), "scaled_jacobian").min())
     1.0
     """
     return _of(mesh, metric)[1]
@@ -70,7 +70,7 @@ def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
     declared, found, figures = _of(mesh, metric)
     if not declared.better:
         raise ParameterError(f"of {declared.name} neither a high nor a low value is better: there are no worst hexes")
-    return worst(found, figures, _COUNT.check(count), declared.better)
+    return rank_worst(found, figures, _COUNT.check(count), declared.better)
 
 
 def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:

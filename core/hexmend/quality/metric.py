@@ -16,7 +16,7 @@ Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
 
 
 @dataclass(frozen=True)
-class ElementFigure:
+class HexQuantity:
     """What is declared of a figure that every hex has.
 
     Parameters
@@ -52,7 +52,7 @@ class ElementFigure:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Metric(ElementFigure):
+class Metric(HexQuantity):
     """A figure of every hex of one mesh.
 
     Parameters
@@ -65,7 +65,7 @@ class Metric(ElementFigure):
     of: Values
 
 
-def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
+def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
     """Values by a kernel that writes several figures in one pass.
 
     Parameters
@@ -93,7 +93,7 @@ def by_kernel(kernel: Callable[..., None], rows: int, row: int, worst: float) ->
 GROUP = "hexmend.metrics"
 
 
-def add_third_parties() -> None:
+def load_plugin_metrics() -> None:
     """Load the metrics of other distributions."""
     load_others(GROUP, "metric", _take)
 
@@ -105,4 +105,4 @@ def _take(name: str, metric: object) -> None:
         METRICS.add(metric.name, metric)
 
 
-METRICS: Registry[Metric] = Registry("metric", add_third_parties)
+METRICS: Registry[Metric] = Registry("metric", load_plugin_metrics)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from hexmend.quality.summary import FIGURES, Summary
+from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 
 #: The figures by the names that reports use, and their keys in a summary.
-JUDGED = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
+REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
 
 #: What a figure may differ by from rounding alone, as where a perfect grid is smoothed.
 _ROUNDING = 1e-12
 
 
 def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
-    """The names in `JUDGED` of the figures that are worse, in that order.
+    """The names in `REGRESSION_KEYS` of the figures that are worse, in that order.
 
     Examples
     --------
@@ -25,12 +25,12 @@ def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
     """
     return tuple(
         name
-        for name, key in JUDGED.items()
-        if FIGURES[key].better * (getattr(after, key) - getattr(before, key)) < -_ROUNDING
+        for name, key in REGRESSION_KEYS.items()
+        if SUMMARY_QUANTITIES[key].better * (getattr(after, key) - getattr(before, key)) < -_ROUNDING
     )
 
 
-def worse_in_words(before: Summary, after: Summary) -> str:
+def describe_regressions(before: Summary, after: Summary) -> str:
     """The same as a sentence; "" where nothing is worse.
 
     Examples
@@ -39,11 +39,11 @@ def worse_in_words(before: Summary, after: Summary) -> str:
     >>> from hexmend.gallery import make
     >>> from hexmend.quality import summarise
     >>> before = dataclasses.replace(summarise(make("cube", size=8)), q_min=0.40351)
-    >>> worse_in_words(before, dataclasses.replace(before, inverted=4, q_min=0.40349))
+    >>> describe_regressions(before, dataclasses.replace(before, inverted=4, q_min=0.40349))
     'Worse than at the start: inverted 0 → 4, q min 0.40351 → 0.40349.'
     """
-    keys = [JUDGED[name] for name in regressions(before, after)]
-    falls = [f"{FIGURES[key].label} {_apart(getattr(before, key), getattr(after, key))}" for key in keys]
+    keys = [REGRESSION_KEYS[name] for name in regressions(before, after)]
+    falls = [f"{SUMMARY_QUANTITIES[key].label} {_apart(getattr(before, key), getattr(after, key))}" for key in keys]
     return f"Worse than at the start: {', '.join(falls)}." if falls else ""
 
 

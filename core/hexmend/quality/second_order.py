@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.figures import count, quality
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import scaled_jacobians
+from hexmend.quantity import format_count, format_quality
 
 
 @dataclass(frozen=True)
-class SecondOrder:
+class SecondOrderSummary:
     """Hexes of 20 or 27 nodes in a mesh.
 
     Parameters
@@ -37,15 +37,15 @@ class SecondOrder:
     def words(self) -> str:
         """The same as a part of a sentence."""
         return (
-            f"{count(self.non_positive)} of {count(self.hexes)} have a Jacobian that is not positive at their nodes or "
-            f"Gauss points (least, scaled: {quality(self.scaled_jacobian_min)})"
+            f"{format_count(self.non_positive)} of {format_count(self.hexes)} have a Jacobian that is not positive at "
+            f"their nodes or Gauss points (least, scaled: {format_quality(self.scaled_jacobian_min)})"
         )
 
 
-def summarise_second_order(mesh: Mesh) -> SecondOrder | None:
+def summarise_second_order(mesh: Mesh) -> SecondOrderSummary | None:
     """The hexes of second order of a mesh; None where there are none."""
     if mesh.mid_nodes is None:
         return None
     least = scaled_jacobians(mesh.points, mesh.hexes, mesh.mid_nodes)
     least = least[~np.isnan(least)]
-    return SecondOrder(len(least), int(np.count_nonzero(least <= 0)), float(least.min())) if len(least) else None
+    return SecondOrderSummary(len(least), int(np.count_nonzero(least <= 0)), float(least.min())) if len(least) else None

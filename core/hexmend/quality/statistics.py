@@ -13,7 +13,7 @@ from hexmend.quality.metric import METRICS, Metric
 
 
 @dataclass(frozen=True)
-class Spread:
+class MetricStatistics:
     """Values of one metric.
 
     `min`, `mean` and `max` are those of the finite values, None where there are none; `infinite` counts the hexes whose
@@ -28,7 +28,7 @@ class Spread:
     unacceptable: int
 
     @classmethod
-    def over(cls, metric: Metric, values: np.ndarray) -> Spread:
+    def over(cls, metric: Metric, values: np.ndarray) -> MetricStatistics:
         """Of a metric's values, (m,)."""
         finite = values[np.isfinite(values)]
         low, mean, high = (
@@ -42,14 +42,17 @@ class Spread:
         return dataclasses.asdict(self)
 
 
-def spreads(mesh: Mesh, figures: ElementQuality | None = None) -> dict[str, Spread]:
+def metric_statistics(mesh: Mesh, figures: ElementQuality | None = None) -> dict[str, MetricStatistics]:
     """Every metric's spread by its name; pass `figures` where they are measured already.
 
     Examples
     --------
     >>> from hexmend.mesh.hexahedron import UNIT_CUBE
-    >>> spreads(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
+    >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
     Spread(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
     figures = measure(mesh.points, mesh.hexes) if figures is None else figures
-    return {name: Spread.over(metric, metric.of(mesh.points, mesh.hexes, figures)) for name, metric in METRICS.items()}
+    return {
+        name: MetricStatistics.over(metric, metric.of(mesh.points, mesh.hexes, figures))
+        for name, metric in METRICS.items()
+    }

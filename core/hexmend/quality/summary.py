@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.figures import Figure, count, quality
-from hexmend.figures import objective as energy
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked, measure
+from hexmend.quantity import Quantity, format_count, format_quality
+from hexmend.quantity import format_objective as energy
 
 
 def _figure(label: str, help: str, text: Callable[[Any], str], better: int = 0, part_of: str = "") -> Any:
@@ -30,25 +30,25 @@ class Summary:
     is inverted.
     """
 
-    hexes: int = _figure("hexes", "Number of hexahedral elements.", count)
-    nodes: int = _figure("nodes", "Number of nodes that an element uses.", count)
+    hexes: int = _figure("hexes", "Number of hexahedral elements.", format_count)
+    nodes: int = _figure("nodes", "Number of nodes that an element uses.", format_count)
     free_nodes: int = _figure(
         "free nodes",
         "Nodes that smoothing may move; the others, such as those of the surface, are fixed.",
-        count,
+        format_count,
     )
     inverted: int = _figure(
         "inverted",
         "Elements turned inside out at a corner: one of their eight corner tetrahedra has a determinant σ ≤ 0 (2.9). "
         "A solver cannot use them.",
-        count,
+        format_count,
         -1,
     )
     locked_inverted: int = _figure(
         "of these locked",
         "Inverted elements with a corner tetrahedron of σ ≤ 0 whose four nodes are all fixed. No method that keeps "
         "those nodes can mend them.",
-        count,
+        format_count,
         -1,
         part_of="inverted",
     )
@@ -56,23 +56,25 @@ class Summary:
         "q min",
         "Quality of the worst element. q(H) is the mean over the eight corner tetrahedra of 3 σ^⅔ / |S|², and 0 for "
         "those with σ ≤ 0 (2.8, 2.10): 1 for a cube, 0 for a flat element.",
-        quality,
+        format_quality,
         1,
     )
-    q_mean: float = _figure("q mean", "Mean quality over all elements (2.11).", quality, 1)
-    q_max: float = _figure("q max", "Quality of the best element.", quality)
-    q_std: float = _figure("q std", "Standard deviation of the elements' quality: how widely it spreads.", quality)
+    q_mean: float = _figure("q mean", "Mean quality over all elements (2.11).", format_quality, 1)
+    q_max: float = _figure("q max", "Quality of the best element.", format_quality)
+    q_std: float = _figure(
+        "q std", "Standard deviation of the elements' quality: how widely it spreads.", format_quality
+    )
     q_norm: float = _figure(
         "q norm",
         "1 / √(mean of 1/q²) (2.12): a mean in which bad elements count most; 0 as soon as one q is 0.",
-        quality,
+        format_quality,
         1,
     )
     scaled_jacobian_min: float = _figure(
         "scaled Jacobian min",
         "The least σ / (|e₁| |e₂| |e₃|) over all corners: 1 for right angles, 0 for a flat corner, negative for an "
         "inverted one. Other programs print it.",
-        quality,
+        format_quality,
         1,
     )
     objective: float | None = _figure(
@@ -89,7 +91,9 @@ class Summary:
 
 
 #: The fields of a summary, in order.
-FIGURES: dict[str, Figure] = {field.name: Figure(field.name, **field.metadata) for field in dataclasses.fields(Summary)}
+SUMMARY_QUANTITIES: dict[str, Quantity] = {
+    field.name: Quantity(field.name, **field.metadata) for field in dataclasses.fields(Summary)
+}
 
 
 def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:

@@ -9,8 +9,8 @@ from statistics import median
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.figures import count, quality, significant
 from hexmend.io.storage.atomic import replacing
+from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.documents import write_csv, write_text
 from hexmend.report.latex import latex
 from hexmend.report.markdown import escaped, markdown
@@ -102,12 +102,16 @@ def meshes_table(rows: Rows) -> Table:
         known = next((row for row in mine if row["hexes"] is not None), None)
         cells = ["–"] * 3
         if known is not None:
-            cells = [count(known["hexes"]), count(known["inverted_before"]), quality(known["q_min_before"])]
+            cells = [
+                format_count(known["hexes"]),
+                format_count(known["inverted_before"]),
+                format_quality(known["q_min_before"]),
+            ]
         best = min(done, key=lambda row: (row["inverted_after"], -row["q_min_after"]), default=None)
         then = ["–"] * 4
         if best is not None:
-            then = [best["case"], count(best["inverted_after"]), quality(best["q_min_after"])]
-            then.append(quality(best["scaled_jacobian_min_after"]))
+            then = [best["case"], format_count(best["inverted_after"]), format_quality(best["q_min_after"])]
+            then.append(format_quality(best["scaled_jacobian_min_after"]))
         valid = sum(not row["inverted_after"] for row in done)
         lines.append([names[mesh], *cells, f"{valid} of {len(mine)}", *then])
     return Table("The meshes", head, lines)
@@ -157,7 +161,7 @@ def _line(rows: Rows) -> list[str]:
     for key in ("q_min", "q_mean", "scaled_jacobian_min"):
         gains = [row[f"{key}_after"] - row[f"{key}_before"] for row in done]
         cells += [f"{median(gains):+.4f}", f"{min(gains):+.4f}"] if gains else ["–", "–"]
-    cells += [significant(median(seconds), 3), significant(sum(seconds), 3)] if seconds else ["–", "–"]
+    cells += [format_significant(median(seconds), 3), format_significant(sum(seconds), 3)] if seconds else ["–", "–"]
     return [*cells, f"{max(peaks):,.0f}" if peaks else "–"]
 
 

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.figures import printable
 from hexmend.io.storage.atomic import replacing
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import Parametrised, parameter
+from hexmend.terminal_text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

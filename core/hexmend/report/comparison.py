@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.figures import Figure, Worse, count, micro, milli, significant
-from hexmend.quality.regressions import JUDGED
-from hexmend.quality.summary import FIGURES
+from hexmend.quality.regressions import REGRESSION_KEYS
+from hexmend.quality.summary import SUMMARY_QUANTITIES
+from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
 from hexmend.report.documents import write_document
 from hexmend.report.tables import Table
+from hexmend.terminal_text import WorsenedText
 
 #: How a run ended, where the record's own word is not the clearest.
 _ENDED = {
@@ -33,28 +34,34 @@ def ended(outcome: str) -> str:
 
 
 #: The lines of the table: those of the thesis, and what tells how far they can be believed.
-LINES: tuple[Figure, ...] = (
+LINES: tuple[Quantity, ...] = (
     *(
-        FIGURES[key]
+        SUMMARY_QUANTITIES[key]
         for key in ("inverted", "q_min", "q_mean", "q_std", "q_max", "q_norm", "scaled_jacobian_min", "objective")
     ),
-    Figure(
+    Quantity(
         "seconds",
         "time, s",
         "Seconds in the method, without its preparation and without measuring.",
-        significant,
+        format_significant,
         -1,
     ),
-    Figure("iterations", "iterations", "Iterations until the run ended.", count, -1),
-    Figure("seconds_per_iteration", "ms per iteration", "Milliseconds of an iteration, on average.", milli, -1),
-    Figure(
+    Quantity("iterations", "iterations", "Iterations until the run ended.", format_count, -1),
+    Quantity(
+        "seconds_per_iteration",
+        "ms per iteration",
+        "Milliseconds of an iteration, on average.",
+        format_milliseconds,
+        -1,
+    ),
+    Quantity(
         "seconds_per_iteration_and_node",
         "µs per iteration, node",
         "Microseconds of an iteration for each node that may move.",
-        micro,
+        format_microseconds,
         -1,
     ),
-    Figure("outcome", "ended", "Why the run ended.", ended),
+    Quantity("outcome", "ended", "Why the run ended.", ended),
 )
 
 #: The thesis's widest table has this many columns of figures; a wider one is turned on its side.
@@ -88,10 +95,10 @@ def comparison_table(
     return table if len(columns) <= _WIDEST or published else table.transposed
 
 
-def label(figure: Figure, records: Iterable[Mapping[str, Any]]) -> str:
+def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
     """The label of a line of records: of the objective with its formula, which all of them have in common.
 
-    >>> label(FIGURES["objective"], [{"objective": 7.0, "objective_formula": "Σ η⁴, offset 0"}])
+    >>> label(SUMMARY_QUANTITIES["objective"], [{"objective": 7.0, "objective_formula": "Σ η⁴, offset 0"}])
     'objective Σ η⁴, offset 0'
     """
     formula = next((one["objective_formula"] for one in records if "objective_formula" in one), None)
@@ -158,14 +165,14 @@ def _called(own: str, names: Mapping[str, str] | None) -> str:
     return (names or {}).get(own) or own
 
 
-def _cell(figure: Figure, record: Mapping[str, Any]) -> str:
-    fallen = {JUDGED[name] for name in record.get("worse", ())}
-    return (Worse if figure.key in fallen else str)(figure.of(record))
+def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:
+    fallen = {REGRESSION_KEYS[name] for name in record.get("worse", ())}
+    return (WorsenedText if figure.key in fallen else str)(figure.of(record))
 
 
 def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Which methods left what worse than the mesh they were given."""
-    labels = {name: FIGURES[key].label for name, key in JUDGED.items()}
+    labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()}
     those = [
         f"{head} ({', '.join(labels[name] for name in record['worse'])})"
         for head, record in columns.items()

@@ -6,24 +6,24 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from hexmend.figures import Figure, count, significant
+from hexmend.quantity import Quantity, format_count, format_significant
 from hexmend.report.comparison import ended
 from hexmend.report.documents import write_documents
 from hexmend.report.tables import Table
 
 
 def _three(value: float) -> str:
-    return significant(value, 3)
+    return format_significant(value, 3)
 
 
 #: What is told of a run: until it arrives near the optimum, and in all.
-COLUMNS: tuple[Figure, ...] = (
-    Figure("near_iterations", "sweeps", "Iterations until the objective is near the optimum.", count, -1),
-    Figure("near_evaluations", "evaluations", "How often a hex was asked until then, on average.", _three, -1),
-    Figure("near_seconds", "s", "Seconds in the method until then.", _three, -1),
-    Figure("iterations", "sweeps in all", "Iterations until the run ended.", count, -1),
-    Figure("seconds", "s in all", "Seconds in the method until then.", _three, -1),
-    Figure("outcome", "ended", "Why the run ended.", ended),
+COLUMNS: tuple[Quantity, ...] = (
+    Quantity("near_iterations", "sweeps", "Iterations until the objective is near the optimum.", format_count, -1),
+    Quantity("near_evaluations", "evaluations", "How often a hex was asked until then, on average.", _three, -1),
+    Quantity("near_seconds", "s", "Seconds in the method until then.", _three, -1),
+    Quantity("iterations", "sweeps in all", "Iterations until the run ended.", format_count, -1),
+    Quantity("seconds", "s in all", "Seconds in the method until then.", _three, -1),
+    Quantity("outcome", "ended", "Why the run ended.", ended),
 )
 
 

@@ -9,7 +9,7 @@ from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.boundary.features import DEGREES
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import Summary, measure, regressions, summarise, worse_in_words
+from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
 from hexmend.run.messages import changes, iterations, kept
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
@@ -180,7 +180,7 @@ class Run(Iterator[Iteration]):
         if not self._kept_last:
             words.append(kept(self.reached.number))
         instead = "" if inverted else self.stage.smoother.instead(regressions(before, after))
-        return " ".join(filter(None, [*words, worse_in_words(before, after), instead]))
+        return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
 
     @property
     def _kept_last(self) -> bool:

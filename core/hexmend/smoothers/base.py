@@ -89,7 +89,7 @@ class Smoother(Parametrised, ABC):
         return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
 
     def instead(self, worse: tuple[str, ...]) -> str:
-        """What to ask the method for where figures, of `hexmend.quality.JUDGED`, have become worse; "" for nothing."""
+        """What to ask the method for where figures of `quality.REGRESSION_KEYS` have become worse; "" for nothing."""
         return ""
 
     @classmethod

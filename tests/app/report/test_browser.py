@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.quality import METRICS, measure, worst
+from hexmend.quality import METRICS, measure, rank_worst
 from hexmend_app.report.figure_set import Style
 from hexmend_app.report.page import chapter, page, write_page
 from hexmend_app.scene.export.tally import tally
@@ -144,7 +144,7 @@ def test_a_click_tells_the_hex_and_its_values(fresh, case):
 
 
 def test_the_table_of_the_worst_leads_to_them(fresh, case):
-    hex = int(worst(case.initial.figures.q - case.initial.figures.inverted, case.initial.figures, 1)[0])
+    hex = int(rank_worst(case.initial.figures.q - case.initial.figures.inverted, case.initial.figures, 1)[0])
     before = fresh.canvas()
     fresh.page.locator('[data-version="0"] button').first.click()
     assert fresh.text("told").startswith(f"Hex {hex:,} – initial: q(H) ")

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QApplication
 
-from hexmend.quality import element, measure, node, summarise
+from hexmend.quality import describe_hex, describe_node, measure, summarise
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
@@ -113,8 +113,8 @@ def worst():
 
 def one_element():
     panel = ElementPanel()
-    panel.show_element(element(MESH, WORST))
-    panel.show_node(node(MESH, int(MESH.hexes[WORST, 0])))
+    panel.show_element(describe_hex(MESH, WORST))
+    panel.show_node(describe_node(MESH, int(MESH.hexes[WORST, 0])))
     return panel
 
 

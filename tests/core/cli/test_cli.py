@@ -10,7 +10,7 @@ from hexmend import gallery, io
 from hexmend.cli.main import commands, main
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, spreads, summarise
+from hexmend.quality import METRICS, metric_statistics, summarise
 
 SUMMARY = [
     "hexes", "nodes", "free_nodes", "inverted", "locked_inverted", "q_min", "q_mean", "q_max", "q_std", "q_norm",
@@ -47,7 +47,7 @@ def test_info_adds_every_metric_on_demand(mesh, capsys):
     assert main(["info", str(mesh), "--metrics", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
     assert list(figures) == [*SUMMARY, "metrics"]
-    assert figures["metrics"] == {name: spread.to_dict() for name, spread in spreads(io.read(mesh)).items()}
+    assert figures["metrics"] == {name: spread.to_dict() for name, spread in metric_statistics(io.read(mesh)).items()}
     assert figures["metrics"]["q"]["min"] == figures["q_min"]
     assert main(["info", str(mesh), "--metrics"]) == 0
     table = capsys.readouterr().out

@@ -10,7 +10,7 @@ from hexmend.errors import HexmendError
 from hexmend.iteration import StoppingCriteria
 from hexmend.notebook.html_tables import of_mesh, of_result
 from hexmend.notebook.sparkline import sparkline
-from hexmend.quality.summary import FIGURES
+from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +42,7 @@ def texts(html):
 
 def test_a_mesh_is_a_table_of_its_figures(mesh):
     rows = texts(of_mesh(mesh.replace(name="a <b> & c")))
-    assert len(rows) == len(FIGURES)
+    assert len(rows) == len(SUMMARY_QUANTITIES)
     assert rows[0].split() == ["hexes", f"{mesh.n_hexes:,}"]
 
 
@@ -51,7 +51,10 @@ def test_a_result_is_a_table_of_before_and_after(result):
     assert tree.find(".//p").text == result.message
     assert len(list(tree.iter("svg"))) >= 3
     cells = [one.text for one in next(row for row in tree.iter("tr") if "q mean" in "".join(row.itertext())).iter("td")]
-    assert cells[:2] == [FIGURES["q_mean"].text(result.before.q_mean), FIGURES["q_mean"].text(result.after.q_mean)]
+    assert cells[:2] == [
+        SUMMARY_QUANTITIES["q_mean"].text(result.before.q_mean),
+        SUMMARY_QUANTITIES["q_mean"].text(result.after.q_mean),
+    ]
 
 
 def objective_rows(result):
@@ -67,7 +70,7 @@ def test_the_objective_of_the_method_has_a_row_of_its_own_where_it_is_another():
     mesh = hx.gallery.make("five-side", size=300)
     stop = StoppingCriteria(max_iterations=3, keep_last=True)
     usual = hx.smooth(mesh, "local-sd", stop)
-    text = FIGURES["objective"].text
+    text = SUMMARY_QUANTITIES["objective"].text
     assert objective_rows(usual) == {
         "objective Σ η²": ([text(usual.before.objective), text(usual.after.objective)], True)
     }
@@ -87,7 +90,7 @@ def test_objectives_before_and_after_that_differ_are_named():
     result = hx.smooth(mesh, hx.Recipe.of(*stages))
     assert result.kept == 4
     cells, line = objective_rows(result)["objective of the method"]
-    values = [FIGURES["objective"].text(result.history[k]["objective"]) for k in (0, 4)]
+    values = [SUMMARY_QUANTITIES["objective"].text(result.history[k]["objective"]) for k in (0, 4)]
     assert cells == [f"{values[0]} (Σ η²)", f"{values[1]} (Σ η⁴)"]
     assert line
 
@@ -95,7 +98,7 @@ def test_objectives_before_and_after_that_differ_are_named():
 def test_what_is_worse_is_red(mesh):
     worse = hx.smooth(mesh, "laplacian", StoppingCriteria(max_iterations=1, keep_last=True))
     red = sum("#b3261e" in (cell.get("style") or "") for cell in ET.fromstring(of_result(worse)).iter("td"))
-    assert red == len(set(worse.worse) & set(FIGURES))
+    assert red == len(set(worse.worse) & set(SUMMARY_QUANTITIES))
 
 
 def test_without_the_viewer_it_is_said_why_there_is_no_picture(mesh, drawing):

@@ -12,8 +12,8 @@ from scipy.stats import special_ortho_group
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, DIAGONALS, EDGES, FACES, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, measure, spreads
-from hexmend.quality.statistics import Spread
+from hexmend.quality import METRICS, measure, metric_statistics
+from hexmend.quality.statistics import MetricStatistics
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -207,11 +207,13 @@ def test_metrics_declare_what_they_are_and_stay_in_range(metric):
 
 def test_cubes_are_acceptable_and_what_is_worse_is_counted():
     mesh = grid(3)
-    assert {spread.unacceptable for spread in spreads(mesh).values()} == {0}
-    assert Spread.over(METRICS["edge-ratio"], np.array([1, 5, 6, math.inf])) == Spread(1.0, 4.0, 6.0, 1, 2)
-    assert Spread.over(METRICS["condition"], np.array([math.inf])) == Spread(None, None, None, 1, 1)
-    assert Spread.over(METRICS["volume"], np.array([-1.0, 2.0])).unacceptable == 1
-    assert Spread.over(METRICS["shape"], np.array([0.2, 1 + 1e-15])).unacceptable == 1
+    assert {spread.unacceptable for spread in metric_statistics(mesh).values()} == {0}
+    assert MetricStatistics.over(METRICS["edge-ratio"], np.array([1, 5, 6, math.inf])) == MetricStatistics(
+        1.0, 4.0, 6.0, 1, 2
+    )
+    assert MetricStatistics.over(METRICS["condition"], np.array([math.inf])) == MetricStatistics(None, None, None, 1, 1)
+    assert MetricStatistics.over(METRICS["volume"], np.array([-1.0, 2.0])).unacceptable == 1
+    assert MetricStatistics.over(METRICS["shape"], np.array([0.2, 1 + 1e-15])).unacceptable == 1
 
 
 def test_volumes_of_a_mesh_add_up_to_that_of_its_box():

@@ -3,11 +3,11 @@
 import numpy as np
 
 from hexmend.quality import METRICS, measure
-from hexmend.quality.summary import FIGURES
+from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 
 def test_counts_extremes_and_spreads_have_no_better_way_and_all_others_have():
-    better = {name: figure.better for name, figure in FIGURES.items()}
+    better = {name: figure.better for name, figure in SUMMARY_QUANTITIES.items()}
     assert {name for name, way in better.items() if way == -1} == {"inverted", "locked_inverted", "objective"}
     assert {name for name, way in better.items() if way == 1} == {"q_min", "q_mean", "q_norm", "scaled_jacobian_min"}
     assert set(better.values()) == {-1, 0, 1}

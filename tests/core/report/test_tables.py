@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.errors import FileError
-from hexmend.figures import significant
+from hexmend.quantity import format_significant
 from hexmend.report import Table, comparison_table, latex, made_folder, markdown, table_of, write_csv, write_documents
 from hexmend.report.comparison import LINES
 from hexmend.report.documents import write_document
@@ -49,7 +49,7 @@ def test_latex_has_no_bare_special_letter():
 
 @given(st.floats(1e-6, 1e9))
 def test_significant_keeps_four_figures_and_has_no_exponent(value):
-    text = significant(value)
+    text = format_significant(value)
     assert "e" not in text
     assert float(text.replace(",", "")) == pytest.approx(value, rel=5.01e-4, abs=1e-10)
 

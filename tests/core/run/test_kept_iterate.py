@@ -11,7 +11,7 @@ from hexmend import io
 from hexmend.cli.main import main
 from hexmend.gallery import GALLERY, make
 from hexmend.iteration import StoppingCriteria
-from hexmend.quality import FIGURES, JUDGED, measure
+from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, measure
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage, from_toml, to_toml
 from hexmend.smoothers import METHODS
@@ -90,9 +90,9 @@ def test_worse_tells_exactly_what_is_worse(name, stop, mesh):
     }
     assert list(result.worse) == [one for one in rise if rise[one] < -1e-12]
     assert ("Worse than at the start" in result.message) == bool(result.worse)
-    for one, key in JUDGED.items():
+    for one, key in REGRESSION_KEYS.items():
         words = result.message.partition("Worse than at the start")[2]
-        assert (FIGURES[key].label in words) == (one in result.worse)
+        assert (SUMMARY_QUANTITIES[key].label in words) == (one in result.worse)
 
 
 @pytest.mark.slow

@@ -9,8 +9,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QFont
 
-from hexmend.figures import Figure
-from hexmend.quality import JUDGED
+from hexmend.quality import REGRESSION_KEYS
+from hexmend.quantity import Quantity
 from hexmend.report.comparison import LINES, label
 from hexmend.smoothers import METHODS
 from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
@@ -64,7 +64,7 @@ def title_of(name: str) -> str:
     return METHODS[name].title if name in METHODS else name
 
 
-def best(entries: Sequence[Entry], figure: Figure) -> set[str]:
+def best(entries: Sequence[Entry], figure: Quantity) -> set[str]:
     """Names of the methods whose figure is the best; none where there is nothing to choose.
 
     >>> rows = [Entry("a", "", {"q_min": 0.1}), Entry("b", "", {"q_min": 0.3}), Entry("c", "", {})]
@@ -190,12 +190,12 @@ class ComparisonModel(QAbstractTableModel):
             return _CHECKS[entry.name in self.ticks]
         return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
 
-    def _emphasis(self, entry: Entry, figure: Figure, is_best: bool, role: int) -> Any:
+    def _emphasis(self, entry: Entry, figure: Quantity, is_best: bool, role: int) -> Any:
         if role == _Role.FontRole and is_best:
             font = tabular(QFont())
             font.setBold(True)
             return font
-        fallen = figure.key in {JUDGED[name] for name in entry.record.get("worse", ())}
+        fallen = figure.key in {REGRESSION_KEYS[name] for name in entry.record.get("worse", ())}
         if role == _Role.AccessibleTextRole and (is_best or fallen):
             words = [figure.of(entry.record), *["best"] * is_best, *["worse than initial"] * fallen]
             return ", ".join(words)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.figures import Figure, significant
 from hexmend.iteration.figures import HISTORY, NOTES
+from hexmend.quantity import Quantity, format_significant
 
 #: The time of one iteration, which the plot takes from the times of two.
-STEP_SECONDS = Figure(
-    "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", significant, -1
+STEP_SECONDS = Quantity(
+    "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", format_significant, -1
 )
 _FIGURES = HISTORY | NOTES | {STEP_SECONDS.key: STEP_SECONDS}
 
@@ -28,7 +28,7 @@ class Quantity:
         Whether it is a count.
     """
 
-    figure: Figure
+    figure: Quantity
     log: bool = False
     whole: bool = False
 

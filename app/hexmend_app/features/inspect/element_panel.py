@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 from superqt import QFlowLayout
 
-from hexmend.quality import METRICS, Element, Node
+from hexmend.quality import METRICS, HexDetails, NodeDetails
 from hexmend_app.widgets.metrics import described, metrics_offered
 from hexmend_app.widgets.style import INVERTED_TEXT, MUTED, TEXT, WORSE, dress, explain, icon, note, tabular, tint
 from hexmend_app.widgets.wording import counted, figure
@@ -92,7 +92,7 @@ class ElementPanel(QWidget):
         )
         explain(self._neighbours, "Neighbours", "The hexes across its six faces; a click goes there.")
         self._neighbours.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
-        self._node: Node | None = None
+        self._node: NodeDetails | None = None
         self._about_node = QLabel()
         self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         explain(
@@ -185,7 +185,7 @@ class ElementPanel(QWidget):
         """Want the corners' qualities in the view, or not."""
         self._in_view.setChecked(on)
 
-    def show_element(self, one: Element | None, tags: Sequence[str] = ()) -> None:
+    def show_element(self, one: HexDetails | None, tags: Sequence[str] = ()) -> None:
         """Show an element and the tags that it has, or how to choose one."""
         self._stack.setCurrentIndex(0 if one is None else 1)
         if one is None:
@@ -211,7 +211,7 @@ class ElementPanel(QWidget):
         )
         self._neighbours.setText("Neighbours: " + " &nbsp;&nbsp;".join(links))
 
-    def show_node(self, one: Node | None, busy: bool = False, slides: str = "") -> None:
+    def show_node(self, one: NodeDetails | None, busy: bool = False, slides: str = "") -> None:
         """Show a node of the element, or how to choose one; nothing can be pinned while a run is `busy`.
 
         Parameters

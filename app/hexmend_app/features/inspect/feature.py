@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hexmend.boundary import NodeClass
-from hexmend.quality import element, node
+from hexmend.quality import describe_hex, describe_node
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from hexmend_app.features.inspect.file import write_worst
@@ -172,8 +172,8 @@ class FeatureInspect(Feature):
             self.panel.show_element(None)
         else:
             tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
-            self.panel.show_element(element(mesh, chosen.hex), tags)
-        at = None if chosen.node is None else node(mesh, chosen.node)
+            self.panel.show_element(describe_hex(mesh, chosen.hex), tags)
+        at = None if chosen.node is None else describe_node(mesh, chosen.node)
         self.panel.show_node(at, not self.session.editable, self._slides(chosen.node))
         if self.canvas is not None:
             self.canvas.select(chosen.hex, self.panel.corners_in_view, at)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import METRICS, ElementQuality, locked, worst
+from hexmend.quality import METRICS, ElementQuality, locked, rank_worst
 from hexmend_app.state.measured import values
 
 #: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
@@ -36,7 +36,7 @@ class Worst:
     def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> Worst:
         """Find them."""
         known = values(metric, mesh.points, mesh.hexes, figures)
-        chosen = worst(known, figures, min(MOST, known.size), METRICS[metric].better or 1)
+        chosen = rank_worst(known, figures, min(MOST, known.size), METRICS[metric].better or 1)
         inverted = figures.inverted[chosen]
         held = locked(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
         states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, held, strict=True)]

@@ -17,14 +17,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.figures import Figure
-from hexmend.quality import FIGURES, JUDGED, regressions
+from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
+from hexmend.quantity import Quantity
 from hexmend_app.widgets.link_table import LinkTable
 from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, smaller, tabular
 from hexmend_app.widgets.wording import figure
 
 #: What has a row: all but the quality of the best element, which says nothing.
-ROWS = tuple(one for one in FIGURES.values() if one.key != "q_max")
+ROWS = tuple(one for one in SUMMARY_QUANTITIES.values() if one.key != "q_max")
 _COLUMNS = ("", "start", "now", "change")
 _START, _NOW, _CHANGE = 1, 2, 3
 
@@ -32,7 +32,7 @@ _START, _NOW, _CHANGE = 1, 2, 3
 _AROUND = 10
 
 
-def _name(row: Figure) -> str:
+def _name(row: Quantity) -> str:
     return f"– {row.label}" if row.part_of else row.title
 
 
@@ -46,7 +46,7 @@ def _cell(value: float | None) -> str:
     return text if len(text) <= 7 or isinstance(value, int) else f"{value:.6g}".replace("-", "−")
 
 
-def change(row: Figure, start: float | None, now: float | None) -> tuple[str, int]:
+def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, int]:
     """Text of a change and whether it is for the better (1), for the worse (-1) or neither (0).
 
     >>> change(ROWS[3], 36, 0)
@@ -156,7 +156,11 @@ class StatisticsTable(QWidget):
     def set_summaries(self, start: Any, now: Any) -> None:
         """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
         self._summaries = (start, now)
-        fallen = {JUDGED[name] for name in regressions(start, now)} if start is not None and now is not None else set()
+        fallen = (
+            {REGRESSION_KEYS[name] for name in regressions(start, now)}
+            if start is not None and now is not None
+            else set()
+        )
         for at, row in enumerate(ROWS):
             was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
             shown = start is not None and now is not None
@@ -227,5 +231,5 @@ class StatisticsTable(QWidget):
         return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))
 
 
-def _help(row: Figure) -> str:
+def _help(row: Quantity) -> str:
     return f"<qt><b>{row.title}</b><br>{row.help}</qt>"

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from hexmend.doctor import repair
-from hexmend.figures import printable
 from hexmend.parameters import Parametrised, declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
+from hexmend.terminal_text import printable
 
 #: Letters of a line.
 WIDTH = 110

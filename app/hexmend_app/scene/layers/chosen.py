@@ -7,7 +7,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
-from hexmend.quality import Node, corner_qualities
+from hexmend.quality import NodeDetails, corner_qualities
 from hexmend_app.scene.layers.highlight import Highlight
 from hexmend_app.scene.layers.node_step import NodeStepMarks
 from hexmend_app.scene.pane import Pane
@@ -68,7 +68,7 @@ class Chosen:
         self._show_hex()
         self._node_step.move(mesh.points)
 
-    def select(self, h: int | None, corners: bool, node: Node | None) -> None:
+    def select(self, h: int | None, corners: bool, node: NodeDetails | None) -> None:
         """Mark one hex, with the quality at each of its corners or without, and one of its nodes; None marks none."""
         if self._mesh is None:
             return
@@ -85,7 +85,7 @@ class Chosen:
             self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)
         self._show_hex()
 
-    def _mark_node(self, node: Node | None) -> None:
+    def _mark_node(self, node: NodeDetails | None) -> None:
         """Mark a node where it is now, and which way the energy around it falls, if it may go there."""
         if node is None:
             self.highlight.show_node(None)

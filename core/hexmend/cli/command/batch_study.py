@@ -88,8 +88,8 @@ def _workers(args: argparse.Namespace) -> Workers:
 
 def _say(studied: StudyResult) -> None:
     """What was done, what was there, and what has failed."""
-    from hexmend.figures import printable
     from hexmend.report.batch import failures
+    from hexmend.terminal_text import printable
 
     count = studied.count
     said = f"{count.done:,} done now, {count.kept:,} done before, {count.failed:,} without a result"

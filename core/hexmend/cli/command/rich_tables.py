@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hexmend.cli.process.terminal import shows_colours
-from hexmend.figures import Worse
+from hexmend.terminal_text import WorsenedText
 
 if TYPE_CHECKING:
     from hexmend.report import Table
@@ -37,7 +37,7 @@ def print_table(table: Table) -> None:
         for column, head in enumerate(part.head):
             drawn.add_column(Text(head), justify="right" if column else "left", no_wrap=True)
         for row in part.rows:
-            drawn.add_row(*(Text(cell, _WORSE if isinstance(cell, Worse) else "") for cell in row))
+            drawn.add_row(*(Text(cell, _WORSE if isinstance(cell, WorsenedText) else "") for cell in row))
         console.print(drawn)
     for note in table.notes:
         print(note)

@@ -6,48 +6,49 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from hexmend.cli.process.terminal import shows_colours
-from hexmend.figures import Worse, printable
+from hexmend.terminal_text import WorsenedText, printable
 
 if TYPE_CHECKING:
-    from hexmend.quality import Spread, Summary
+    from hexmend.quality import MetricStatistics, Summary
 
 
 def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
     """Print one or several summaries side by side; what is worse than in the first stands out."""
-    from hexmend.quality import FIGURES, JUDGED, regressions
+    from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 
     print(printable(title))
     columns = [
-        (summary.to_dict(), {JUDGED[name] for name in regressions(summaries[0], summary)}) for summary in summaries
+        (summary.to_dict(), {REGRESSION_KEYS[name] for name in regressions(summaries[0], summary)})
+        for summary in summaries
     ]
     rows = [
         [
             f"  {figure.label}" if figure.part_of else figure.title,
-            *((Worse if figure.key in fallen else str)(figure.of(record)) for record, fallen in columns),
+            *((WorsenedText if figure.key in fallen else str)(figure.of(record)) for record, fallen in columns),
         ]
-        for figure in FIGURES.values()
+        for figure in SUMMARY_QUANTITIES.values()
     ]
     print_columns(["", *heads] if len(heads) > 1 else None, rows)
 
 
-def print_spreads(spreads: Mapping[str, Spread]) -> None:
+def print_spreads(spreads: Mapping[str, MetricStatistics]) -> None:
     """Print what every metric's values are, and how many hexes have one that is not acceptable."""
-    from hexmend.figures import count
     from hexmend.quality import METRICS
+    from hexmend.quantity import format_count
 
     rows = []
     for name, spread in spreads.items():
         low, high = METRICS[name].acceptable
         values = ("–" if value is None else f"{value:.3g}" for value in (spread.min, spread.mean, spread.max))
         acceptable = f"{low:g} to {high:g}".replace("inf", "∞")
-        rows.append([name, *values, acceptable, count(spread.unacceptable), count(spread.infinite)])
+        rows.append([name, *values, acceptable, format_count(spread.unacceptable), format_count(spread.infinite)])
     print_columns(["Metric", "Min", "Mean", "Max", "Acceptable", "Outside", "Infinite"], rows)
 
 
 def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
     """Print rows in columns, the first from the left and the others from the right, with a line below the head.
 
-    On a terminal that has colours, a cell that is a `Worse` is red.
+    On a terminal that has colours, a cell that is a `WorsenedText` is red.
     """
     red, plain = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
     every = [*([head] if head else []), *rows]
@@ -56,7 +57,7 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
     def line(row: Sequence[str]) -> str:
         cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
         painted = (
-            f"{red}{text}{plain}" if isinstance(cell, Worse) else text
+            f"{red}{text}{plain}" if isinstance(cell, WorsenedText) else text
             for cell, text in zip(row[1:], cells, strict=True)
         )
         return "  " + "   ".join([row[0].ljust(widths[0]), *painted])

@@ -1,7 +1,7 @@
 """Smallest and largest angle of the faces; 0 and 180 degrees where an edge has no length."""
 
 from hexmend.kernels import faces
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 MIN_ANGLE = METRICS.add(
     "min-angle",
@@ -14,7 +14,7 @@ MIN_ANGLE = METRICS.add(
         acceptable=(45.0, 90.0),
         better=1,
         meaning="Small angles mean sheared faces: the stiffness matrix is worse conditioned.",
-        of=by_kernel(faces.angles, rows=2, row=0, worst=0.0),
+        of=kernel_metric(faces.angles, rows=2, row=0, worst=0.0),
         unit="degrees",
     ),
 )
@@ -30,7 +30,7 @@ MAX_ANGLE = METRICS.add(
         acceptable=(90.0, 135.0),
         better=-1,
         meaning="Angles near 180 degrees make gradients inaccurate: the hex is nearly flat at a corner.",
-        of=by_kernel(faces.angles, rows=2, row=1, worst=180.0),
+        of=kernel_metric(faces.angles, rows=2, row=1, worst=180.0),
         unit="degrees",
     ),
 )

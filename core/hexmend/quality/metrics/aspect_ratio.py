@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 ASPECT_RATIO = METRICS.add(
     "aspect-ratio",
@@ -19,6 +19,6 @@ ASPECT_RATIO = METRICS.add(
             "High values suit a solution that changes along the short axis only, as in a boundary layer; "
             "elsewhere they cost accuracy."
         ),
-        of=by_kernel(metrics.axes, rows=3, row=0, worst=math.inf),
+        of=kernel_metric(metrics.axes, rows=3, row=0, worst=math.inf),
     ),
 )

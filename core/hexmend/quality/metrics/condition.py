@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 CONDITION = METRICS.add(
     "condition",
@@ -16,6 +16,6 @@ CONDITION = METRICS.add(
         acceptable=(1.0, 3.0),
         better=-1,
         meaning="High values carry over to the stiffness matrix: iterative solvers take longer and lose digits.",
-        of=by_kernel(metrics.corners, rows=2, row=1, worst=math.inf),
+        of=kernel_metric(metrics.corners, rows=2, row=1, worst=math.inf),
     ),
 )

@@ -1,7 +1,7 @@
 """Diagonal ratio: the shortest diagonal over the longest; 0 where none has a length."""
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 DIAGONAL = METRICS.add(
     "diagonal",
@@ -14,6 +14,6 @@ DIAGONAL = METRICS.add(
         acceptable=(0.65, 1.0),
         better=1,
         meaning="Low values mean a hex that leans: its answer depends on the direction of the load.",
-        of=by_kernel(metrics.lengths, rows=3, row=2, worst=0.0),
+        of=kernel_metric(metrics.lengths, rows=3, row=2, worst=0.0),
     ),
 )

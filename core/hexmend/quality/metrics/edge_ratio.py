@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 EDGE_RATIO = METRICS.add(
     "edge-ratio",
@@ -19,6 +19,6 @@ EDGE_RATIO = METRICS.add(
             "High values resolve the solution unevenly: gradients along the long edges are lost, and the "
             "short ones set the time step."
         ),
-        of=by_kernel(metrics.lengths, rows=3, row=0, worst=math.inf),
+        of=kernel_metric(metrics.lengths, rows=3, row=0, worst=math.inf),
     ),
 )

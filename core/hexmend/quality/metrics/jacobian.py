@@ -7,9 +7,9 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import metrics
 from hexmend.quality.measure import ElementQuality
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
-_at_centre = by_kernel(metrics.centre, rows=1, row=0, worst=-math.inf)
+_at_centre = kernel_metric(metrics.centre, rows=1, row=0, worst=-math.inf)
 
 
 def _least(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:

@@ -1,7 +1,7 @@
 """Shape: the worst of the eight corners' mean ratios, where q(H) is their mean."""
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 SHAPE = METRICS.add(
     "shape",
@@ -17,6 +17,6 @@ SHAPE = METRICS.add(
             "Low values mean a corner that is flat, sheared or stretched: errors there grow, and the "
             "stiffness matrix is worse conditioned."
         ),
-        of=by_kernel(metrics.corners, rows=2, row=0, worst=0.0),
+        of=kernel_metric(metrics.corners, rows=2, row=0, worst=0.0),
     ),
 )

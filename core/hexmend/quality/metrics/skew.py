@@ -1,7 +1,7 @@
 """Skew: how far the principal axes are from right angles; 1 where an axis has no length."""
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 SKEW = METRICS.add(
     "skew",
@@ -14,6 +14,6 @@ SKEW = METRICS.add(
         acceptable=(0.0, 0.5),
         better=-1,
         meaning="High values mean a sheared hex: gradients across it are less accurate.",
-        of=by_kernel(metrics.axes, rows=3, row=1, worst=1.0),
+        of=kernel_metric(metrics.axes, rows=3, row=1, worst=1.0),
     ),
 )

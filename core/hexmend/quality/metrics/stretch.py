@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 STRETCH = METRICS.add(
     "stretch",
@@ -18,6 +18,6 @@ STRETCH = METRICS.add(
         meaning=(
             "Low values mean an edge that is short for the hex's size, which limits the time step of explicit solvers."
         ),
-        of=by_kernel(metrics.lengths, rows=3, row=1, worst=0.0),
+        of=kernel_metric(metrics.lengths, rows=3, row=1, worst=0.0),
     ),
 )

@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 TAPER = METRICS.add(
     "taper",
@@ -19,6 +19,6 @@ TAPER = METRICS.add(
             "High values mean opposite faces of different size: the map to the hex is far from linear, "
             "and quadrature errs."
         ),
-        of=by_kernel(metrics.axes, rows=3, row=2, worst=math.inf),
+        of=kernel_metric(metrics.axes, rows=3, row=2, worst=math.inf),
     ),
 )

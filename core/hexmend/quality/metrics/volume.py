@@ -3,7 +3,7 @@
 import math
 
 from hexmend.kernels import faces
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 VOLUME = METRICS.add(
     "volume",
@@ -16,7 +16,7 @@ VOLUME = METRICS.add(
         acceptable=(0.0, math.inf),
         better=0,
         meaning=("Below 0 the hex is inside out; a jump from one hex to the next reflects waves and costs accuracy."),
-        of=by_kernel(faces.volume, rows=1, row=0, worst=-math.inf),
+        of=kernel_metric(faces.volume, rows=1, row=0, worst=-math.inf),
         unit="mesh unit³",
     ),
 )

@@ -1,7 +1,7 @@
 """Warpage of the worst face, 0 for flat faces; 2 where a corner of a face has no normal."""
 
 from hexmend.kernels import faces
-from hexmend.quality.metric import METRICS, Metric, by_kernel
+from hexmend.quality.metric import METRICS, Metric, kernel_metric
 
 WARPAGE = METRICS.add(
     "warpage",
@@ -17,6 +17,6 @@ WARPAGE = METRICS.add(
             "High values mean faces that are not flat: contact, surface loads and finite volumes see another "
             "face than the hex has."
         ),
-        of=by_kernel(faces.warpage, rows=1, row=0, worst=2.0),
+        of=kernel_metric(faces.warpage, rows=1, row=0, worst=2.0),
     ),
 )

@@ -8,10 +8,10 @@ from enum import StrEnum
 from math import isfinite
 from typing import Any
 
-from hexmend.quality.summary import FIGURES
+from hexmend.quality.summary import SUMMARY_QUANTITIES
 
 #: Figures of `Summary` that a run changes: each is told before and after.
-CHANGING = tuple(key for key in FIGURES if key not in ("hexes", "nodes", "free_nodes"))
+CHANGING = tuple(key for key in SUMMARY_QUANTITIES if key not in ("hexes", "nodes", "free_nodes"))
 
 
 class Status(StrEnum):
@@ -42,7 +42,7 @@ def _figures(when: str, words: str) -> tuple[Column, ...]:
             int if "inverted" in key else float,
             f"{label[:1].upper()}{label[1:]}, {words}.",
         )
-        for key, label in ((key, FIGURES[key].label) for key in CHANGING)
+        for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGING)
     )
 
 

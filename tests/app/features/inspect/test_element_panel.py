@@ -7,7 +7,7 @@ from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
-from hexmend.quality import element, measure
+from hexmend.quality import describe_hex, measure
 from hexmend_app.features.inspect.element_panel import ElementPanel
 from tests.core.grids import grid, scrambled
 
@@ -34,7 +34,7 @@ def test_without_an_element_it_says_how_to_choose_one(panel):
 
 
 def test_an_element_is_shown_with_figures_nodes_and_neighbours(panel):
-    one = element(MESH, WORST)
+    one = describe_hex(MESH, WORST)
     panel.show_element(one)
     shown = texts(panel)
     assert f"Hex {WORST:,}" in shown
@@ -49,7 +49,7 @@ def neighbours(panel):
 
 
 def test_neighbours_are_links_for_keys(panel, qtbot):
-    one = element(MESH, WORST)
+    one = describe_hex(MESH, WORST)
     panel.show_element(one)
     with qtbot.waitActive(panel):
         panel.activateWindow()
@@ -62,7 +62,7 @@ def test_neighbours_are_links_for_keys(panel, qtbot):
 
 
 def test_neighbours_are_links_for_the_mouse(panel, qtbot):
-    one = element(MESH, WORST)
+    one = describe_hex(MESH, WORST)
     panel.show_element(one)
     links = neighbours(panel)
     first = int(min(np.flatnonzero(one.neighbours >= 0)))
@@ -76,13 +76,13 @@ def test_neighbours_are_links_for_the_mouse(panel, qtbot):
 
 
 def test_a_low_and_wide_panel_needs_no_scrolling(panel):
-    panel.show_element(element(MESH, WORST))
+    panel.show_element(describe_hex(MESH, WORST))
     assert panel.heightForWidth(1000) <= 230
     assert panel.minimumSizeHint().width() <= 340
 
 
 def test_its_buttons_tell_what_the_user_wants(panel, qtbot):
-    panel.show_element(element(MESH, WORST))
+    panel.show_element(describe_hex(MESH, WORST))
     with qtbot.waitSignal(panel.fly_requested):
         QTest.mouseClick(panel.findChild(QPushButton), Qt.MouseButton.LeftButton)
     with qtbot.waitSignal(panel.corners_toggled):

@@ -7,14 +7,14 @@ import pytest
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
-from hexmend.quality.regressions import JUDGED
+from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend import maxmin_stage
 from hexmend.smoothers.mend.maxmin_stage import TOGETHER, lifted
 from tests.core.boundary.solids import ball, slid
 
 #: Every set of figures that can be worse.
-WORSE = [words for count in range(len(JUDGED) + 1) for words in itertools.combinations(JUDGED, count)]
+WORSE = [words for count in range(len(REGRESSION_KEYS) + 1) for words in itertools.combinations(REGRESSION_KEYS, count)]
 
 
 @pytest.mark.parametrize("name", METHODS)

@@ -17,7 +17,7 @@ from hexmend.quality.metric import METRICS
 
 
 @dataclass(frozen=True, eq=False)
-class Element:
+class HexDetails:
     """What there is to know of one hex.
 
     Parameters
@@ -49,7 +49,7 @@ class Element:
     locked: bool
 
 
-def element(mesh: Mesh, number: int) -> Element:
+def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     """Look at a hex of a mesh.
 
     Raises
@@ -60,7 +60,7 @@ def element(mesh: Mesh, number: int) -> Element:
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> one = element(make("cube", size=27), 0)
+    >>> one = describe_hex(make("cube", size=27), 0)
     >>> one.nodes.size, round(one.values["q"], 6), one.inverted
     (8, 1.0, False)
     """
@@ -68,7 +68,7 @@ def element(mesh: Mesh, number: int) -> Element:
     nodes = mesh.hexes[number]
     hexes = np.ascontiguousarray(nodes[None])
     figures = measure(mesh.points, hexes)
-    return Element(
+    return HexDetails(
         number=number,
         nodes=nodes,
         points=mesh.points[nodes],
@@ -82,7 +82,7 @@ def element(mesh: Mesh, number: int) -> Element:
 
 
 @dataclass(frozen=True, eq=False)
-class Node:
+class NodeDetails:
     """What there is to know of one node.
 
     Parameters
@@ -111,7 +111,7 @@ class Node:
     pinned: bool = False
 
 
-def node(mesh: Mesh, number: int) -> Node:
+def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     """Look at a node of a mesh.
 
     Raises
@@ -122,16 +122,16 @@ def node(mesh: Mesh, number: int) -> Node:
     Examples
     --------
     >>> from hexmend.gallery import make
-    >>> one = node(make("cube", size=8), 13)
+    >>> one = describe_node(make("cube", size=8), 13)
     >>> one.kind, one.ring.size, round(one.energy, 9)
     ('free', 8, 0.0)
     """
-    number = checked_number(number, mesh.n_nodes, "node")
+    number = checked_number(number, mesh.n_nodes, "describe_node")
     corners = mesh.topology.node_corners
     places = corners.items[corners.start[number] : corners.start[number + 1]]
     ring = places // 8
     if not ring.size:
-        return Node(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3))
+        return NodeDetails(number, mesh.points[number], "unused", ring, 0.0, np.zeros(3))
     nodes, corners_in_ring = np.unique(mesh.hexes[ring], return_inverse=True)
     hexes = corners_in_ring.reshape(-1, 8).astype(np.int32)
     x = mesh.points[nodes]
@@ -143,10 +143,10 @@ def node(mesh: Mesh, number: int) -> Node:
         downhill = -shares[np.arange(ring.size), places % 8].sum(axis=0)
     kind = "boundary" if mesh.topology.boundary[number] else "pinned" if mesh.fixed[number] else "free"
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])
-    return Node(number, mesh.points[number], kind, ring, energy, downhill, pinned)
+    return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned)
 
 
-def worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
+def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
     """The worst hexes by a metric, (at most count,) int64, the worst first.
 
     Of equal ones, such as those whose q is 0, that of the lower scaled Jacobian comes first, then that of the lower

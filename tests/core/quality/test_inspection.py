@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend.energy import MeshEnergy
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, element, measure, node, worst
+from hexmend.quality import ElementQuality, describe_hex, describe_node, measure, rank_worst
 from tests.core.grids import grid, scrambled
 
 
@@ -18,7 +18,7 @@ def test_an_element_says_what_the_whole_mesh_says_of_it():
     mesh = scrambled(grid(4), 0.9, 1)
     figures = measure(mesh.points, mesh.hexes)
     for h in (0, 21, int(figures.q.argmin())):
-        one = element(mesh, h)
+        one = describe_hex(mesh, h)
         assert one.number == h
         np.testing.assert_array_equal(one.nodes, mesh.hexes[h])
         assert one.values["q"] == figures.q[h] == pytest.approx(one.corners.mean())
@@ -35,7 +35,7 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
     values, jacobian = random.integers(0, 6, (2, 30)) / 5.0
     sigma = random.choice([-1.0, 1.0], 30, p=[0.3, 0.7])
     figures = ElementQuality(values, sigma, jacobian, values)
-    got = worst(values, figures, count, better)
+    got = rank_worst(values, figures, count, better)
     everything = sorted(range(30), key=lambda h: (better * values[h], jacobian[h], h))
     assert got.tolist() == everything[:count]
 
@@ -43,8 +43,8 @@ def test_the_worst_are_the_first_of_all_in_order(seed, count, better):
 def test_what_has_no_value_is_the_worst_whichever_way_is_better():
     values = np.array([0.5, np.nan, 3.0, np.inf])
     figures = ElementQuality(values, np.ones(4), np.zeros(4), values)
-    assert worst(values, figures, 4).tolist() == [1, 0, 2, 3]
-    assert worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
+    assert rank_worst(values, figures, 4).tolist() == [1, 0, 2, 3]
+    assert rank_worst(values, figures, 3, better=-1).tolist() == [1, 3, 2]
     assert np.isnan(values[1])  # not written into
 
 
@@ -57,27 +57,29 @@ def test_a_node_says_what_the_mesh_says_of_it():
     energy = MeshEnergy(mesh)
     gradient = energy.gradient(energy.to_edge_units(mesh.points))
     for k, i in enumerate(energy.nodes):
-        one = node(mesh, int(i))
+        one = describe_node(mesh, int(i))
         assert one.kind == "free"
         np.testing.assert_array_equal(np.sort(one.ring), np.flatnonzero((mesh.hexes == i).any(axis=1)))
         edges = np.diff(mesh.points[mesh.hexes[one.ring]][:, EDGES], axis=2)
         units = np.linalg.norm(edges, axis=-1).mean() / mesh.mean_edge_length
         np.testing.assert_allclose(one.downhill, -gradient[k] * units, atol=1e-12)
         assert one.energy == pytest.approx(np.square(measure(mesh.points, mesh.hexes).eta[one.ring]).sum())
-    assert node(mesh, int(inner[3])).kind == "pinned"
-    assert node(mesh, int(inner[3])).pinned
-    assert node(mesh, 0).kind == node(mesh.replace(pinned=mesh.topology.boundary), 0).kind == "boundary"
-    assert not node(mesh, 0).pinned
-    assert node(mesh.replace(pinned=mesh.topology.boundary), 0).pinned
+    assert describe_node(mesh, int(inner[3])).kind == "pinned"
+    assert describe_node(mesh, int(inner[3])).pinned
+    assert (
+        describe_node(mesh, 0).kind == describe_node(mesh.replace(pinned=mesh.topology.boundary), 0).kind == "boundary"
+    )
+    assert not describe_node(mesh, 0).pinned
+    assert describe_node(mesh.replace(pinned=mesh.topology.boundary), 0).pinned
     tangled = scrambled(grid(4), 2.0, 1)
-    one = node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
+    one = describe_node(tangled, int(tangled.hexes[measure(tangled.points, tangled.hexes).inverted][0, 0]))
     assert one.energy == np.inf
     assert (one.downhill == 0).all()
 
 
 def test_a_node_of_no_hex_is_unused_and_goes_nowhere():
     mesh = grid(1)
-    one = node(Mesh(np.concatenate([mesh.points, [[9.0, 9, 9]]]), mesh.hexes), 8)
+    one = describe_node(Mesh(np.concatenate([mesh.points, [[9.0, 9, 9]]]), mesh.hexes), 8)
     assert (one.kind, one.ring.size, one.energy, one.downhill.tolist()) == ("unused", 0, 0.0, [0, 0, 0])
     assert one.point.tolist() == [9, 9, 9]
 
@@ -89,4 +91,4 @@ def test_of_many_hexes_the_worst_are_found_without_sorting_all(count, levels):
     q, scaled = (random.integers(0, levels, 3_000) / levels for _ in range(2))
     order = np.lexsort((np.arange(3_000), scaled, q))
     figures = SimpleNamespace(q=q, scaled_jacobian=scaled)
-    assert worst(q, figures, count).tolist() == order[:count].tolist()
+    assert rank_worst(q, figures, count).tolist() == order[:count].tolist()

@@ -7,21 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 
-def printable(text: str) -> str:
-    r"""A text from outside, fit for a terminal: one line, and no codes that steer it.
-
-    >>> printable("name\x1b[2J of\na file")
-    'name?[2J of a file'
-    """
-    return "".join(letter if letter.isprintable() else "?" for letter in text.replace("\n", " "))
-
-
-class Worse(str):
-    """The text of a figure that is worse than it was; tables that have colours show it in red."""
-
-
 @dataclass(frozen=True)
-class Figure:
+class Quantity:
     """A figure; every table, form and chart that shows it takes its words from here.
 
     Parameters
@@ -51,7 +38,7 @@ class Figure:
     def title(self) -> str:
         """The label as it begins a line.
 
-        >>> [Figure("", label, "", count).title for label in ("free nodes", "q min", "µs per node")]
+        >>> [Quantity("", label, "", format_count).title for label in ("free nodes", "q min", "µs per node")]
         ['Free nodes', 'q min', 'µs per node']
         """
         first = self.label.split()[0]
@@ -63,53 +50,53 @@ class Figure:
         return "–" if value is None else self.text(value)
 
 
-def count(value: int) -> str:
+def format_count(value: int) -> str:
     """
-    >>> count(31760)
+    >>> format_count(31760)
     '31,760'
     """
     return f"{value:,}"
 
 
-def quality(value: float) -> str:
+def format_quality(value: float) -> str:
     """
-    >>> quality(0.56741)
+    >>> format_quality(0.56741)
     '0.5674'
     """
     return f"{value:.4f}"
 
 
-def significant(value: float, digits: int = 4) -> str:
+def format_significant(value: float, digits: int = 4) -> str:
     """So many significant figures, never with an exponent.
 
-    >>> [significant(value) for value in (0.0012345, 19.522, 83960.9, 0)]
+    >>> [format_significant(value) for value in (0.0012345, 19.522, 83960.9, 0)]
     ['0.001234', '19.52', '83,960', '0']
     """
     return f"{float(f'{value:.{digits}g}'):,.10f}".rstrip("0").rstrip(".")
 
 
-def objective(value: float) -> str:
+def format_objective(value: float) -> str:
     """With the digits in which two optima may differ.
 
-    >>> objective(157.80185041)
+    >>> format_objective(157.80185041)
     '157.8019'
     """
-    return significant(value, digits=7)
+    return format_significant(value, digits=7)
 
 
-def milli(seconds: float) -> str:
+def format_milliseconds(seconds: float) -> str:
     """Seconds as milliseconds.
 
-    >>> milli(0.01463)
+    >>> format_milliseconds(0.01463)
     '14.63'
     """
-    return significant(seconds * 1e3)
+    return format_significant(seconds * 1e3)
 
 
-def micro(seconds: float) -> str:
+def format_microseconds(seconds: float) -> str:
     """Seconds as microseconds.
 
-    >>> micro(6.755e-4)
+    >>> format_microseconds(6.755e-4)
     '675.5'
     """
-    return significant(seconds * 1e6)
+    return format_significant(seconds * 1e6)
