@@ -21,8 +21,8 @@ class Film:
     help = "Run a method and write an animation of its iterations: MP4, GIF, WebP or PNG, by the suffix."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.memory_check import add_force
-        from hexmend.cli.command.method import add_method
+        from hexmend.cli.arguments.memory_check import add_force
+        from hexmend.cli.arguments.method import add_method
 
         looks.prepare(parser)
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
@@ -39,9 +39,9 @@ class Film:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.boundary.displacement import Displacement, Moment
-        from hexmend.cli.command.memory_check import check_memory
-        from hexmend.cli.command.method import chosen
-        from hexmend.cli.command.progress import follow
+        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.arguments.method import chosen
+        from hexmend.cli.output.progress import follow
         from hexmend.io import read
         from hexmend.run import iterate
         from hexmend_app.scene.graphics import prepare_off_screen

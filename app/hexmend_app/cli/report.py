@@ -30,8 +30,8 @@ class Report:
     def run(self, args: argparse.Namespace) -> int:
         from dataclasses import replace
 
-        from hexmend.cli.command.memory_check import check_memory
-        from hexmend.cli.command.progress import Progress
+        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.output.progress import Progress
         from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
         from hexmend.io.storage.atomic import check_writable
         from hexmend.io.storage.suffixes import suffix_for

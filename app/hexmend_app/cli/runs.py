@@ -20,7 +20,7 @@ NONE = "none"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    from hexmend.cli.command.method import add_settings
+    from hexmend.cli.arguments.method import add_settings
 
     looks.prepare(parser)
     parser.add_argument(
@@ -38,8 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], StoppingCriteria]:
     """The methods, and the limits of each."""
-    from hexmend.cli.command.limits import given_limits, limits
-    from hexmend.cli.command.method import with_boundary
+    from hexmend.cli.arguments.limits import given_limits, limits
+    from hexmend.cli.arguments.method import with_boundary
     from hexmend.smoothers import DEFAULT_METHOD
     from hexmend.study.method_spec import chosen, split
 

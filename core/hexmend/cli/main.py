@@ -107,13 +107,12 @@ def commands() -> dict[str, Callable[[], Command]]:
 def _own_commands() -> dict[str, Callable[[], Command]]:
     import pkgutil
 
-    from hexmend import cli
+    from hexmend.cli import commands as package
 
-    loaders: dict[str, Callable[[], Command]] = {}
-    for module in pkgutil.iter_modules(cli.__path__):
-        if not module.ispkg and module.name != "main":
-            loaders[module.name] = lambda name=module.name: importlib.import_module(f"hexmend.cli.{name}").command
-    return loaders
+    def loader(name: str) -> Callable[[], Command]:
+        return lambda: importlib.import_module(f"hexmend.cli.commands.{name}").command
+
+    return {module.name: loader(module.name) for module in pkgutil.iter_modules(package.__path__)}
 
 
 def _run(load: Callable[[], Command], words: list[str]) -> int:

@@ -15,7 +15,7 @@ from hexmend.signal_guard import uninterrupted
 #: A program that gets a signal after each handler that a block restores, and rests then.
 RESTORES = """
 import os, signal, sys, time
-from hexmend.cli import interrupts
+from hexmend.cli.process import interrupts
 interrupts.exit_on_signals()
 whole = signal.signal
 def restore(number, handler):

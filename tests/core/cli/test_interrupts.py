@@ -20,7 +20,7 @@ if os.environ["TIMER"] == "no alarm":
     interrupts._ALARM = None
 {moment}
 from hexmend.cli.main import main
-from hexmend.cli.command import progress
+from hexmend.cli.output import progress
 progress.EVERY = progress.AFTER = 0.0
 sys.exit(main())
 """
@@ -128,7 +128,7 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
-    rests = "import time\nfrom hexmend.cli.command import files\nfiles.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
+    rests = "import time\nfrom hexmend.cli.arguments import files\nfiles.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
     status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.mesh.fixing"), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
 
@@ -147,9 +147,9 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 
 
 @pytest.mark.parametrize(("module", "kind", "name"), [
-    ("hexmend.cli.command.progress", "_Lines", "show"),
+    ("hexmend.cli.output.progress", "_Lines", "show"),
     ("hexmend.run.run", "Run", "result"),
-    ("hexmend.cli.smooth", "Smooth", "run"),
+    ("hexmend.cli.commands.smooth", "Smooth", "run"),
 ])  # fmt: skip
 @pytest.mark.parametrize("count", [1, 3])
 def test_signals_after_an_iteration_lose_nothing_and_before_it_everything(smooth, tmp_path, module, kind, name, count):

@@ -8,14 +8,14 @@ import sys
 import pytest
 
 from hexmend import gallery, io
-from hexmend.cli.command import progress
+from hexmend.cli.output import progress
 from hexmend.cli.main import main
 from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, iterate
 
 #: The program, which tells of every iteration, so that a test need not wait for the clock.
 TALKATIVE = (
-    "import sys; from hexmend.cli.command import progress; progress.EVERY = 0.0; "
+    "import sys; from hexmend.cli.output import progress; progress.EVERY = 0.0; "
     "from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
 )
 #: Never ends by itself.

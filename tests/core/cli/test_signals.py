@@ -15,7 +15,7 @@ from hexmend.cli.main import main
 TALKATIVE = """
 import signal, sys
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
-from hexmend.cli.command import progress
+from hexmend.cli.output import progress
 from hexmend.cli.main import main
 progress.EVERY = 0.0
 sys.exit(main(sys.argv[1:]))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hexmend.advice import Suggestion
-from hexmend.cli.command.suggested_command import command_of
+from hexmend.cli.commands.smooth.suggested_command import command_of
 from hexmend.iteration import StoppingCriteria
 from hexmend.smoothers import METHODS
 

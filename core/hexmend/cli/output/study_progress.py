@@ -8,7 +8,7 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.command.progress import EVERY, drawn_line
+from hexmend.cli.output.progress import EVERY, drawn_line
 from hexmend.cli.process.terminal import redraws_lines
 
 if TYPE_CHECKING:

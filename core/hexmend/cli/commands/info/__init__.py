@@ -16,7 +16,7 @@ class Info:
     help = "Print the quality and the counts of a mesh."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.files import add_mesh
+        from hexmend.cli.arguments.files import add_mesh
 
         add_mesh(parser)
         parser.add_argument(
@@ -35,7 +35,7 @@ class Info:
                 gc.enable()
 
     def _run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.files import say_notes
+        from hexmend.cli.arguments.files import say_notes
         from hexmend.doctor import examine
         from hexmend.io import read
         from hexmend.quality import measure, metric_statistics, summarise, summarise_second_order
@@ -58,7 +58,7 @@ class Info:
                 answer["doctor"] = [finding.to_dict(FIRST) for finding in examine(mesh)]
             print(to_json(answer))
             return 0
-        from hexmend.cli.command.text_tables import print_spreads, print_summaries
+        from hexmend.cli.output.text_tables import print_spreads, print_summaries
         from hexmend.quantity import format_count
 
         print_summaries(args.mesh, [""], [summary])

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from hexmend.cli.command.limits import add_limits, given_limits, limits
+from hexmend.cli.arguments.limits import add_limits, given_limits, limits
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
@@ -30,8 +30,8 @@ def add_method(parser: argparse.ArgumentParser) -> None:
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
-    from hexmend.cli.command.limits import add_limits
-    from hexmend.cli.command.memory_check import add_force
+    from hexmend.cli.arguments.limits import add_limits
+    from hexmend.cli.arguments.memory_check import add_force
 
     parser.add_argument(
         "--set",

@@ -17,9 +17,9 @@ class Smooth:
     help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run; what was reached is written."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.files import add_mesh
-        from hexmend.cli.command.memory_check import add_force
-        from hexmend.cli.command.method import add_method, add_surface
+        from hexmend.cli.arguments.files import add_mesh
+        from hexmend.cli.arguments.memory_check import add_force
+        from hexmend.cli.arguments.method import add_method, add_surface
 
         add_mesh(parser)
         parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
@@ -38,10 +38,10 @@ class Smooth:
         parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.files import check_targets, say_diagnosis, say_left_out, say_notes
-        from hexmend.cli.command.memory_check import check_memory
-        from hexmend.cli.command.method import chosen, on_surface
-        from hexmend.cli.command.progress import follow
+        from hexmend.cli.arguments.files import check_targets, say_diagnosis, say_left_out, say_notes
+        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.arguments.method import chosen, on_surface
+        from hexmend.cli.output.progress import follow
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.io import read, writer_for
         from hexmend.mesh.fixing import with_region_free, with_sets_fixed
@@ -76,8 +76,8 @@ class Smooth:
 def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) -> None:
     """Write the reports that are asked for, and print what has become of the mesh."""
     from hexmend.advice import advise
-    from hexmend.cli.command.suggested_command import command_of
-    from hexmend.cli.command.text_tables import print_summaries
+    from hexmend.cli.commands.smooth.suggested_command import command_of
+    from hexmend.cli.output.text_tables import print_summaries
     from hexmend.quality import summarise_second_order
     from hexmend.report import record, write_history, write_json
 

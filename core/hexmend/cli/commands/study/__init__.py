@@ -20,7 +20,7 @@ class StudyCommand:
     help = "Run methods and lists of their values on many meshes, as a recipe says; or the thesis's experiments again."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.memory_check import add_force
+        from hexmend.cli.arguments.memory_check import add_force
 
         parser.add_argument(
             "study",
@@ -73,7 +73,7 @@ class StudyCommand:
                 raise ParameterError(
                     f"{args.study!r} is no study: expected a recipe, as RECIPE.toml MESH..., or the word thesis"
                 )
-            from hexmend.cli.command.batch_study import study_meshes
+            from hexmend.cli.commands.study.batch_study import study_meshes
 
             return study_meshes(args)
         if args.meshes:
@@ -83,8 +83,8 @@ class StudyCommand:
         return self._thesis(args)
 
     def _thesis(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.memory_check import check_memory
-        from hexmend.cli.command.progress import Progress
+        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.output.progress import Progress
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.parameters import from_strings
         from hexmend.report import made_folder, write_experiment, write_outlook, write_study

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def study_meshes(args: argparse.Namespace) -> int:
     """Do the study; return the exit status: 3 where a task has no result."""
     from hexmend import __version__
-    from hexmend.cli.command.study_progress import Counting
+    from hexmend.cli.output.study_progress import Counting
     from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
     from hexmend.errors import ParameterError
     from hexmend.report import made_folder
@@ -49,7 +49,7 @@ def study_meshes(args: argparse.Namespace) -> int:
 
 def _write(folder: Path, studied: StudyResult) -> None:
     """Write the report, and print what was done."""
-    from hexmend.cli.command.rich_tables import print_table
+    from hexmend.cli.output.rich_tables import print_table
     from hexmend.errors import HexmendError
     from hexmend.report.batch import cases_table, write_many, write_parquet
     from hexmend.study.batch.table_columns import COLUMNS

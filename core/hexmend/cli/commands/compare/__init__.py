@@ -15,7 +15,7 @@ class Compare:
     help = "Run several methods on a mesh and write their figures as CSV, Markdown, LaTeX and JSON."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.command.method import add_settings
+        from hexmend.cli.arguments.method import add_settings
 
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the tables")
@@ -28,11 +28,11 @@ class Compare:
         parser.add_argument("--write-meshes", action="store_true", help="write each method's mesh into the folder too")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.limits import given_limits, limits
-        from hexmend.cli.command.memory_check import check_memory
-        from hexmend.cli.command.method import with_boundary
-        from hexmend.cli.command.progress import Progress
-        from hexmend.cli.command.rich_tables import print_table
+        from hexmend.cli.arguments.limits import given_limits, limits
+        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.arguments.method import with_boundary
+        from hexmend.cli.output.progress import Progress
+        from hexmend.cli.output.rich_tables import print_table
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.io import read, write, writer_for
         from hexmend.report import comparison_rows, made_folder, table_of, write_documents

@@ -19,7 +19,7 @@ class Repair:
         )
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command.files import say_left_out, say_notes
+        from hexmend.cli.arguments.files import say_left_out, say_notes
         from hexmend.doctor import AILMENTS, examine, repair
         from hexmend.io import read, writer_for
 
