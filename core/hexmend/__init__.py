@@ -34,7 +34,9 @@ if TYPE_CHECKING:
     from hexmend.study.compare import Comparison, compare
 
 aliases.install()
-hooks.provide(html="hexmend.notebook:html", quality="hexmend.quality:metric_values", worst_hexes="hexmend.quality:worst_hexes")
+hooks.provide(
+    html="hexmend.notebook:html", quality="hexmend.quality:metric_values", worst_hexes="hexmend.quality:worst_hexes"
+)
 
 _HOMES = {
     "advice": ("advise",),

@@ -58,7 +58,7 @@ class Figures:
         names = runs.names(args, len(smoothers))
         style = _style(args)
         prepare_off_screen()
-        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.output.progress import Progress
         from hexmend.cli.process.interrupts import FinishesWriting
         from hexmend.report import made_folder
@@ -111,7 +111,7 @@ def _style(args: argparse.Namespace) -> Style:
 
 def _thesis(args: argparse.Namespace) -> int:
     """The thesis's figures of a mesh of the gallery, measured and drawn again."""
-    from hexmend.cli.arguments.limits import given_limits
+    from hexmend.cli.arguments.run_arguments import given_limits
     from hexmend.cli.output.progress import Progress
     from hexmend.cli.process.interrupts import FinishesWriting
     from hexmend.errors import HexmendError

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from hexmend.cli.arguments.options import add_force, add_method
 from hexmend_app.cli import looks
 from hexmend_app.cli.numbers import whole, wrong
 
@@ -21,9 +22,6 @@ class Film:
     help = "Run a method and write an animation of its iterations: MP4, GIF, WebP or PNG, by the suffix."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        from hexmend.cli.arguments.memory_check import add_force
-        from hexmend.cli.arguments.method import add_method
-
         looks.prepare(parser)
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
         parser.add_argument("-o", "--output", metavar="FILE.gif", required=True, help="where to write the animation")
@@ -39,8 +37,8 @@ class Film:
 
     def run(self, args: argparse.Namespace) -> int:
         from hexmend.boundary.displacement import Displacement, Moment
-        from hexmend.cli.arguments.memory_check import check_memory
-        from hexmend.cli.arguments.method import chosen
+        from hexmend.cli.arguments.checks import check_memory
+        from hexmend.cli.arguments.run_arguments import method_and_limits
         from hexmend.cli.output.progress import follow
         from hexmend.io import read
         from hexmend.run import iterate
@@ -48,7 +46,7 @@ class Film:
 
         size, view, path = looks.size_of(args.size), looks.view_of(args), Path(args.output)
         most, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
-        what, stop = chosen(args)
+        what, stop = method_and_limits(args)
         mesh = read(args.mesh)
         check_memory(args, [what], mesh)
         look = replace(looks.look_of(args, mesh), traces=_traces(args))

@@ -30,7 +30,7 @@ class Report:
     def run(self, args: argparse.Namespace) -> int:
         from dataclasses import replace
 
-        from hexmend.cli.arguments.memory_check import check_memory
+        from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.output.progress import Progress
         from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
         from hexmend.io.storage.atomic import check_writable

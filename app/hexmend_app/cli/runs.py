@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING
 
+from hexmend.cli.arguments.options import add_settings
 from hexmend_app.cli import looks
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ NONE = "none"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options."""
-    from hexmend.cli.arguments.method import add_settings
-
     looks.prepare(parser)
     parser.add_argument(
         "--methods",
@@ -38,15 +37,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], StoppingCriteria]:
     """The methods, and the limits of each."""
-    from hexmend.cli.arguments.limits import given_limits, limits
-    from hexmend.cli.arguments.method import with_boundary
+    from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
     from hexmend.smoothers import DEFAULT_METHOD
     from hexmend.study.method_spec import chosen, split
 
     text = args.methods or DEFAULT_METHOD
     named = [] if text == NONE else split(text)
-    settings = with_boundary(args, [name for name in named if not name.endswith(".toml")])
-    return chosen(named, settings, given_limits(args)), limits(args)
+    settings = method_settings(args, [name for name in named if not name.endswith(".toml")])
+    return chosen(named, settings, given_limits(args)), stopping_criteria(args)
 
 
 def names(args: argparse.Namespace, count: int) -> list[str]:

@@ -1,19 +1,21 @@
-"""What a command is, and what commands share.
-
-Commands of other distributions join through the entry-point group `hexmend.commands`.
-"""
+"""The interface of a command of the command line."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from importlib import import_module
 from typing import Protocol
+
+from hexmend.signal_guard import uninterrupted
 
 
 class Command(Protocol):
-    """A word of the command line.
+    """A word of the command line, such as `smooth`.
 
-    A module under `cli` names its command `command`. Importing the module must be cheap: what is heavy is imported in
-    `run`.
+    The core's own commands are the packages in `hexmend.cli.commands`, each with an object `command`; other
+    distributions name theirs in the entry-point group `hexmend.commands`. Importing the object must be cheap, because
+    `hexmend --help` imports every command: `run` imports the module that does the work (see `action`).
     """
 
     name: str
@@ -23,18 +25,10 @@ class Command(Protocol):
         """Declare the command's arguments."""
 
     def run(self, args: argparse.Namespace) -> int:
-        """Do it; return the exit status. Problems of the user's are raised as `HexmendError`."""
+        """Run the command and return its exit status; mistakes of the user are raised as `HexmendError`."""
 
 
-def settings(words: list[str]) -> dict[str, str]:
-    """`key=value` words of --set as a mapping.
-
-    >>> settings(["p=4", "delta=0.1"])
-    {'p': '4', 'delta': '0.1'}
-    """
-    from hexmend.errors import ParameterError
-
-    for word in words:
-        if "=" not in word:
-            raise ParameterError(f"--set {word!r} is incomplete: expected key=value, as in --set p=4")
-    return dict(word.split("=", 1) for word in words)
+@uninterrupted  # Python would lose an exception of Ctrl-C within an import
+def action(module: str) -> Callable[[argparse.Namespace], int]:
+    """Import a module and return its function `run`, which does the work of a command."""
+    return import_module(module).run

@@ -21,7 +21,7 @@ if os.environ["TIMER"] == "no alarm":
 {moment}
 from hexmend.cli.main import main
 from hexmend.cli.output import progress
-progress.EVERY = progress.AFTER = 0.0
+progress.LINE_INTERVAL = progress.LIVE_DELAY = 0.0
 sys.exit(main())
 """
 #: The signal comes as this module is imported; an exception there may be taken for another, and is none of ours.
@@ -128,7 +128,7 @@ def test_a_signal_during_an_import_is_one_line(smooth, tmp_path, name, number):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_during_an_import_of_a_command_at_work_waits_for_its_end(smooth, number):
-    rests = "import time\nfrom hexmend.cli.arguments import files\nfiles.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
+    rests = "import time\nfrom hexmend.cli.arguments import checks\nchecks.check_targets = lambda *_: [time.sleep(0.01) for _ in range(10_000)]\n"
     status, said = ended(smooth(rests + IMPORTS.format(name="hexmend.mesh.fixing"), number))
     assert (status, said) == (128 + number, ["hexmend: interrupted"])
 

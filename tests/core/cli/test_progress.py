@@ -8,14 +8,14 @@ import sys
 import pytest
 
 from hexmend import gallery, io
-from hexmend.cli.output import progress
 from hexmend.cli.main import main
+from hexmend.cli.output import progress
 from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, iterate
 
 #: The program, which tells of every iteration, so that a test need not wait for the clock.
 TALKATIVE = (
-    "import sys; from hexmend.cli.output import progress; progress.EVERY = 0.0; "
+    "import sys; from hexmend.cli.output import progress; progress.LINE_INTERVAL = 0.0; "
     "from hexmend.cli.main import main; sys.exit(main(sys.argv[1:]))"
 )
 #: Never ends by itself.
@@ -53,7 +53,7 @@ def test_a_short_run_says_nothing_on_standard_error(mesh, tmp_path, capsys):
 
 
 def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(mesh, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(progress, "EVERY", 0.0)
+    monkeypatch.setattr(progress, "LINE_INTERVAL", 0.0)
     words = ["smooth", mesh, "-o", tmp_path / "out.vtu", "--method", "laplacian", "--max-iterations", "3"]
     assert main([*map(str, words), "--tolerance", "0"]) == 0
     said = capsys.readouterr()
@@ -66,7 +66,7 @@ def test_a_long_run_tells_of_itself_in_whole_lines_and_on_standard_error_only(me
 def test_on_a_terminal_a_line_changes_and_vanishes(monkeypatch, capsys):
     monkeypatch.setenv("FORCE_COLOR", "1")  # rich takes this for a terminal
     monkeypatch.setenv("TERM", "xterm")
-    monkeypatch.setattr(progress, "AFTER", 0.0)
+    monkeypatch.setattr(progress, "LIVE_DELAY", 0.0)
     run = iterate(
         gallery.make("cube", size=64, scramble=0.3), "laplacian", StoppingCriteria(max_iterations=4, tolerance=0)
     )

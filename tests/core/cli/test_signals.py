@@ -17,7 +17,7 @@ import signal, sys
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # who runs the tests may ignore it
 from hexmend.cli.output import progress
 from hexmend.cli.main import main
-progress.EVERY = 0.0
+progress.LINE_INTERVAL = 0.0
 sys.exit(main(sys.argv[1:]))
 """
 #: The program, which takes its time to write.

@@ -144,4 +144,6 @@ def test_lengths_do_not_matter(seed):
     here = scrambled(grid(3), 0.8, seed)
     there = here.with_points(here.points * 1e3)
     one, other = MeshEnergy(here), MeshEnergy(there)
-    assert one.value(one.to_edge_units(here.points), 0.01) == pytest.approx(other.value(other.to_edge_units(there.points), 0.01))
+    assert one.value(one.to_edge_units(here.points), 0.01) == pytest.approx(
+        other.value(other.to_edge_units(there.points), 0.01)
+    )

@@ -139,9 +139,9 @@ def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective
 
 def test_steps_that_raise_the_least_scaled_jacobian_record_the_final_objective():
     mesh = make("five-side", size=150, scramble=0.3)
-    rows = smooth(
-        mesh, METHODS["mend"](goal="scaled-jacobian", max_p=8.0), StoppingCriteria(keep_last=True)
-    ).history[1:]
+    rows = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", max_p=8.0), StoppingCriteria(keep_last=True)).history[
+        1:
+    ]
     raising = [row["objective_formula"] for row in rows][objective_changes(rows)[-1] :]
     assert len(raising) > 3
     assert set(raising) == {"Σ η⁸"}

@@ -1,1 +1,1 @@
-"""Commands of the core, a folder each: the package declares the command, the module beside it does the work."""
+"""Commands of the core, a package each: `__init__` declares the command, another module runs it."""

@@ -1,4 +1,4 @@
-"""Where a run is, on standard error: a live line on a terminal, else a plain line every few seconds."""
+"""Progress of a run on standard error: a live line on a terminal, else a plain line every few seconds."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from hexmend.iteration import Iteration
     from hexmend.run import Run
 
-#: Seconds between plain lines, and of iterations before the first of them: a short run says nothing.
-EVERY = 4.0
+#: Seconds between plain lines, and of iterations before the first of them: a short run prints none.
+LINE_INTERVAL = 4.0
 
-#: Seconds after which a line is drawn on a terminal: what draws it takes time to load.
-AFTER = 0.4
+#: Seconds after which a live line is drawn on a terminal, because rich takes time to load.
+LIVE_DELAY = 0.4
 
 
 class Progress:
@@ -34,7 +34,7 @@ class Progress:
     Attributes
     ----------
     signals : EndsAfterIteration
-        Has a signal come, and which exit status does it stand for?
+        The signal that came, if any, and its exit status.
     """
 
     def __enter__(self) -> Self:
@@ -50,7 +50,7 @@ class Progress:
                 self._display.close()
 
     def show(self, run: Run) -> bool:
-        """Show where the run is; return False once a signal has asked it to end."""
+        """Show the run's newest iteration; return False once a signal has asked it to end."""
         if self._display is not None:
             try:
                 self._display.show(run)
@@ -60,7 +60,7 @@ class Progress:
 
 
 def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: None) -> None:
-    """Go through a run to its end and show where it is; a signal ends it with what was reached so far.
+    """Iterate a run to its end and show its progress; a signal ends it with what was reached so far.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
     Raises
     ------
     KeyboardInterrupt
-        Where it is interrupted before its first iteration.
+        If it is interrupted before its first iteration.
     """
     interrupted = False
     with Progress() as progress:
@@ -90,36 +90,36 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
             print("Interrupted: what was reached so far is kept.", file=sys.stderr)
 
 
-def at_work(run: Run) -> str:
-    """The name of the method at work, with its place where there are several."""
+def current_method(run: Run) -> str:
+    """Return the name of the method that is running, with its position if there are several."""
     place = f" ({run.stage_number} of {run.stage_count})" if run.stage_count > 1 else ""
     return f"{run.stage.smoother.name}{place}"
 
 
-def described(run: Run) -> str:
-    """The newest iteration in words."""
-    at = run.last
+def describe_iteration(run: Run) -> str:
+    """Return the quality and the largest move of the newest iteration as text."""
+    quality = run.last.figures
     return (
-        f"{at.figures.n_inverted:,} inverted, q min {at.figures.q.min():.4f}, q mean {at.figures.q.mean():.4f}, "
-        f"move {at.largest_move:.2g}"
+        f"{quality.n_inverted:,} inverted, q min {quality.q.min():.4f}, q mean {quality.q.mean():.4f}, "
+        f"move {run.last.largest_move:.2g}"
     )
 
 
 class _Live:
-    """A line that changes in place, and vanishes at the end."""
+    """A line that changes in place and is removed at the end."""
 
     def __init__(self):
-        self._due = monotonic() + AFTER
+        self._due = monotonic() + LIVE_DELAY
         self._line = None
         self._run: Run | None = None
         self._task = None
 
-    @uninterrupted  # a line that is drawn by halves could not be removed
+    @uninterrupted  # a line that is drawn in part could not be removed
     def show(self, run: Run) -> None:
         if self._line is None:
             if monotonic() < self._due:
                 return
-            self._line = drawn_line("{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}")
+            self._line = progress_line("{task.fields[method]} {task.completed:,} of {task.total:,}: {task.description}")
             self._line.start()
         if run is not self._run:
             if self._task is not None:
@@ -127,7 +127,11 @@ class _Live:
             self._run = run
             self._task = self._line.add_task("", total=run.limit, method="")
         self._line.update(
-            self._task, total=run.limit, completed=run.last.number, method=at_work(run), description=described(run)
+            self._task,
+            total=run.limit,
+            completed=run.last.number,
+            method=current_method(run),
+            description=describe_iteration(run),
         )
 
     def close(self) -> None:
@@ -135,8 +139,14 @@ class _Live:
             self._line.stop()
 
 
-def drawn_line(words: str) -> rich.progress.Progress:
-    """A line that turns and tells the time, with these words of a task of rich's; it vanishes when it is stopped."""
+def progress_line(template: str) -> rich.progress.Progress:
+    """Make a line with a spinner, the elapsed time and a text; it is removed when it is stopped.
+
+    Parameters
+    ----------
+    template : str
+        The text, with fields of rich's task, such as `{task.description}`.
+    """
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
     from rich.table import Column
@@ -145,30 +155,30 @@ def drawn_line(words: str) -> rich.progress.Progress:
         SpinnerColumn(table_column=Column(no_wrap=True)),
         TimeElapsedColumn(table_column=Column(no_wrap=True)),
         TextColumn(
-            words,
+            template,
             markup=False,
-            table_column=Column(no_wrap=True, ratio=1),  # what gives way where the terminal is narrow
+            table_column=Column(no_wrap=True, ratio=1),  # shortened on a narrow terminal
         ),
         console=Console(stderr=True, highlight=False),
         expand=True,
         transient=True,
-        redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would go the line's way
+        redirect_stdout=sys.stdout.isatty(),  # else what is printed meanwhile would be written to stderr
     )
 
 
 class _Lines:
-    """For a log: few lines, each complete in itself."""
+    """Plain lines for a log."""
 
     def __init__(self):
         self._due: float | None = None
 
     def show(self, run: Run) -> None:
-        if self._due is None:  # preparing, before the first iteration, does not count
-            self._due = monotonic() + EVERY
+        if self._due is None:  # the interval begins after the preparations for the first iteration
+            self._due = monotonic() + LINE_INTERVAL
         if monotonic() >= self._due:
             at = f"iteration {run.last.number:,} of at most {run.limit:,}, {run.last.seconds:.0f} s"
-            print(f"{at_work(run)}: {at}: {described(run)}", file=sys.stderr, flush=True)
-            self._due = monotonic() + EVERY
+            print(f"{current_method(run)}: {at}: {describe_iteration(run)}", file=sys.stderr, flush=True)
+            self._due = monotonic() + LINE_INTERVAL
 
     def close(self) -> None:
         pass

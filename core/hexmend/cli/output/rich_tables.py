@@ -1,4 +1,4 @@
-"""Tables of results on the terminal, drawn by rich."""
+"""Tables of results on the terminal, rich_table by rich."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ if TYPE_CHECKING:
     from hexmend.report import Table
 
 
-#: How what is worse than it was stands out.
-_WORSE = "red"
+#: Style of values that are worse than before.
+_WORSE_STYLE = "red"
 
-#: Letters that rich puts around a cell's text.
-_GAP = 3
+#: Characters that rich puts around a cell's text.
+_PADDING = 3
 
-#: A pipe has no width.
-_PIPE = 240
+#: Characters of a line where standard output is no terminal, and has no width of its own.
+_PIPE_WIDTH = 240
 
 
 def print_table(table: Table) -> None:
-    """Print a table to standard output, in parts one below the other where the terminal is narrow."""
+    """Print a table to standard output, split into parts one below the other on a narrow terminal."""
     from rich import box
     from rich.console import Console
-    from rich.table import Table as Drawn
+    from rich.table import Table as RichTable
     from rich.text import Text
 
     console = Console(highlight=False, color_system="standard" if shows_colours() else None)
     if not console.is_terminal:
-        console.width = _PIPE
+        console.width = _PIPE_WIDTH
     print(table.title)
-    for part in table.parts(console.width, _GAP):
-        drawn = Drawn(box=box.SIMPLE_HEAD)
+    for part in table.parts(console.width, _PADDING):
+        rich_table = RichTable(box=box.SIMPLE_HEAD)
         for column, head in enumerate(part.head):
-            drawn.add_column(Text(head), justify="right" if column else "left", no_wrap=True)
+            rich_table.add_column(Text(head), justify="right" if column else "left", no_wrap=True)
         for row in part.rows:
-            drawn.add_row(*(Text(cell, _WORSE if isinstance(cell, WorsenedText) else "") for cell in row))
-        console.print(drawn)
+            rich_table.add_row(*(Text(cell, _WORSE_STYLE if isinstance(cell, WorsenedText) else "") for cell in row))
+        console.print(rich_table)
     for note in table.notes:
         print(note)

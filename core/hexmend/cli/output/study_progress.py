@@ -1,4 +1,4 @@
-"""How far a study of many tasks is, on standard error: a live line on a terminal, else plain lines now and then."""
+"""Progress of a study on standard error: a live line on a terminal, else a plain line every few seconds."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.output.progress import EVERY, drawn_line
+from hexmend.cli.output.progress import LINE_INTERVAL, progress_line
 from hexmend.cli.process.terminal import redraws_lines
 
 if TYPE_CHECKING:
     from hexmend.study.batch.runner import StudyProgress
 
 
-class Counting:
+class TaskProgress:
     """Shows the count of tasks while the block lasts."""
 
     def __enter__(self) -> Self:
         self._line = None
-        self._due = monotonic() + EVERY
+        self._due = monotonic() + LINE_INTERVAL
         if redraws_lines():
-            self._line = drawn_line("{task.description}")
+            self._line = progress_line("{task.description}")
             self._line.start()
             self._task = self._line.add_task("", total=None)
         return self
@@ -33,15 +33,15 @@ class Counting:
                 self._line.stop()
 
     def show(self, count: StudyProgress) -> None:
-        """Show how far it is."""
-        words = f"{count.kept + count.done:,} of {count.tasks:,} tasks"
+        """Show the numbers of tasks that are done and that failed, and the latest task."""
+        text = f"{count.kept + count.done:,} of {count.tasks:,} tasks"
         if count.failed:
-            words += f", {count.failed:,} without a result"
+            text += f", {count.failed:,} without a result"
         if count.last:
-            words += f": {count.last}"
+            text += f": {count.last}"
         if self._line is not None:
-            self._line.update(self._task, description=words)
+            self._line.update(self._task, description=text)
         elif monotonic() >= self._due:
             with suppress(OSError):
-                print(words, file=sys.stderr, flush=True)
-            self._due = monotonic() + EVERY
+                print(text, file=sys.stderr, flush=True)
+            self._due = monotonic() + LINE_INTERVAL

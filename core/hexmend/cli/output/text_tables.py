@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from hexmend.cli.process.terminal import shows_colours
+from hexmend.quality import METRICS, REGRESSION_KEYS, SUMMARY_QUANTITIES, MetricStatistics, Summary, regressions
+from hexmend.quantity import format_count
 from hexmend.terminal_text import WorsenedText, printable
-
-if TYPE_CHECKING:
-    from hexmend.quality import MetricStatistics, Summary
 
 
 def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
-    """Print one or several summaries side by side; what is worse than in the first stands out."""
-    from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
+    """Print one or several summaries side by side; values worse than in the first are red on a terminal.
 
+    Parameters
+    ----------
+    title : str
+    heads : sequence of str
+        Heads of the columns, one for each summary.
+    summaries : sequence of Summary
+    """
     print(printable(title))
     columns = [
         (summary.to_dict(), {REGRESSION_KEYS[name] for name in regressions(summaries[0], summary)})
@@ -32,10 +36,7 @@ def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summar
 
 
 def print_spreads(spreads: Mapping[str, MetricStatistics]) -> None:
-    """Print what every metric's values are, and how many hexes have one that is not acceptable."""
-    from hexmend.quality import METRICS
-    from hexmend.quantity import format_count
-
+    """Print the range of every metric, and how many hexes have values outside the acceptable ones."""
     rows = []
     for name, spread in spreads.items():
         low, high = METRICS[name].acceptable
@@ -46,9 +47,9 @@ def print_spreads(spreads: Mapping[str, MetricStatistics]) -> None:
 
 
 def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> None:
-    """Print rows in columns, the first from the left and the others from the right, with a line below the head.
+    """Print rows in columns, the first aligned left and the others right, with a line below the head.
 
-    On a terminal that has colours, a cell that is a `WorsenedText` is red.
+    On a terminal with colours a cell that is a `WorsenedText` is red.
     """
     red, plain = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
     every = [*([head] if head else []), *rows]

@@ -1,12 +1,14 @@
-"""`hexmend bench`: speed and memory on this machine."""
+"""The command `hexmend bench`: speed and memory on this machine."""
 
 from __future__ import annotations
 
 import argparse
 
+from hexmend.cli.command import action
+
 
 class Bench:
-    """The benchmark."""
+    """Measure the sections of the benchmark."""
 
     name = "bench"
     help = "Measure speed and memory on this machine."
@@ -23,25 +25,7 @@ class Bench:
         parser.add_argument("--json", metavar="FILE", help="write the figures")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.errors import ParameterError
-        from hexmend.report import write_json
-        from hexmend.study.bench.sections import machine, sections
-
-        known = sections()
-        for name in args.only:
-            if name not in known:
-                raise ParameterError(f"--only {name!r} is unknown: expected one of {', '.join(known)}")
-        report = {"machine": machine()}
-        print(", ".join(f"{key} {value}" for key, value in report["machine"].items()))
-        for name in args.only or known:
-            section = known[name]
-            print(f"\n{section.title}", flush=True)
-            report[name] = section.measure()
-            for line in section.lines(report[name]):
-                print(f"  {line}", flush=True)
-        if args.json:
-            write_json(args.json, report)
-        return 0
+        return action("hexmend.cli.commands.bench.benchmarks")(args)
 
 
 command = Bench()

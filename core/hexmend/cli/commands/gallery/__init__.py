@@ -1,12 +1,14 @@
-"""`hexmend gallery`: make a mesh of the gallery."""
+"""The command `hexmend gallery`: generated meshes."""
 
 from __future__ import annotations
 
 import argparse
 
+from hexmend.cli.command import action
+
 
 class Gallery:
-    """Generated meshes."""
+    """Generate a mesh, or list those that there are."""
 
     name = "gallery"
     help = "Make one of the gallery's meshes; without a name, list them."
@@ -18,28 +20,7 @@ class Gallery:
         parser.add_argument("-o", "--output", metavar="MESH", help="where to write it")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.command import settings
-        from hexmend.errors import ParameterError
-        from hexmend.gallery import GALLERY
-        from hexmend.io import write
-        from hexmend.parameters import declared, from_strings
-
-        if args.mesh is None:
-            for name, kind in GALLERY.items():
-                print(f"{name}: {kind.title} ({kind.source})\n    {kind.help}")
-                for one in declared(kind):
-                    print(f"      {one.name} = {one.default}  ({one.range})  {one.help}")
-                print()
-            return 0
-        kind = GALLERY[args.mesh]
-        words = settings(args.set) | ({"size": args.size} if args.size is not None else {})
-        recipe = from_strings(kind, words, owner=args.mesh)
-        if args.output is None:
-            raise ParameterError("no output is named: expected -o MESH, as in -o five-side.vtu")
-        mesh = recipe.build()
-        write(args.output, mesh)
-        print(f"{args.output}: {mesh.n_hexes:,} hexes, {mesh.n_nodes:,} nodes")
-        return 0
+        return action("hexmend.cli.commands.gallery.generated_mesh")(args)
 
 
 command = Gallery()

@@ -1,12 +1,14 @@
-"""`hexmend methods`: every method with its parameters, from their declarations."""
+"""The command `hexmend methods`: every method with its parameters."""
 
 from __future__ import annotations
 
 import argparse
 
+from hexmend.cli.command import action
+
 
 class Methods:
-    """The registry of methods."""
+    """List the registered methods."""
 
     name = "methods"
     help = "List the smoothing and untangling methods with their parameters."
@@ -15,20 +17,7 @@ class Methods:
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.parameters import declared
-        from hexmend.report import to_json
-        from hexmend.smoothers import METHODS
-
-        if args.json:
-            print(to_json([smoother.to_json() for smoother in METHODS.values()]))
-            return 0
-        for smoother in METHODS.values():
-            print(f"{smoother.name}: {smoother.title} ({smoother.source})\n    {smoother.help}")
-            for one in declared(smoother):
-                unit = f" {one.unit}" if one.unit else ""
-                print(f"      {one.name} = {one.default}{unit}  ({one.range})  {one.help}")
-            print()
-        return 0
+        return action("hexmend.cli.commands.methods.method_list")(args)
 
 
 command = Methods()

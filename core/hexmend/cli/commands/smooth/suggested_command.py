@@ -1,36 +1,33 @@
-"""The command that does what a suggestion says."""
+"""The shell command of a suggestion."""
 
 from __future__ import annotations
 
 import shlex
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from hexmend.advice import Suggestion
-    from hexmend.parameters import Parametrised
+from hexmend.advice import Suggestion
+from hexmend.parameters import Parametrised, declared
+from hexmend.smoothers import DEFAULT_METHOD
 
 
-def command_of(suggestion: Suggestion, given: str, made: str) -> str:
-    """What a shell takes to run what is suggested; values that are the defaults are left out.
+def suggested_command(suggestion: Suggestion, source: str, output: str) -> str:
+    """Write a suggestion as a line for the shell; values at their defaults are left out.
 
     Parameters
     ----------
     suggestion : Suggestion
-    given, made : str
-        The file that the run began from, and that which it wrote: the method goes on from this one unless the run is
-        to be taken back.
+    source, output : str
+        The file that the run began with, and the file that it wrote. The suggested run begins with `output`, or with
+        `source` if the run is to be undone.
 
     Returns
     -------
     str
-        Empty where nodes are to be unpinned first: no option does that.
+        Empty if nodes are to be unpinned first, for which there is no option.
     """
-    from hexmend.smoothers import DEFAULT_METHOD
-
     if suggestion.unpin.size:
         return ""
     smoother = suggestion.smoother
-    words = ["hexmend", "smooth", given if suggestion.undo else made, "-o", "OUT"]
+    words = ["hexmend", "smooth", source if suggestion.undo else output, "-o", "OUT"]
     if smoother.name != DEFAULT_METHOD:
         words += ["--method", smoother.name]
     for key, value in _changed(smoother).items():
@@ -41,6 +38,4 @@ def command_of(suggestion: Suggestion, given: str, made: str) -> str:
 
 
 def _changed(values: Parametrised) -> dict[str, object]:
-    from hexmend.parameters import declared
-
     return {one.name: value for one in declared(values) if (value := getattr(values, one.name)) != one.default}

@@ -1,27 +1,33 @@
-"""A study of many meshes: `hexmend study RECIPE.toml MESH...`."""
+"""The study of many meshes: `hexmend study RECIPE.toml MESH...`."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from hexmend.study.batch.runner import StudyResult, Workers
+from hexmend import __version__
+from hexmend.cli.output.rich_tables import print_table
+from hexmend.cli.output.study_progress import TaskProgress
+from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
+from hexmend.errors import HexmendError, ParameterError
+from hexmend.report import made_folder
+from hexmend.report.batch import cases_table, failures, write_many, write_parquet
+from hexmend.study.batch.cluster import Cluster
+from hexmend.study.batch.local import Local
+from hexmend.study.batch.plan import read_plan
+from hexmend.study.batch.runner import StudyResult, Workers, study_many
+from hexmend.study.batch.store import Store
+from hexmend.study.batch.table_columns import COLUMNS
+from hexmend.study.bench.sections import machine
+from hexmend.terminal_text import printable
+
+#: Failures that are printed one by one.
+_MAX_FAILURES = 10
 
 
-def study_meshes(args: argparse.Namespace) -> int:
-    """Do the study; return the exit status: 3 where a task has no result."""
-    from hexmend import __version__
-    from hexmend.cli.output.study_progress import Counting
-    from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
-    from hexmend.errors import ParameterError
-    from hexmend.report import made_folder
-    from hexmend.study.batch.plan import read_plan
-    from hexmend.study.batch.runner import study_many
-    from hexmend.study.batch.store import Store
-
+def run(args: argparse.Namespace) -> int:
+    """Run the study and write its report; return 3 if a task has no result, 128 and the signal's number on a signal."""
     plan = read_plan(args.study)
     if not args.meshes:
         raise ParameterError(f"{args.study} says what to do, and no mesh is named to do it with: add MESH...")
@@ -30,8 +36,8 @@ def study_meshes(args: argparse.Namespace) -> int:
     store = Store(made_folder(folder / "tasks"))
     meshes_to = made_folder(folder / "meshes") if args.write_meshes else None
     with FinishesWriting():
-        with EndsCleanly() as signals, Counting() as counting:
-            studied = study_many(
+        with EndsCleanly() as signals, TaskProgress() as progress:
+            study = study_many(
                 plan,
                 [Path(mesh) for mesh in args.meshes],
                 store,
@@ -39,40 +45,15 @@ def study_meshes(args: argparse.Namespace) -> int:
                 version=__version__,
                 again=args.again,
                 meshes_to=meshes_to,
-                watch=counting.show,
+                watch=progress.show,
             )
-        _write(folder, studied)
-    if studied.interrupted:
+        _write_report(folder, study)
+    if study.interrupted:
         return signals.status
-    return 3 if studied.count.failed else 0
-
-
-def _write(folder: Path, studied: StudyResult) -> None:
-    """Write the report, and print what was done."""
-    from hexmend.cli.output.rich_tables import print_table
-    from hexmend.errors import HexmendError
-    from hexmend.report.batch import cases_table, write_many, write_parquet
-    from hexmend.study.batch.table_columns import COLUMNS
-    from hexmend.study.bench.sections import machine
-
-    record = studied.record()
-    paths = write_many(folder, record, machine())
-    try:
-        write_parquet(folder / "study.parquet", record["rows"], {column.name: column.type for column in COLUMNS})
-        paths.append(folder / "study.parquet")
-    except HexmendError as error:
-        print(f"hexmend: {error}", file=sys.stderr)
-    print_table(cases_table(record))
-    _say(studied)
-    print(f"Written to {folder}: {', '.join(path.name for path in paths)}.")
-    if studied.interrupted:
-        print("Interrupted: what is done is kept, and the same command goes on with it.", file=sys.stderr)
+    return 3 if study.count.failed else 0
 
 
 def _workers(args: argparse.Namespace) -> Workers:
-    from hexmend.errors import ParameterError
-    from hexmend.study.batch.local import Local
-
     if args.jobs is not None and args.jobs < 1:
         raise ParameterError(f"--jobs {args.jobs} leaves nobody to do anything: expected a whole number from 1")
     if not args.scheduler:
@@ -81,25 +62,32 @@ def _workers(args: argparse.Namespace) -> Workers:
         raise ParameterError(
             "--jobs is for this machine, and --scheduler's workers have their own: leave out one of them"
         )
-    from hexmend.study.batch.cluster import Cluster
-
     return Cluster(args.scheduler)
 
 
-def _say(studied: StudyResult) -> None:
-    """What was done, what was there, and what has failed."""
-    from hexmend.report.batch import failures
-    from hexmend.terminal_text import printable
+def _write_report(folder: Path, study: StudyResult) -> None:
+    """Write the tables, and print the one of the cases and the failures."""
+    record = study.record()
+    paths = write_many(folder, record, machine())
+    try:
+        write_parquet(folder / "study.parquet", record["rows"], {column.name: column.type for column in COLUMNS})
+        paths.append(folder / "study.parquet")
+    except HexmendError as error:
+        print(f"hexmend: {error}", file=sys.stderr)
+    print_table(cases_table(record))
+    _print_counts(study)
+    print(f"Written to {folder}: {', '.join(path.name for path in paths)}.")
+    if study.interrupted:
+        print("Interrupted: what is done is kept, and the same command goes on with it.", file=sys.stderr)
 
-    count = studied.count
-    said = f"{count.done:,} done now, {count.kept:,} done before, {count.failed:,} without a result"
-    print(f"{count.tasks:,} tasks: {said}.")
-    failed = failures(studied.rows)
-    for mesh, cases, status, reason in failed[:_SAID]:
+
+def _print_counts(study: StudyResult) -> None:
+    """Print the numbers of tasks and, on standard error, the failures with their reasons."""
+    count = study.count
+    done = f"{count.done:,} done now, {count.kept:,} done before, {count.failed:,} without a result"
+    print(f"{count.tasks:,} tasks: {done}.")
+    failed = failures(study.rows)
+    for mesh, cases, status, reason in failed[:_MAX_FAILURES]:
         print(printable(f"hexmend: {mesh}, {cases}: {status}: {reason}"), file=sys.stderr)
-    if len(failed) > _SAID:
-        print(f"hexmend: and {len(failed) - _SAID:,} more, in study.md", file=sys.stderr)
-
-
-#: Failures that are said one by one.
-_SAID = 10
+    if len(failed) > _MAX_FAILURES:
+        print(f"hexmend: and {len(failed) - _MAX_FAILURES:,} more, in study.md", file=sys.stderr)

@@ -1,0 +1,107 @@
+"""Declarations of the options that several commands share; quick to import."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.errors import ParameterError
+
+
+def add_mesh(parser: argparse.ArgumentParser) -> None:
+    """Declare the mesh file, and the option that keeps its orientation."""
+    parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+    parser.add_argument(
+        "--as-is", action="store_true", help="keep parts whose hexes are all wound the other way, and do not turn them"
+    )
+
+
+def add_method(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of one run: a method with its parameters, or a recipe, and the limits."""
+    parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="a parameter of the method")
+    _add_boundary(parser)
+    parser.add_argument(
+        "--recipe",
+        metavar="FILE.toml",
+        help="run these methods one after another; a limit given is for each of them",
+    )
+    _add_limits(parser)
+
+
+def add_settings(parser: argparse.ArgumentParser) -> None:
+    """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
+    parser.add_argument(
+        "--set",
+        metavar="[METHOD.]KEY=VALUE",
+        action="append",
+        default=[],
+        help="a parameter of the one method, or of every method that has it",
+    )
+    _add_boundary(parser)
+    _add_limits(parser)
+    add_force(parser)
+
+
+def add_surface(parser: argparse.ArgumentParser) -> None:
+    """Declare the options for the surface on which the boundary slides, and for the distance it may leave it by."""
+    parser.add_argument(
+        "--surface",
+        metavar="FILE",
+        help="the surface that the boundary slides on, if not itself: STL, OBJ, PLY, VTP or VTK; --boundary slide goes "
+        "without saying",
+    )
+    parser.add_argument(
+        "--surface-tolerance",
+        metavar="X",
+        help="how far the boundary may leave the surface, in mean edge lengths, 0 to stay on it, or the word "
+        "unlimited; as --set surface_tolerance=X",
+    )
+
+
+def add_force(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that runs a method in spite of a shortage of memory."""
+    parser.add_argument("--force", action="store_true", help="run though memory will probably not suffice")
+
+
+def parse_settings(words: list[str]) -> dict[str, str]:
+    """Parse the `key=value` words of --set.
+
+    Raises
+    ------
+    ParameterError
+        For a word without an equals sign.
+
+    Examples
+    --------
+    >>> parse_settings(["p=4", "delta=0.1"])
+    {'p': '4', 'delta': '0.1'}
+    """
+    for word in words:
+        if "=" not in word:
+            raise ParameterError(f"--set {word!r} is incomplete: expected key=value, as in --set p=4")
+    return dict(word.split("=", 1) for word in words)
+
+
+def _add_boundary(parser: argparse.ArgumentParser) -> None:
+    """Declare the short form of `--set boundary=...`."""
+    parser.add_argument(
+        "--boundary",
+        choices=("fixed", "slide"),
+        help="whether nodes of the boundary stay, as they do by default, or slide on the surface",
+    )
+
+
+def _add_limits(parser: argparse.ArgumentParser) -> None:
+    """Declare an option for each field of `StoppingCriteria`, such as --max-iterations."""
+    from hexmend.iteration.stopping import StoppingCriteria  # loads NumPy, which `hexmend --help` does without
+    from hexmend.parameters import declared
+
+    for limit in declared(StoppingCriteria):
+        option = f"--{limit.name.replace('_', '-')}"
+        if limit.type is bool:
+            parser.add_argument(option, action="store_const", const="true", help=limit.help)
+        elif limit.choices is not None:
+            parser.add_argument(option, choices=limit.choices, help=f"{limit.help} Default {limit.default}.")
+        else:
+            unit = f" in {limit.unit}" if limit.unit else ""
+            parser.add_argument(option, metavar="X", help=f"{limit.help} Default {limit.default:g}{unit}.")

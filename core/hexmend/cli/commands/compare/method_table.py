@@ -1,0 +1,47 @@
+"""The table of `hexmend compare`: a row for each method."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
+from hexmend.cli.output.progress import Progress
+from hexmend.cli.output.rich_tables import print_table
+from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.io import read, write, writer_for
+from hexmend.report import comparison_rows, made_folder, table_of, write_documents
+from hexmend.smoothers import METHODS
+from hexmend.study.compare import compare
+from hexmend.study.method_spec import chosen, split
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the methods, write the tables, and print one; return 128 and the signal's number if interrupted."""
+    names = split(args.methods) if args.methods else list(METHODS)
+    settings = method_settings(args, [name for name in names if not name.endswith(".toml")])
+    smoothers, limits = chosen(names, settings, given_limits(args)), stopping_criteria(args)
+    mesh = read(args.mesh)
+    check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
+    folder = made_folder(args.output)
+    suffix = Path(args.mesh).suffix
+    if args.write_meshes:
+        writer_for(folder / f"mesh{suffix}")  # raises now, and not after the runs, for a format that is only read
+    with FinishesWriting():
+        with Progress() as progress:
+            comparison = compare(mesh, smoothers, limits, watch=progress.show)
+        record = comparison.record()
+        table = table_of(record)
+        paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
+        for row in comparison.rows if args.write_meshes else ():
+            if row.mesh is not None:
+                paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
+                write(paths[-1], row.mesh)
+        print_table(table)
+        print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
+        if comparison.interrupted:
+            print("Interrupted: the table holds what was done so far.", file=sys.stderr)
+    return progress.signals.status if comparison.interrupted else 0

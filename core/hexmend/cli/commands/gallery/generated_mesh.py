@@ -1,0 +1,29 @@
+"""The mesh that `hexmend gallery` generates, and the list of all of them."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.cli.arguments.options import parse_settings
+from hexmend.cli.output.parameter_list import print_parameters
+from hexmend.errors import ParameterError
+from hexmend.gallery import GALLERY
+from hexmend.io import write
+from hexmend.parameters import from_strings
+
+
+def run(args: argparse.Namespace) -> int:
+    """Generate the mesh and write it; without a name, print the list."""
+    if args.mesh is None:
+        for name, generator in GALLERY.items():
+            print_parameters(name, generator)
+        return 0
+    generator = GALLERY[args.mesh]
+    words = parse_settings(args.set) | ({"size": args.size} if args.size is not None else {})
+    recipe = from_strings(generator, words, owner=args.mesh)
+    if args.output is None:
+        raise ParameterError("no output is named: expected -o MESH, as in -o five-side.vtu")
+    mesh = recipe.build()
+    write(args.output, mesh)
+    print(f"{args.output}: {mesh.n_hexes:,} hexes, {mesh.n_nodes:,} nodes")
+    return 0

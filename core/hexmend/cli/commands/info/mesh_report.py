@@ -1,0 +1,89 @@
+"""The report that `hexmend info` prints on a mesh."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+
+from hexmend.cli.output.mesh_messages import print_notes
+from hexmend.cli.output.text_tables import print_spreads, print_summaries
+from hexmend.doctor import examine
+from hexmend.io import read
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import (
+    ElementQuality,
+    SecondOrder,
+    Summary,
+    locked,
+    measure,
+    summarise,
+    summarise_second_order,
+)
+from hexmend.quantity import format_count
+
+#: Places of a problem that are printed.
+_MAX_PLACES = 10
+
+
+def run(args: argparse.Namespace) -> int:
+    """Measure the mesh and print the report, as text or as JSON."""
+    mesh = read(args.mesh, as_is=args.as_is)
+    print_notes(mesh)
+    quality = measure(mesh.points, mesh.hexes)
+    summary = summarise(mesh, quality)
+    metrics = metric_statistics(mesh, quality) if args.metrics else {}
+    second_order = summarise_second_order(mesh)
+    if args.json:
+        _print_json(args, mesh, summary, metrics, second_order)
+        return 0
+    print_summaries(args.mesh, [""], [summary])
+    if summary.locked_inverted:
+        _print_locked(mesh, quality, summary.locked_inverted)
+    if second_order is not None:
+        print(f"Second order: {second_order.words}.")
+    if args.metrics:
+        print_spreads(metrics)
+    _print_problems(args, mesh)
+    return 0
+
+
+def _print_json(
+    args: argparse.Namespace,
+    mesh: Mesh,
+    summary: Summary,
+    metrics: Mapping[str, MetricStatistics],
+    second_order: SecondOrder | None,
+) -> None:
+    from hexmend.report import to_json  # not loaded for a report in words
+
+    answer = summary.to_dict()
+    if args.metrics:
+        answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+    if second_order is not None:
+        answer["second_order"] = second_order.to_dict()
+    if args.doctor:
+        answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
+    print(to_json(answer))
+
+
+def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
+    """Print how many of the locked inverted hexes a sliding boundary frees."""
+    from hexmend.boundary import freed_by_sliding  # loaded only for a mesh with locked hexes
+
+    freed = int(freed_by_sliding(mesh, locked(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)).sum())
+    print(
+        f"Locked: {format_count(freed)} can be freed where the boundary slides (--boundary slide), "
+        f"{format_count(n_locked - freed)} cannot."
+    )
+
+
+def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:
+    findings = examine(mesh, quick=not args.doctor)
+    if args.doctor and not findings:
+        print("The doctor finds nothing to mend; the shape of hexes is for hexmend smooth.")
+    for finding in findings:
+        print(f"note: {finding.message} {finding.remedy}".rstrip())
+        if args.doctor and finding.places():
+            print(f"      {finding.places(_MAX_PLACES)}")
+        if args.doctor and finding.mendable:
+            print(f"      hexmend repair {args.mesh} -o OUT --only {finding.kind}")

@@ -1,0 +1,30 @@
+"""The work of `hexmend repair`."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.cli.output.mesh_messages import print_notes, warn_of_losses
+from hexmend.doctor import AILMENTS, examine, repair
+from hexmend.io import read, writer_for
+
+
+def run(args: argparse.Namespace) -> int:
+    """Repair the mesh, write it, and print what was repaired and what remains."""
+    for name in args.only:
+        AILMENTS[name]  # raises for an unknown name before the mesh is read
+    write = writer_for(args.output)
+    mesh = read(args.mesh, as_is=True, nodes_without_place=True)
+    print_notes(mesh)
+    warn_of_losses(args.output, mesh)
+    mesh, repaired = repair(mesh, args.only)
+    write(args.output, mesh)
+    for finding in repaired:
+        print(f"Mended: {finding.message} Done: {AILMENTS[finding.kind].action}.")
+    remaining = examine(mesh)
+    for finding in remaining:
+        print(f"Left: {finding.message} {finding.remedy}".rstrip())
+    if not repaired and not remaining and not mesh.notes:
+        print("Nothing is wrong with it.")
+    print(f"Written to {args.output}.")
+    return 0

@@ -1,0 +1,77 @@
+"""The run of `hexmend smooth`, from file to file."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.advice import advise
+from hexmend.cli.arguments.checks import check_memory, check_targets
+from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
+from hexmend.cli.commands.smooth.suggested_command import suggested_command
+from hexmend.cli.output.mesh_messages import print_notes, print_problems, warn_of_losses
+from hexmend.cli.output.progress import follow
+from hexmend.cli.output.text_tables import print_summaries
+from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.io import read, writer_for
+from hexmend.iteration import Result
+from hexmend.mesh.fixing import with_region_free, with_sets_fixed
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import summarise_second_order
+from hexmend.quality.selection import hexes_in_set
+from hexmend.report import record, write_history, write_json
+from hexmend.run import iterate
+from hexmend.run.recipe_files import write_recipe
+
+
+def run(args: argparse.Namespace) -> int:
+    """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
+    method, limits = method_and_limits(args)
+    write = writer_for(args.output)  # raises now, and not after the run, for a file that cannot be written
+    check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
+    mesh = read(args.mesh, as_is=args.as_is)
+    print_notes(mesh)
+    print_problems(args.mesh, mesh)
+    warn_of_losses(args.output, mesh)
+    pinned = mesh.pinned  # as in the file, for the output: --fix and --only hold for this run alone
+    if args.fix:
+        mesh = with_sets_fixed(mesh, *args.fix)
+    if args.only:
+        mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
+    check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
+    smoothing = iterate(with_surface(args, mesh, method), method, limits)
+    if args.save_recipe:
+        write_recipe(args.save_recipe, smoothing.recipe)
+    with FinishesWriting():
+        follow(smoothing)
+        result = smoothing.result()
+        write(args.output, result.mesh.replace(pinned=pinned))
+        _report(args, mesh, method.title, result)
+    return 4 if result.after.inverted else 0
+
+
+def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) -> None:
+    """Write the files of --json and --history, and print the change of the mesh."""
+    second_order = {"before": summarise_second_order(mesh), "after": summarise_second_order(result.mesh)}
+    if args.json:
+        report = record(result)
+        for time, summary in second_order.items():
+            if summary is not None:
+                report[time]["second_order"] = summary.to_dict()
+        write_json(args.json, report)
+    if args.history:
+        write_history(args.history, result)
+    advice = advise(result) if result.after.inverted else None
+    print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after])
+    print(result.message)
+    for time, summary in second_order.items():
+        if summary is not None:
+            print(f"Second order, {time}: {summary.words}.")
+    if result.surface is not None:
+        print(result.surface.words)
+    print(f"Written to {args.output}.")
+    if advice is not None:
+        print(advice.left)
+        for suggestion in advice.suggestions:
+            print(f"To try next: {suggestion.text}")
+            if line := suggested_command(suggestion, args.mesh, args.output):
+                print(f"      {line}")

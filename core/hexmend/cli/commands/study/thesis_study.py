@@ -1,0 +1,59 @@
+"""The study of the thesis: `hexmend study thesis`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from functools import partial
+from pathlib import Path
+
+from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.output.progress import Progress
+from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.parameters import from_strings
+from hexmend.report import made_folder, write_experiment, write_outlook, write_study
+from hexmend.report.thesis import VERDICTS
+from hexmend.run import StoppingCriteria
+from hexmend.study.bench.sections import machine
+from hexmend.study.outlook.experiments import TrialResult
+from hexmend.study.thesis.experiment_result import ExperimentResult
+from hexmend.study.thesis.experiments import load
+from hexmend.study.thesis.mesh_figures import draw_figures
+from hexmend.study.thesis.runner import chosen_tables, planned, run_experiments
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the experiments and write their report; return 128 and the signal's number if interrupted."""
+    thesis = chosen_tables(load(), args.only) if args.only else load()
+    if args.max_seconds is not None:
+        limit = from_strings(StoppingCriteria, {"max_seconds": args.max_seconds}, owner="the run")
+        thesis = thesis.limited(limit.max_seconds)
+    for methods, hexes in planned(thesis, args.quick):
+        check_memory(args, methods, hexes, "do fewer tables (--only)", "do it in small (--quick)")
+    folder = made_folder(args.output)
+    with FinishesWriting():
+        with Progress() as progress:
+            study = run_experiments(
+                thesis, quick=args.quick, watch=progress.show, done=partial(_write_experiment, folder)
+            )
+        figures, missing = draw_figures(folder, study.measured)
+        record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
+        write_study(folder, record)
+        for claim in record["claims"]:
+            print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
+        if study.interrupted:
+            print("Interrupted: the report holds what was done so far.", file=sys.stderr)
+        if missing:
+            print(missing, file=sys.stderr)
+        print(f"\nWritten to {folder / 'study.md'}.")
+    return progress.signals.status if study.interrupted else 0
+
+
+def _write_experiment(folder: Path, result: ExperimentResult | TrialResult) -> None:
+    """Write the documents of one table or outlook, and print the name of the one to read."""
+    if isinstance(result, TrialResult):
+        name, write = f"Section {result.outlook.section}, {result.outlook.mesh}", write_outlook
+    else:
+        name, write = f"Table {result.experiment.table}, {result.experiment.thesis_mesh}", write_experiment
+    paths = write(folder, result.record())
+    print(f"{name}: {paths[1].name}", flush=True)

@@ -1,0 +1,31 @@
+"""Messages about a mesh on standard error: changes on reading, problems, losses on writing."""
+
+from __future__ import annotations
+
+import sys
+
+from hexmend.doctor import examine
+from hexmend.io import left_out
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+
+
+def print_notes(mesh: Mesh) -> None:
+    """Print the changes that were made to the mesh on reading."""
+    for note in mesh.notes:
+        print(f"hexmend: {note}", file=sys.stderr)
+
+
+def warn_of_losses(path: str, mesh: Mesh) -> None:
+    """Print a warning for each part of the mesh that the file to be written cannot hold."""
+    for part in left_out(path, mesh):
+        print(f"hexmend: warning: {path} cannot hold {part}, which is left out", file=sys.stderr)
+
+
+def print_problems(path: str, mesh: Mesh) -> None:
+    """Print what the doctor finds in a mesh with inverted hexes: smoothing does not correct wrong numbering."""
+    if not measure(mesh.points, mesh.hexes).n_inverted:
+        return
+    for finding in examine(mesh):
+        remedy = f"Run: hexmend repair {path} -o OUT --only {finding.kind}" if finding.mendable else finding.remedy
+        print(f"hexmend: {finding.message} {remedy}", file=sys.stderr)
