@@ -33,7 +33,7 @@ def same(one: Mesh, other: Mesh) -> bool:
 
 def cell(mesh: Mesh, path: Path) -> str:
     """What becomes of a mesh in a file."""
-    left = io.left_out(path, mesh)
+    left = io.unsupported_data(path, mesh)
     try:
         io.write(path, mesh)
     except FileError:

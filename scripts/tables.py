@@ -81,8 +81,10 @@ def formats() -> str:
     alike: dict[frozenset[Capability], list[str]] = {}
     for one in sorted(FORMATS.values(), key=lambda one: one.title.lower()):
         if one.write:
-            alike.setdefault(frozenset(one.holds), []).append(one.title)
-    held = ((thing.value, *("yes" if thing in holds else "no" for holds in alike)) for thing in Capability)
+            alike.setdefault(frozenset(one.capabilities), []).append(one.title)
+    held = (
+        (thing.value, *("yes" if thing in capabilities else "no" for capabilities in alike)) for thing in Capability
+    )
     first = table(("format", "suffix", "written as"), all_of_them)
     return f"{first}\n\n{table(('', *map(', '.join, alike.values())), held)}"
 

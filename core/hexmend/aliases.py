@@ -57,6 +57,7 @@ NAMES = {
     "hexmend.energy.Couplings": "hexmend.energy.BlockSparsity",
     "hexmend.energy.Power": "hexmend.energy.ObjectiveNorm",
     "hexmend.io.base.format.Holds": "hexmend.io.base.format.Capability",
+    "hexmend.io.left_out": "hexmend.io.files.unsupported_data",
     "hexmend.io.read_recipe": "hexmend.run.recipe_files.read_recipe",
     "hexmend.io.write_recipe": "hexmend.run.recipe_files.write_recipe",
     "hexmend.iteration.Limits": "hexmend.iteration.ActiveSet",
@@ -96,6 +97,7 @@ PARAMETERS: dict[str, dict[str, str]] = {
 }
 
 ATTRIBUTES: dict[str, dict[str, str]] = {
+    "Format": {"cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches"},
     "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},
 }
 

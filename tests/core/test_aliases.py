@@ -106,3 +106,13 @@ def test_the_energy_of_a_mesh_has_the_methods_of_version_0_1():
     assert energy.placed == energy.to_mesh_units
     assert energy.but == energy.with_objective
     assert energy.scaled(mesh.points).tolist() == energy.to_edge_units(mesh.points).tolist()
+
+
+def test_a_format_of_a_plugin_may_have_its_keywords_of_version_0_1():
+    from hexmend.io.base.format import Capability, Format
+
+    old = Format("a", "A", (".a",), (), str, holds=frozenset({Capability.PINS}), names=frozenset("b"), cannot=len)
+    new = Format(
+        "a", "A", (".a",), (), str, capabilities=frozenset({Capability.FIXED_NODES}), stored_names=frozenset("b")
+    )
+    assert old == replace(new, limitations=len)

@@ -56,7 +56,7 @@ def content(path: Path) -> Content:
     return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
 
 
-def recognised(head: bytes) -> bool:
+def matches(head: bytes) -> bool:
     """Whether a file begins as those of the ADF kind do."""
     return ADF in head[:64]
 
@@ -104,4 +104,4 @@ def _array(values: object) -> np.ndarray:
     return np.array(vtk_to_numpy(values))
 
 
-FORMAT = Format("cgns-adf", "CGNS (ADF)", (".cgns",), (), read, recognised=recognised)
+FORMAT = Format(name="cgns-adf", title="CGNS (ADF)", suffixes=(".cgns",), encodings=(), read=read, matches=matches)

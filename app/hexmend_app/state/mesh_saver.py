@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io import left_out, write
+from hexmend.io import unsupported_data, write
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state import session_data
 from hexmend_app.state.deeds import Saved
@@ -55,7 +55,7 @@ class Saving:
             session_data.write(self.path, self.data)
         else:
             write(self.path, self.state.mesh)
-            self.omitted = left_out(self.path, self.state.mesh)
+            self.omitted = unsupported_data(self.path, self.state.mesh)
 
 
 class MeshSaver(QObject):

@@ -14,7 +14,7 @@ import pkgutil
 from hexmend.aliases import exports
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.files import left_out, read, readable_suffixes, writable_suffixes, write, writer_for
+from hexmend.io.files import read, readable_suffixes, unsupported_data, writable_suffixes, write, writer_for
 
 for _module in pkgutil.iter_modules(formats.__path__):
     importlib.import_module(f"{formats.__name__}.{_module.name}")
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 __all__ = [
     "FORMATS",
     "Format",
-    "left_out",
     "read",
     "read_surface",
     "readable_suffixes",
+    "unsupported_data",
     "writable_suffixes",
     "write",
     "writer_for",

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.base.capabilities import found_in
+from hexmend.io.base.capabilities import required_capabilities
 from hexmend.io.base.content import PLACING
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.base.plugins import further
@@ -105,11 +105,29 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
     return write
 
 
-def left_out(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
-    """What comes with a mesh that a file with this suffix cannot hold, in words."""
+def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
+    """Describe the data of a mesh that are lost if it is written to a file.
+
+    Parameters
+    ----------
+    path : path-like
+        Its suffix chooses the format; the file need not exist.
+    mesh : Mesh
+
+    Returns
+    -------
+    list of str
+        Phrases for a message, such as "node sets (inlet)"; empty if the file holds everything.
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix.
+    """
     format = _writer(Path(path))
-    left = [words for kind, words in found_in(mesh, format.names).items() if kind not in format.holds]
-    return left + (format.cannot(mesh) if format.cannot else [])
+    required = required_capabilities(mesh, format.stored_names)
+    missing = [description for kind, description in required.items() if kind not in format.capabilities]
+    return missing + (format.limitations(mesh) if format.limitations else [])
 
 
 def readable_suffixes() -> tuple[str, ...]:
@@ -146,13 +164,13 @@ def _format_of(path: Path) -> Format:
     with open(path, "rb") as file:
         head = file.read(_HEAD)
     for format in named:
-        if format.recognised is None or format.recognised(head):
+        if format.matches is None or format.matches(head):
             return format
     for format in FORMATS.values():
-        if format.recognised is not None and format.recognised(head):
+        if format.matches is not None and format.matches(head):
             return format
     for format in further():  # which are looked for only where none of these knows the file
-        if format.recognised is not None and format.recognised(head):
+        if format.matches is not None and format.matches(head):
             return format
         if not named and path.suffix.lower() in format.suffixes:
             return format

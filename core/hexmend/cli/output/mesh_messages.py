@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from hexmend.doctor import examine
-from hexmend.io import left_out
+from hexmend.io import unsupported_data
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 
@@ -18,7 +18,7 @@ def print_notes(mesh: Mesh) -> None:
 
 def warn_of_losses(path: str, mesh: Mesh) -> None:
     """Print a warning for each part of the mesh that the file to be written cannot hold."""
-    for part in left_out(path, mesh):
+    for part in unsupported_data(path, mesh):
         print(f"hexmend: warning: {path} cannot hold {part}, which is left out", file=sys.stderr)
 
 

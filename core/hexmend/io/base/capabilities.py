@@ -1,8 +1,8 @@
-"""What comes with a mesh besides points and hexes, in words."""
+"""Capabilities that a file needs to store a mesh, and limitations that several formats share."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 import numpy as np
 
@@ -11,82 +11,86 @@ from hexmend.io.base.fixed_marks import held_by_pins, needs_marks
 from hexmend.io.base.format import Capability
 from hexmend.mesh.mesh import Mesh
 
-#: Whole numbers up to here are the same as real ones.
-_EXACT = 1 << 53
+#: Float64 represents every integer up to this one.
+_LARGEST_EXACT = 1 << 53
 
 
-def found_in(mesh: Mesh, names: Collection[str] = ()) -> dict[Capability, str]:
-    """What a mesh has of what formats can hold or cannot, each with its names, as "point data (temperature)".
+def required_capabilities(mesh: Mesh, stored_names: Collection[str] = ()) -> dict[Capability, str]:
+    """List the capabilities that a format needs so that a file holds all of a mesh.
 
-    Data and sets of some `names` are passed over.
+    Parameters
+    ----------
+    mesh : Mesh
+    stored_names : collection of str
+        Names of data and sets that are stored in any case, and ignored here.
+
+    Returns
+    -------
+    dict of Capability to str
+        A description for messages with the names of data or sets, such as "point data (temperature)".
     """
     data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
-    volumes = [mesh.hex_sets, *(cells.sets for cells in mesh.cells if cells.dimension == 3)]
-    lower = [cells.sets for cells in mesh.cells if cells.dimension < 3]
-    kinds = {
+    volume_sets = [mesh.hex_sets, *(cells.sets for cells in mesh.cells if cells.dimension == 3)]
+    lower_sets = [cells.sets for cells in mesh.cells if cells.dimension < 3]
+    names = {
         Capability.NODE_DATA: [name for name in mesh.node_data if name not in (ID, held_by_pins(mesh))],
-        Capability.HEX_DATA: [name for name in _all(data) if name != ID],
-        Capability.IDS: [""] if ID in mesh.node_data or ID in _all(data) else [],
-        Capability.NODE_SETS: _filled([mesh.node_sets]),
-        Capability.HEX_SETS: _filled(volumes),
-        Capability.CELL_SETS: _filled(lower),
-        Capability.SIDE_SETS: _filled([mesh.side_sets]),
+        Capability.HEX_DATA: [name for name in _names(data) if name != ID],
+        Capability.IDS: [""] if ID in mesh.node_data or ID in _names(data) else [],
+        Capability.NODE_SETS: _non_empty([mesh.node_sets]),
+        Capability.HEX_SETS: _non_empty(volume_sets),
+        Capability.CELL_SETS: _non_empty(lower_sets),
+        Capability.SIDE_SETS: _non_empty([mesh.side_sets]),
         Capability.EMPTY_SETS: [
             name
-            for sets in ([mesh.node_sets], [*volumes, *lower], [mesh.side_sets])
-            for name in set(_all(sets)) - set(_filled(sets))
+            for sets in ([mesh.node_sets], [*volume_sets, *lower_sets], [mesh.side_sets])
+            for name in set(_names(sets)) - set(_non_empty(sets))
         ],
-        Capability.PINS: [""] if needs_marks(mesh) else [],
+        Capability.FIXED_NODES: [""] if needs_marks(mesh) else [],
         Capability.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
         Capability.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
         Capability.OTHER_CELLS: [""] if any(cells.dimension == 3 for cells in mesh.cells) else [],
         Capability.SECOND_ORDER: [""] if mesh.mid_nodes is not None else [],
         Capability.FIELD_DATA: list(mesh.field_data),
     }
-    left = {kind: [name for name in found if name not in names] for kind, found in kinds.items()}
+    required = {kind: [name for name in found if name not in stored_names] for kind, found in names.items()}
     return {
         kind: f"{kind.value} ({', '.join(sorted(found))})" if any(found) else kind.value
-        for kind, found in left.items()
+        for kind, found in required.items()
         if found
     }
 
 
-def rounded(mesh: Mesh) -> list[str]:
-    """That whole numbers are rounded by a format whose data are real numbers, in words; nothing where none are."""
-    left = []
-    for what, arrays in arrays_of(mesh).items():
-        names = {name for name, values in arrays if values.dtype.kind in "iu" and _beyond(values)}
-        left += [f"whole numbers of {what} above 2^53, which are rounded ({', '.join(sorted(names))})"] if names else []
-    return left
+def rounded_integers(mesh: Mesh) -> list[str]:
+    """Describe integer data that a format rounds because it stores all data as float64; empty if there are none."""
+    return _describe(
+        mesh,
+        "whole numbers of {} above 2^53, which are rounded",
+        lambda values: (
+            values.dtype.kind in "iu" and bool(((values > _LARGEST_EXACT) | (values < -_LARGEST_EXACT)).any())
+        ),
+    )
 
 
-def no_numbers(mesh: Mesh) -> list[str]:
-    """Data that are texts or complex numbers, in words, for formats whose data are numbers; nothing where none are."""
-    left = []
-    for what, arrays in arrays_of(mesh).items():
-        names = {name for name, values in arrays if values.dtype.kind not in "biuf"}
-        left += [f"{what} that are no numbers ({', '.join(sorted(names))})"] if names else []
-    return left
+def non_numeric_data(mesh: Mesh) -> list[str]:
+    """Describe data that a format for real numbers cannot store: texts, complex numbers; empty if there are none."""
+    return _describe(mesh, "{} that are no numbers", lambda values: values.dtype.kind not in "biuf")
 
 
-def arrays_of(mesh: Mesh) -> dict[str, list[tuple[str, np.ndarray]]]:
-    """Names and values of all data but ids, those of nodes as "point data" and those of cells as "cell data"."""
-    parts = {"point data": [mesh.node_data], "cell data": [mesh.hex_data, *(cells.data for cells in mesh.cells)]}
-    return {
-        what: [(name, np.asarray(values)) for one in data for name, values in one.items() if name != ID]
-        for what, data in parts.items()
+def _describe(mesh: Mesh, description: str, applies: Callable[[np.ndarray], bool]) -> list[str]:
+    """List point data and cell data to which something applies, with the names of their arrays; ids do not count."""
+    groups = {"point data": [mesh.node_data], "cell data": [mesh.hex_data, *(cells.data for cells in mesh.cells)]}
+    found = {
+        kind: {name for data in group for name, values in data.items() if name != ID and applies(np.asarray(values))}
+        for kind, group in groups.items()
     }
+    return [f"{description.format(kind)} ({', '.join(sorted(names))})" for kind, names in found.items() if names]
 
 
-def _beyond(values: np.ndarray) -> bool:
-    return bool(((values > _EXACT) | (values < -_EXACT)).any())
+def _non_empty(groups: Iterable[Mapping[str, np.ndarray]]) -> list[str]:
+    """Names of sets that have members in at least one group, each once."""
+    return list(dict.fromkeys(name for sets in groups for name, members in sets.items() if len(members)))
 
 
-def _filled(parts: Iterable[Mapping[str, np.ndarray]]) -> list[str]:
-    """The names of sets that have members in some part, each once."""
-    return list(dict.fromkeys(name for part in parts for name, members in part.items() if len(members)))
-
-
-def _all(parts: Iterable[Mapping[str, object]]) -> list[str]:
-    """The names of all parts, each once."""
-    return list(dict.fromkeys(name for part in parts for name in part))
+def _names(groups: Iterable[Mapping[str, object]]) -> list[str]:
+    """Names in all groups, each once."""
+    return list(dict.fromkeys(name for group in groups for name in group))

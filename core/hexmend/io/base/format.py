@@ -1,4 +1,4 @@
-"""What a file format is, what it can hold, and the registry in which formats announce themselves."""
+"""File formats, the mesh data that they can store, and the registry of all formats."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from hexmend.aliases import exports
+from hexmend.aliases import exports, reads_old_names
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
 
 class Capability(Enum):
-    """Something that comes with a mesh, in words; whether a mesh has it is asked by `found_in`."""
+    """Kind of mesh data that a format may be able to store; the value names it in messages."""
 
     NODE_DATA = "point data"
     HEX_DATA = "cell data"
@@ -23,42 +23,44 @@ class Capability(Enum):
     CELL_SETS = "sets of cells of lower dimension"
     SIDE_SETS = "side sets"
     EMPTY_SETS = "sets without members"
-    PINS = "fixed nodes"
+    FIXED_NODES = "fixed nodes"
     LOWER_CELLS = "cells of lower dimension"
     VERTICES = "vertices as cells"
     OTHER_CELLS = "tetrahedra, pyramids and wedges"
     SECOND_ORDER = "nodes of second order"
     FIELD_DATA = "field data"
+    PINS = FIXED_NODES  # the name in version 0.1
 
 
+@reads_old_names
 @dataclass(frozen=True)
 class Format:
-    """A file format, as its module declares it.
+    """File format: names, functions that read and write it, and the mesh data that it stores.
 
     Parameters
     ----------
     name : str
-        The key in FORMATS.
+        Key in FORMATS.
     title : str
-        What people call it.
+        Name in messages and documentation.
     suffixes : tuple of str
         Lower case, with the dot.
     encodings : tuple of str
-        How its numbers can be written ("binary", "ascii", ...); the first is the default. Empty where it is read only.
+        Encodings of numbers that can be written ("binary", "ascii"); the first is the default. Empty if read-only.
     read : callable
-        From path to Mesh; raises FileError or MeshError, and OSError where the file system fails.
+        read(path) returns a Mesh; raises FileError or MeshError, and OSError where the file system fails.
     write : callable, optional
-        From path, mesh and an encoding to nothing; opens the path itself.
-    holds : frozenset of Capability
-        What is written, and read again as it was; all else is left out, which `left_out` says.
-    names : frozenset of str
-        Data and sets that are held by their names, though others are not.
-    cannot : callable, optional
-        From mesh to what the format cannot hold of what it holds as a rule, in words; `left_out` adds them.
+        write(path, mesh, encoding) creates the file.
+    capabilities : frozenset of Capability
+        Mesh data that survive writing and reading; `hexmend.io.unsupported_data` lists the others.
+    stored_names : frozenset of str
+        Names of data and sets that are stored although their kind is not among the capabilities.
+    matches : callable, optional
+        matches(head) returns True if a file that begins with these bytes (up to 4,096) has the format.
     exact : bool
-        Whether coordinates are written with all their digits.
-    recognised : callable, optional
-        Whether a file that begins with these bytes (some 4,096, or all) is of this format, whatever its suffix.
+        False if coordinates are rounded.
+    limitations : callable, optional
+        limitations(mesh) describes data of the mesh that are lost although the format has the capability, list of str.
     """
 
     name: str
@@ -67,14 +69,20 @@ class Format:
     encodings: tuple[str, ...]
     read: Callable[[Path], Mesh]
     write: Callable[[Path, Mesh, str], None] | None = None
-    holds: frozenset[Capability] = frozenset()
-    names: frozenset[str] = frozenset()
-    recognised: Callable[[bytes], bool] | None = None
+    capabilities: frozenset[Capability] = frozenset()
+    stored_names: frozenset[str] = frozenset()
+    matches: Callable[[bytes], bool] | None = None
     exact: bool = True
-    cannot: Callable[[Mesh], list[str]] | None = None
+    limitations: Callable[[Mesh], list[str]] | None = None
 
 
-#: Every format by name.
+#: All formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`.
 FORMATS: Registry[Format] = Registry("format")
+
+
+def register(format: Format) -> Format:
+    """Add a format to FORMATS under its name."""
+    return FORMATS.add(format.name, format)
+
 
 __getattr__ = exports(__name__)

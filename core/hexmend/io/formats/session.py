@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import FileError, MeshError
-from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.format import Format, register
 from hexmend.mesh.mesh import Mesh
 
 #: The suffix of sessions, and the number of what is written; lower ones can be read.
@@ -161,4 +161,13 @@ def is_session(head: bytes) -> bool:
     return head.startswith(begin) and head[30 : 30 + len(name)] == name
 
 
-FORMATS.add("session", Format("session", "Hexmend session", (SUFFIX,), (), _read, recognised=is_session))
+register(
+    Format(
+        name="session",
+        title="Hexmend session",
+        suffixes=(SUFFIX,),
+        encodings=(),
+        read=_read,
+        matches=is_session,
+    )
+)

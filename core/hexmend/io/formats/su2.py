@@ -13,7 +13,7 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import ByteCursor, shown, text_of
 from hexmend.io.base.decimals import blocks as parts_of
 from hexmend.io.base.decimals import lines
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.base.lower_order import middles_lost, reduced
 from hexmend.io.base.unique_names import distinct, renamed
 from hexmend.mesh.cells import CELL_KINDS
@@ -174,7 +174,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                 _write_cells(file, kind, nodes)
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Names that markers cannot have, and mid-nodes, in words."""
     return renamed(_titles(reduced(from_mesh(mesh), NUMBERS))) + middles_lost(mesh, NUMBERS)
 
@@ -193,7 +193,7 @@ def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
     file.write(lines(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     first = _KEY.search(_COMMENT.sub(b"", head))
     return (
         first is not None
@@ -202,17 +202,21 @@ def _recognised(head: bytes) -> bool:
     )
 
 
-FORMATS.add(
-    "su2",
+register(
     Format(
-        "su2",
-        "SU2",
-        (".su2",),
-        ("ascii",),
-        read,
-        write,
-        holds=frozenset({Capability.OTHER_CELLS, Capability.CELL_SETS}),
-        recognised=_recognised,
-        cannot=cannot,
-    ),
+        name="su2",
+        title="SU2",
+        suffixes=(".su2",),
+        encodings=("ascii",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
+            {
+                Capability.CELL_SETS,
+                Capability.OTHER_CELLS,
+            }
+        ),
+        limitations=limitations,
+        matches=_matches,
+    )
 )

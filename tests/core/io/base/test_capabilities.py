@@ -50,7 +50,7 @@ MESHES = {
     Capability.SIDE_SETS: [grid(2).replace(side_sets={"wall": np.array([[0, 0], [0, 2], [7, 5]]), "top": np.array([[5, 1]])})],
     Capability.EMPTY_SETS: [grid(2).replace(hex_sets={"left": np.array([], int)}, node_sets={"right": np.array([], int)})],
     Capability.CELL_SETS: [beside("quad", grid(2).topology.boundary_faces[:3], sets={"inlet": [0, 2], "wall": [1]})],
-    Capability.PINS: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
+    Capability.FIXED_NODES: [grid(3).replace(pinned=np.isin(np.arange(64), [21, 22]))],
     Capability.LOWER_CELLS: [
         beside("line", [[0, 1], [1, 2]]),
         beside("quad", grid(2).topology.boundary_faces[:3]),
@@ -101,7 +101,7 @@ COMPARED = {
     Capability.SIDE_SETS: lambda a, b: same_sets(a.side_sets, b.side_sets),
     Capability.EMPTY_SETS: lambda a, b: (same_sets(a.hex_sets, b.hex_sets), same_sets(a.node_sets, b.node_sets)),
     Capability.CELL_SETS: lambda a, b: [same_members(*pair) for pair in zip(a.cells, b.cells, strict=True)],
-    Capability.PINS: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
+    Capability.FIXED_NODES: lambda a, b: np.testing.assert_array_equal(a.fixed, b.fixed),
     Capability.LOWER_CELLS: same_cells,
     Capability.VERTICES: same_cells,
     Capability.OTHER_CELLS: same_cells,
@@ -120,8 +120,8 @@ def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, t
     format = FORMATS[name]
     for k, mesh in enumerate(MESHES[thing]):
         path = tmp_path / f"{k}{format.suffixes[0]}"
-        left = io.left_out(path, mesh)
-        if thing not in format.holds:
+        left = io.unsupported_data(path, mesh)
+        if thing not in format.capabilities:
             assert any(words.startswith(thing.value) for words in left)
             continue
         assert not any(words.startswith(thing.value) for words in left)
@@ -139,7 +139,7 @@ def test_a_format_holds_what_it_says_and_says_what_it_does_not(name, encoding, t
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_what_a_format_does_not_hold_does_not_keep_the_mesh_from_being_written(name, encoding, tmp_path):
     format = FORMATS[name]
-    for thing in set(Capability) - format.holds:
+    for thing in set(Capability) - format.capabilities:
         for mesh in MESHES[thing]:
             path = tmp_path / f"a{format.suffixes[0]}"
             io.write(path, mesh, encoding=encoding)
@@ -151,12 +151,14 @@ def test_what_is_said_of_other_cells_is_held_or_named(name, format):
     if format.write is None:
         return
     faces = grid(2).topology.boundary_faces[:2]
-    left = io.left_out(f"a{format.suffixes[0]}", beside("quad", faces, data={"h": [1.0, 2.0]}, sets={"inlet": [0]}))
-    assert ("cell data (h)" in left) == (Capability.HEX_DATA not in format.holds)
-    assert ("sets of cells of lower dimension (inlet)" in left) == (Capability.CELL_SETS not in format.holds)
+    left = io.unsupported_data(
+        f"a{format.suffixes[0]}", beside("quad", faces, data={"h": [1.0, 2.0]}, sets={"inlet": [0]})
+    )
+    assert ("cell data (h)" in left) == (Capability.HEX_DATA not in format.capabilities)
+    assert ("sets of cells of lower dimension (inlet)" in left) == (Capability.CELL_SETS not in format.capabilities)
     tetra = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], sets={"solid": [0]})
-    assert ("element sets (solid)" in io.left_out(f"a{format.suffixes[0]}", tetra)) == (
-        Capability.HEX_SETS not in format.holds
+    assert ("element sets (solid)" in io.unsupported_data(f"a{format.suffixes[0]}", tetra)) == (
+        Capability.HEX_SETS not in format.capabilities
     )
 
 
@@ -166,8 +168,8 @@ def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encod
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     pinned = np.arange(27) == 13 if values.ndim > 1 else np.ones(27, bool)
     mesh = grid(2).replace(node_data={"fixed": values}, pinned=pinned)
-    if Capability.NODE_DATA not in FORMATS[name].holds:
-        assert "point data (fixed)" in io.left_out(path, mesh)
+    if Capability.NODE_DATA not in FORMATS[name].capabilities:
+        assert "point data (fixed)" in io.unsupported_data(path, mesh)
         return
     io.write(path, mesh, encoding=encoding)
     back = io.read(path)
@@ -177,7 +179,7 @@ def test_data_called_fixed_that_say_more_than_pins_are_held_or_named(name, encod
 
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path):
-    if Capability.HEX_DATA not in FORMATS[name].holds:
+    if Capability.HEX_DATA not in FORMATS[name].capabilities:
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     mesh = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]], data={"h": np.arange(3.0)[None]})
@@ -191,21 +193,21 @@ def test_data_of_one_name_and_other_widths_are_all_kept(name, encoding, tmp_path
 
 @pytest.mark.parametrize(("name", "encoding"), WAYS)
 def test_nodes_that_other_cells_fix_make_no_set_or_data_called_fixed(name, encoding, tmp_path):
-    if Capability.OTHER_CELLS not in FORMATS[name].holds:
+    if Capability.OTHER_CELLS not in FORMATS[name].capabilities:
         return
     path = tmp_path / f"a{FORMATS[name].suffixes[0]}"
     first = beside("tetra", [[18, 19, 21, 27]], [[0, 0, 3]])
     io.write(path, first, encoding=encoding)
     mesh = io.read(path)
     assert mesh.pinned[[18, 19, 21, 27]].all()
-    assert not any(words.startswith("fixed nodes") for words in io.left_out(path, mesh))
+    assert not any(words.startswith("fixed nodes") for words in io.unsupported_data(path, mesh))
     io.write(path, mesh, encoding=encoding)
     back = io.read(path)
     assert not {"fixed", "required"} & {*back.node_data, *back.node_sets}
     np.testing.assert_array_equal(back.pinned, mesh.pinned)
     mesh = mesh.replace(pinned=mesh.pinned | (np.arange(28) == 13))  # by the user
-    if Capability.PINS not in FORMATS[name].holds:
-        assert "fixed nodes" in io.left_out(path, mesh)
+    if Capability.FIXED_NODES not in FORMATS[name].capabilities:
+        assert "fixed nodes" in io.unsupported_data(path, mesh)
         return
     io.write(path, mesh, encoding=encoding)
     np.testing.assert_array_equal(io.read(path).pinned, mesh.pinned)

@@ -12,7 +12,7 @@ SUFFIXES = (".med", ".vtkhdf", ".cgns", ".exo")
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_what_is_no_hdf5_file_is_refused_without_another_process(suffix, tmp_path, monkeypatch):
-    monkeypatch.setattr(subprocess_reader, "in_child", lambda reader, path: pytest.fail("a process was started"))
+    monkeypatch.setattr(subprocess_reader.subprocess, "run", lambda *_, **__: pytest.fail("a process was started"))
     path = tmp_path / f"a{suffix}"
     path.write_bytes(b"\x89HDF\r\n" + bytes(range(256)) * 8)
     with pytest.raises(FileError, match="is no HDF5 file"):

@@ -11,7 +11,7 @@ from tests.core.grids import grid
 @pytest.mark.parametrize("suffix", [".vtk", ".vtu", ".exo", ".med"])
 def test_texts_among_the_data_are_named_before_they_are_lost(suffix, tmp_path):
     mesh = grid(2).replace(node_data={"label": np.array(["a"] * 27)})
-    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ["point data that are no numbers (label)"]
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ["point data that are no numbers (label)"]
     io.write(tmp_path / f"a{suffix}", mesh)
     assert io.read(tmp_path / f"a{suffix}").n_hexes == 8
 
@@ -27,7 +27,7 @@ def test_data_that_are_no_numbers_are_left_out_as_announced(suffix, values, tmp_
     mesh = grid(2).replace(
         node_data={"odd": np.resize(values, 27), "t": np.arange(27.0)}, hex_data={"odd": values}, cells=(top,)
     )
-    assert io.left_out(tmp_path / f"a{suffix}", mesh) == [
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == [
         "point data that are no numbers (odd)",
         "cell data that are no numbers (odd)",
     ]

@@ -72,9 +72,9 @@ def test_ids_that_are_not_kept_are_named_before_they_are_lost(ids, why, suffix, 
     whole = np.arange(mesh.n_nodes) + 50
     mesh = mesh.replace(node_data={"id": whole}, hex_data={"id": ids})
     why = why.replace("2^31", "100,000,000") if suffix == ".bdf" else why  # ids of Nastran have 8 digits at most
-    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ([f"ids of elements ({why})"] if why else [])
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ([f"ids of elements ({why})"] if why else [])
     mesh = grid(1).replace(node_data={"id": ids}, hex_data={"id": np.array([4])})
-    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ([f"ids of nodes ({why})"] if why else [])
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ([f"ids of nodes ({why})"] if why else [])
     if not why:
         io.write(tmp_path / f"a{suffix}", mesh)
         np.testing.assert_array_equal(io.read(tmp_path / f"a{suffix}").node_data["id"], ids)

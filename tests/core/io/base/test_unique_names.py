@@ -29,7 +29,7 @@ def test_sets_of_like_names_stay_apart(suffix, names, tmp_path):
     mesh = grid(len(names), 1, 1)
     sets = {name: np.array([k]) for k, name in enumerate(names)}
     mesh = mesh.replace(hex_sets=sets, node_sets=sets)
-    (said,) = io.left_out(tmp_path / f"a{suffix}", mesh)
+    (said,) = io.unsupported_data(tmp_path / f"a{suffix}", mesh)
     assert said.startswith("names of sets as they are")
     io.write(tmp_path / f"a{suffix}", mesh)
     back = io.read(tmp_path / f"a{suffix}")
@@ -50,7 +50,9 @@ def test_groups_and_markers_of_like_names_stay_apart(suffix, names, tmp_path):
     mesh = grid(2)
     quads = mesh.topology.boundary_faces[: len(names)]
     mesh = mesh.replace(cells=(Cells("quad", quads, {}, {name: np.array([k]) for k, name in enumerate(names)}),))
-    assert any(said.startswith("names of sets as they are") for said in io.left_out(tmp_path / f"a{suffix}", mesh))
+    assert any(
+        said.startswith("names of sets as they are") for said in io.unsupported_data(tmp_path / f"a{suffix}", mesh)
+    )
     io.write(tmp_path / f"a{suffix}", mesh)
     (back,) = io.read(tmp_path / f"a{suffix}").cells
     members = [back.nodes[rows].tolist() for rows in back.sets.values()]

@@ -12,10 +12,12 @@ from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
+    MetricStatistics,
     SecondOrder,
     Summary,
     locked,
     measure,
+    metric_statistics,
     summarise,
     summarise_second_order,
 )

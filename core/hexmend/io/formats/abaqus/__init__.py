@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.mesh.mesh import Mesh
 
 
@@ -23,7 +23,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     abaqus_write.write(path, mesh, encoding)
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     """Whether the first keyword is one that begins such a file."""
     found = re.search(rb"^[ \t]*\*(?!\*)[ \t]*([A-Za-z ]+)", head, re.MULTILINE)
     known = (b"HEADING", b"NODE", b"PART", b"PREPRINT", b"ELEMENT", b"ASSEMBLY", b"INCLUDE", b"PARAMETER")
@@ -33,28 +33,35 @@ def _recognised(head: bytes) -> bool:
     )
 
 
-def _cannot(mesh: Mesh) -> list[str]:
+def _limitations(mesh: Mesh) -> list[str]:
     from hexmend.io.formats.abaqus import writer as abaqus_write
 
-    return abaqus_write.cannot(mesh)
+    return abaqus_write.limitations(mesh)
 
 
-HELD = (Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS, Capability.SIDE_SETS, Capability.CELL_SETS)
-
-FORMATS.add(
-    "abaqus",
+register(
     Format(
-        "abaqus",
-        "Abaqus",
-        (".inp",),
-        ("ascii",),
-        read,
-        write,
-        holds=frozenset(
-            {*HELD, Capability.LOWER_CELLS, Capability.OTHER_CELLS, Capability.VERTICES, Capability.SECOND_ORDER}
+        name="abaqus",
+        title="Abaqus",
+        suffixes=(".inp",),
+        encodings=("ascii",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
+            {
+                Capability.IDS,
+                Capability.NODE_SETS,
+                Capability.HEX_SETS,
+                Capability.CELL_SETS,
+                Capability.SIDE_SETS,
+                Capability.LOWER_CELLS,
+                Capability.VERTICES,
+                Capability.OTHER_CELLS,
+                Capability.SECOND_ORDER,
+            }
         ),
-        names=frozenset({"abaqus:type", "abaqus:types"}),
-        recognised=_recognised,
-        cannot=_cannot,
-    ),
+        stored_names=frozenset({"abaqus:type", "abaqus:types"}),
+        limitations=_limitations,
+        matches=_matches,
+    )
 )

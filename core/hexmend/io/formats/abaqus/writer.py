@@ -70,7 +70,7 @@ def _type_named(kind: str, types: list[str], place: int) -> str:
     return types[place] if place >= 0 else DEFAULT_TYPES[kind]
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Ids that are none here, and names with quotation marks, in words."""
     cells = [name for one in mesh.cells for name in one.sets]
     kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)

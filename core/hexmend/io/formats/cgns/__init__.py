@@ -10,7 +10,7 @@ from pathlib import Path
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.format import Format, register
 from hexmend.mesh.mesh import Mesh
 
 #: Marks of the two kinds near the beginning of a file.
@@ -28,9 +28,18 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, hdf5.content_by("hexmend.io.formats.cgns.reader:content", path))
 
 
-def recognised(head: bytes) -> bool:
+def matches(head: bytes) -> bool:
     """Whether a file begins as CGNS on HDF5 does."""
     return head.startswith(hdf5.MAGIC) and any(mark in head for mark in ON_HDF5)
 
 
-FORMATS.add("cgns", Format("cgns", "CGNS", (".cgns",), (), read, recognised=recognised))
+register(
+    Format(
+        name="cgns",
+        title="CGNS",
+        suffixes=(".cgns",),
+        encodings=(),
+        read=read,
+        matches=matches,
+    )
+)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.exodus import netcdf3
 from hexmend.io.formats.exodus.ids import IDS
 from hexmend.io.formats.exodus.records import INFORMATION, QA
@@ -31,38 +31,45 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     write_file(path, mesh)
 
 
-def cannot(mesh: Mesh) -> list[str]:
-    """What it cannot hold of what it holds as a rule, in words."""
+def limitations(mesh: Mesh) -> list[str]:
+    """Describe data of a mesh that are lost although the format has the capability."""
     from hexmend.io.formats.exodus import writer as exodus_writer
 
-    return exodus_writer.cannot(mesh)
+    return exodus_writer.limitations(mesh)
 
 
-def recognised(head: bytes) -> bool:
+def matches(head: bytes) -> bool:
     """Whether a file begins as NetCDF's do; on HDF5, as one with what Exodus keeps."""
     if netcdf3.recognised(head):
         return True
     return head.startswith(hdf5.MAGIC) and any(mark in head for mark in (b"num_nodes", b"_NCProperties", b"coordx"))
 
 
-FORMATS.add(
-    "exodus",
+register(
     Format(
-        "exodus",
-        "ExodusII",
-        (".exo", ".e", ".ex2", ".g", ".gen"),
-        ("binary",),
-        read,
-        write,
-        frozenset(
+        name="exodus",
+        title="ExodusII",
+        suffixes=(".exo", ".e", ".ex2", ".g", ".gen"),
+        encodings=("binary",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
             {
-                Capability.NODE_DATA, Capability.HEX_DATA, Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS,
-                Capability.SIDE_SETS, Capability.PINS, Capability.CELL_SETS, Capability.LOWER_CELLS,
-                Capability.OTHER_CELLS, Capability.SECOND_ORDER,
+                Capability.NODE_DATA,
+                Capability.HEX_DATA,
+                Capability.IDS,
+                Capability.NODE_SETS,
+                Capability.HEX_SETS,
+                Capability.CELL_SETS,
+                Capability.SIDE_SETS,
+                Capability.FIXED_NODES,
+                Capability.LOWER_CELLS,
+                Capability.OTHER_CELLS,
+                Capability.SECOND_ORDER,
             }
         ),
-        names=frozenset({IDS, QA, INFORMATION}),
-        recognised=recognised,
-        cannot=cannot,
+        stored_names=frozenset({IDS, QA, INFORMATION}),
+        limitations=limitations,
+        matches=matches,
     )
-)  # fmt: skip
+)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.capabilities import no_numbers, rounded
+from hexmend.io.base.capabilities import non_numeric_data, rounded_integers
 from hexmend.io.base.content import ID, Block, hex_blocks, unused
 from hexmend.io.base.fixed_marks import FIXED, held_by_pins, needs_marks
 from hexmend.io.base.unique_names import distinct, renamed
@@ -63,9 +63,9 @@ def write(path: Path, mesh: Mesh) -> None:
     file.write(path)
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Data that are no numbers or are rounded, and names that the format cannot have or that clash, in words."""
-    left, titles = rounded(mesh) + no_numbers(mesh), {}
+    left, titles = rounded_integers(mesh) + non_numeric_data(mesh), {}
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
     left += renamed(column_titles([_node_data(mesh)]), "point data") + renamed(column_titles(cell_data), "cell data")
     sets = [name for one in mesh.cells for name in one.sets]

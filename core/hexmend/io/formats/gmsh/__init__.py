@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.mesh.mesh import Mesh
 
 
@@ -22,40 +22,41 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     gmsh_write.write(path, mesh, encoding)
 
 
-def cannot(mesh: Mesh) -> list[str]:
-    """What it cannot hold of what it holds as a rule, in words."""
+def limitations(mesh: Mesh) -> list[str]:
+    """Describe data of a mesh that are lost although the format has the capability."""
     from hexmend.io.formats.gmsh import writer as gmsh_write
 
-    return gmsh_write.cannot(mesh)
+    return gmsh_write.limitations(mesh)
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
 
 
-HELD = (
-    Capability.NODE_DATA,
-    Capability.HEX_DATA,
-    Capability.IDS,
-    Capability.HEX_SETS,
-    Capability.PINS,
-    Capability.LOWER_CELLS,
-)
-
-FORMATS.add(
-    "gmsh",
+register(
     Format(
-        "gmsh",
-        "Gmsh",
-        (".msh",),
-        ("binary", "ascii"),
-        read,
-        write,
-        holds=frozenset(
-            {*HELD, Capability.VERTICES, Capability.CELL_SETS, Capability.OTHER_CELLS, Capability.SECOND_ORDER}
+        name="gmsh",
+        title="Gmsh",
+        suffixes=(".msh",),
+        encodings=("binary", "ascii"),
+        read=read,
+        write=write,
+        capabilities=frozenset(
+            {
+                Capability.NODE_DATA,
+                Capability.HEX_DATA,
+                Capability.IDS,
+                Capability.HEX_SETS,
+                Capability.CELL_SETS,
+                Capability.FIXED_NODES,
+                Capability.LOWER_CELLS,
+                Capability.VERTICES,
+                Capability.OTHER_CELLS,
+                Capability.SECOND_ORDER,
+            }
         ),
-        names=frozenset({"gmsh:physical"}),
-        recognised=_recognised,
-        cannot=cannot,
-    ),
+        stored_names=frozenset({"gmsh:physical"}),
+        limitations=limitations,
+        matches=_matches,
+    )
 )

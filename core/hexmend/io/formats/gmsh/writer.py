@@ -8,7 +8,7 @@ from typing import BinaryIO
 
 import numpy as np
 
-from hexmend.io.base.capabilities import rounded
+from hexmend.io.base.capabilities import rounded_integers
 from hexmend.io.base.content import ID, Block, from_mesh, unused
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.numbering import combinations, element_numbers, ids_lost, node_numbers, runs
@@ -45,10 +45,10 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                 write_data(out, "$ElementData", titles[name], [numbers[k] for k in parts], list(parts.values()))
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Ids and names of sets that the format cannot have, and data of other widths than its own, in words."""
     content = from_mesh(mesh)
-    left = ids_lost(mesh) + renamed(_titles(content.blocks)) + rounded(mesh)
+    left = ids_lost(mesh) + renamed(_titles(content.blocks)) + rounded_integers(mesh)
     for what, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
         arrays = [(name, np.asarray(values)) for part in data for name, values in part.items() if name != ID]
         lost = {name for name, values in arrays if written_width(values) is None}

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import FORMATS, Capability, Format
-from hexmend.io.formats.med.writer import cannot, write
+from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.formats.med.writer import limitations, write
 from hexmend.mesh.mesh import Mesh
 
 
@@ -16,40 +16,35 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, hdf5.content_by("hexmend.io.formats.med.reader:content", path))
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     """HDF5 with a group of meshes or, where that stands further on, the general information of MED."""
     return head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
 
 
-HELD = (
-    Capability.IDS,
-    Capability.NODE_SETS,
-    Capability.HEX_SETS,
-    Capability.LOWER_CELLS,
-    Capability.OTHER_CELLS,
-    Capability.SECOND_ORDER,
-)
-
-FORMATS.add(
-    "med",
+register(
     Format(
-        "med",
-        "MED",
-        (".med",),
-        ("binary",),
-        read,
-        write,
-        holds=frozenset(
+        name="med",
+        title="MED",
+        suffixes=(".med",),
+        encodings=("binary",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
             {
-                *HELD,
-                Capability.CELL_SETS,
-                Capability.VERTICES,
                 Capability.NODE_DATA,
                 Capability.HEX_DATA,
-                Capability.PINS,
+                Capability.IDS,
+                Capability.NODE_SETS,
+                Capability.HEX_SETS,
+                Capability.CELL_SETS,
+                Capability.FIXED_NODES,
+                Capability.LOWER_CELLS,
+                Capability.VERTICES,
+                Capability.OTHER_CELLS,
+                Capability.SECOND_ORDER,
             }
         ),
-        recognised=_recognised,
-        cannot=cannot,
-    ),
+        limitations=limitations,
+        matches=_matches,
+    )
 )

@@ -71,7 +71,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         write_fields(file, title, _fields(content))
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Ids that are no whole numbers, data that are no numbers, and names too long, in words."""
     content = from_mesh(mesh)
     left = []

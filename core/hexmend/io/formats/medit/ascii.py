@@ -8,8 +8,8 @@ import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, shown
 from hexmend.io.base.decimals import blocks, lines
-from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.formats.medit.content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
+from hexmend.io.base.format import Format, register
+from hexmend.io.formats.medit.content import CAPABILITIES, SECTIONS, STORED_NAMES, from_mesh, limitations, to_mesh
 from hexmend.mesh.mesh import Mesh
 
 _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
@@ -90,7 +90,16 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(b"End\n")
 
 
-FORMATS.add(
-    "medit",
-    Format("medit", "Medit", (".mesh",), ("ascii",), read, write, holds=HELD, names=NAMES_HELD, cannot=cannot),
+register(
+    Format(
+        name="medit",
+        title="Medit",
+        suffixes=(".mesh",),
+        encodings=("ascii",),
+        read=read,
+        write=write,
+        capabilities=CAPABILITIES,
+        stored_names=STORED_NAMES,
+        limitations=limitations,
+    )
 )

@@ -9,8 +9,8 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.formats.medit.content import HELD, NAMES_HELD, SECTIONS, cannot, from_mesh, to_mesh
+from hexmend.io.base.format import Format, register
+from hexmend.io.formats.medit.content import CAPABILITIES, SECTIONS, STORED_NAMES, from_mesh, limitations, to_mesh
 from hexmend.mesh.mesh import Mesh
 
 _DIMENSION, _VERTICES, _END = 3, 4, 54
@@ -93,17 +93,16 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(struct.pack(offset, 0))
 
 
-FORMATS.add(
-    "medit-binary",
+register(
     Format(
-        "medit-binary",
-        "binary Medit",
-        (".meshb",),
-        ("binary",),
-        read,
-        write,
-        holds=HELD,
-        names=NAMES_HELD,
-        cannot=cannot,
-    ),
+        name="medit-binary",
+        title="binary Medit",
+        suffixes=(".meshb",),
+        encodings=("binary",),
+        read=read,
+        write=write,
+        capabilities=CAPABILITIES,
+        stored_names=STORED_NAMES,
+        limitations=limitations,
+    )
 )

@@ -63,8 +63,8 @@ _FLAGS = (
     ("RequiredQuadrilaterals", "quad", "medit:required"),
 )
 #: What the format holds, and which names of data and sets.
-HELD = frozenset({Capability.PINS, Capability.LOWER_CELLS, Capability.OTHER_CELLS})
-NAMES_HELD = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
+CAPABILITIES = frozenset({Capability.FIXED_NODES, Capability.LOWER_CELLS, Capability.OTHER_CELLS})
+STORED_NAMES = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 
@@ -133,7 +133,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
     return content.points, refs.astype(np.int64), kept
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Nodes of second order of cells beside hexes of first order, in words."""
     return middles_lost(mesh, _KINDS)
 

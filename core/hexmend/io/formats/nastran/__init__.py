@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, from_mesh
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.base.lower_order import middles_lost, reduced
 from hexmend.io.base.numbering import element_numbers, ids_lost, node_numbers
 from hexmend.mesh.mesh import Mesh
@@ -77,7 +77,7 @@ def _properties(block: Block) -> dict[int, np.ndarray]:
     return {int(match[1]): np.asarray(members, np.int64) for match, members in found if match}
 
 
-def _cannot(mesh: Mesh) -> list[str]:
+def _limitations(mesh: Mesh) -> list[str]:
     """Ids and digits without a place, properties that share elements with later ones, and mid-nodes, in words."""
     losing = set()
     for block in from_mesh(mesh).blocks:
@@ -137,23 +137,27 @@ _FIRST: Callable[[bytes], re.Match[bytes] | None] = re.compile(
 ).match
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     return _FIRST(head) is not None
 
 
-FORMATS.add(
-    "nastran",
+register(
     Format(
-        "nastran",
-        "Nastran",
-        (".bdf", ".nas", ".dat"),
-        ("ascii",),
-        read,
-        write,
-        holds=frozenset({Capability.IDS, Capability.OTHER_CELLS}),
-        names=_Properties(),
-        recognised=_recognised,
+        name="nastran",
+        title="Nastran",
+        suffixes=(".bdf", ".nas", ".dat"),
+        encodings=("ascii",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
+            {
+                Capability.IDS,
+                Capability.OTHER_CELLS,
+            }
+        ),
+        stored_names=_Properties(),
+        limitations=_limitations,
         exact=False,  # a column has room for 12 to 14 digits
-        cannot=_cannot,
-    ),
+        matches=_matches,
+    )
 )

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, shown, text_of
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.base.polyhedra import Lists, cells_of
-from hexmend.io.formats.ovm.writer import cannot, write
+from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
 
@@ -144,31 +144,30 @@ def _check(source: ByteCursor, name: str, values: np.ndarray, limit: int) -> Non
         raise source.error(f"{name} name {wrong}: expected numbers from 0 to {limit - 1}")
 
 
-def _recognised(head: bytes) -> bool:
+def _matches(head: bytes) -> bool:
     return head[:9].upper() == b"OVM ASCII"
 
 
-HELD = (
-    Capability.NODE_DATA,
-    Capability.HEX_DATA,
-    Capability.IDS,
-    Capability.NODE_SETS,
-    Capability.HEX_SETS,
-    Capability.PINS,
-    Capability.OTHER_CELLS,
-)
-
-FORMATS.add(
-    "ovm",
+register(
     Format(
-        "ovm",
-        "OpenVolumeMesh",
-        (".ovm",),
-        ("ascii",),
-        read,
-        write,
-        holds=frozenset(HELD),
-        recognised=_recognised,
-        cannot=cannot,
-    ),
+        name="ovm",
+        title="OpenVolumeMesh",
+        suffixes=(".ovm",),
+        encodings=("ascii",),
+        read=read,
+        write=write,
+        capabilities=frozenset(
+            {
+                Capability.NODE_DATA,
+                Capability.HEX_DATA,
+                Capability.IDS,
+                Capability.NODE_SETS,
+                Capability.HEX_SETS,
+                Capability.FIXED_NODES,
+                Capability.OTHER_CELLS,
+            }
+        ),
+        limitations=limitations,
+        matches=_matches,
+    )
 )

@@ -52,7 +52,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _write_properties(file, "CProp", grid.cell_data)
 
 
-def cannot(mesh: Mesh) -> list[str]:
+def limitations(mesh: Mesh) -> list[str]:
     """Data of no type of the format, names that it cannot have, and mid-nodes, in words."""
     grid = of_content(replace(content_of(mesh), node_data=with_marks(mesh)))
     left = []

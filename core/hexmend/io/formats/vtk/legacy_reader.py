@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.capabilities import no_numbers
+from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, shown
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, array, strings_of, unquoted, whole_numbers
 from hexmend.io.formats.vtk.legacy_writer import write
@@ -243,17 +243,16 @@ class _Reader:
         return start, flat[keep]
 
 
-FORMATS.add(
-    "vtk",
+register(
     Format(
-        "vtk",
-        "VTK legacy",
-        (".vtk",),
-        ("binary", "ascii"),
-        read,
-        write,
-        holds=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
-        cannot=no_numbers,
-        recognised=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
-    ),
+        name="vtk",
+        title="VTK legacy",
+        suffixes=(".vtk",),
+        encodings=("binary", "ascii"),
+        read=read,
+        write=write,
+        capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+        limitations=non_numeric_data,
+        matches=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
+    )
 )

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from hexmend.errors import FileError
-from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.format import Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import joined
 from hexmend.io.formats.vtk.vtu import grids_of
@@ -66,6 +66,13 @@ def _place(path: Path, name: str) -> Path:
     return path.parent / relative
 
 
-FORMATS.add(
-    "pvtu", Format("pvtu", "PVTU", (".pvtu",), (), read, recognised=lambda head: _ROOT.search(head) is not None)
+register(
+    Format(
+        name="pvtu",
+        title="PVTU",
+        suffixes=(".pvtu",),
+        encodings=(),
+        read=read,
+        matches=lambda head: _ROOT.search(head) is not None,
+    )
 )

@@ -15,7 +15,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import Content, to_mesh
-from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.format import Format, register
 from hexmend.io.base.memory_budget import Allowance
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import joined
@@ -194,14 +194,13 @@ def _group(parent, name: str):
     return found if isinstance(found, h5py.Group) else None
 
 
-FORMATS.add(
-    "vtkhdf",
+register(
     Format(
-        "vtkhdf",
-        "VTKHDF",
-        (".vtkhdf",),
-        (),
-        read,
-        recognised=lambda head: head.startswith(hdf5.MAGIC) and b"VTKHDF" in head,
-    ),
+        name="vtkhdf",
+        title="VTKHDF",
+        suffixes=(".vtkhdf",),
+        encodings=(),
+        read=read,
+        matches=lambda head: head.startswith(hdf5.MAGIC) and b"VTKHDF" in head,
+    )
 )

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.capabilities import no_numbers
-from hexmend.io.base.format import FORMATS, Capability, Format
+from hexmend.io.base.capabilities import non_numeric_data
+from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import joined
 from hexmend.io.formats.vtk.vtu_writer import write
@@ -127,17 +127,16 @@ def _width(document: Document, array: XMLElement) -> int:
     return max(1, document.count(array, "NumberOfComponents"))  # VTK's writers leave 1 away, and old ones say 0
 
 
-FORMATS.add(
-    "vtu",
+register(
     Format(
-        "vtu",
-        "VTU",
-        (".vtu",),
-        ("binary", "ascii"),
-        read,
-        write,
-        holds=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
-        cannot=no_numbers,
-        recognised=lambda head: _ROOT.search(head) is not None,
-    ),
+        name="vtu",
+        title="VTU",
+        suffixes=(".vtu",),
+        encodings=("binary", "ascii"),
+        read=read,
+        write=write,
+        capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+        limitations=non_numeric_data,
+        matches=lambda head: _ROOT.search(head) is not None,
+    )
 )

@@ -108,7 +108,7 @@ def test_a_file_of_gmsh_is_read(file, kinds):
 def test_what_is_written_is_read_again(nodes, tmp_path):
     mesh = with_everything(nodes)
     io.write(tmp_path / "a.inp", mesh)
-    assert io.left_out(tmp_path / "a.inp", mesh) == []
+    assert io.unsupported_data(tmp_path / "a.inp", mesh) == []
     assert_same(mesh, io.read(tmp_path / "a.inp"))
 
 

@@ -152,8 +152,8 @@ def test_records_of_the_programs_that_made_a_file_are_kept(tmp_path):
     ]
     mesh = io.read(written(tmp_path / "q.exo", UNIT_CUBE, [("HEX8", "", [range(1, 9)])], more))
     assert mesh.notes == ()
-    assert io.left_out("a.exo", mesh) == []
-    assert io.left_out("a.med", mesh) == ["field data (exodus:information, exodus:qa)"]
+    assert io.unsupported_data("a.exo", mesh) == []
+    assert io.unsupported_data("a.med", mesh) == ["field data (exodus:information, exodus:qa)"]
     io.write(tmp_path / "again.exo", mesh)
     back = io.read(tmp_path / "again.exo")
     assert back.field_data["exodus:qa"] == qa

@@ -13,7 +13,7 @@ from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, writ
 
 def test_all_that_is_held_is_read_again(tmp_path):
     mesh = rich()
-    assert io.left_out(tmp_path / "r.exo", mesh) == []
+    assert io.unsupported_data(tmp_path / "r.exo", mesh) == []
     io.write(tmp_path / "r.exo", mesh)
     back = io.read(tmp_path / "r.exo")
     np.testing.assert_array_equal(back.hexes, mesh.hexes)
@@ -117,7 +117,7 @@ def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     ]
     blocks = [("HEX8", "", bare.hexes + 1), ("SHELL4", "", bare.hexes[:1, 4:] + 1)]
     mesh = io.read(written(tmp_path / "m.exo", bare.points, blocks, more))
-    assert io.left_out(tmp_path / "again.exo", mesh) == []
+    assert io.unsupported_data(tmp_path / "again.exo", mesh) == []
     io.write(tmp_path / "again.exo", mesh.replace(node_sets={"new": np.array([3]), **mesh.node_sets}))
     from scipy.io import netcdf_file
 
@@ -130,9 +130,9 @@ def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     large = np.arange(8) + 2**53
     mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
     told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
-    assert io.left_out(tmp_path / "a.exo", mesh) == told
+    assert io.unsupported_data(tmp_path / "a.exo", mesh) == told
     kept = mesh.replace(hex_data={"exact": large - 8, "id": large})
-    assert io.left_out(tmp_path / "a.exo", kept) == []
+    assert io.unsupported_data(tmp_path / "a.exo", kept) == []
     io.write(tmp_path / "a.exo", kept)
     np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
 
@@ -142,7 +142,7 @@ def test_columns_that_have_the_names_of_other_data_are_renamed_together_and_that
     vector, pair, scalar = rng.normal(size=(27, 3)), rng.normal(size=(27, 2)), rng.normal(size=27)
     nodes = {"v": vector, "v_x": scalar, "w": pair, "w_3": scalar, "free": vector}
     mesh = grid(2).replace(node_data=nodes, hex_data={"s": rng.normal(size=(8, 3)), "s_z": np.arange(8.0)})
-    assert io.left_out(tmp_path / "a.exo", mesh) == [
+    assert io.unsupported_data(tmp_path / "a.exo", mesh) == [
         "names of point data as they are (v, w)",
         "names of cell data as they are (s)",
     ]
@@ -164,7 +164,7 @@ def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
         hex_sets={name: np.array([k]) for k, name in enumerate(names)},
         side_sets={"": np.array([[0, 0]])},
     )
-    assert io.left_out(tmp_path / "a.exo", mesh) == [
+    assert io.unsupported_data(tmp_path / "a.exo", mesh) == [
         "point data that are no numbers (phase)",
         "cell data that are no numbers (label)",
         "names of point data as they are ( t, v)",

@@ -195,7 +195,7 @@ def test_data_of_any_width_are_read(tmp_path):
 def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_said(encoding, tmp_path):
     data = {"two": np.ones((8, 2)), "six": np.full((8, 6), 6), "ten": np.ones((8, 10)), "tensor": np.ones((8, 3, 3))}
     mesh = grid(1).replace(node_data={**data, "a b": np.zeros(8), "a  b": np.ones(8)}, hex_data={"word": ["x"]})
-    assert io.left_out(tmp_path / "a.msh", mesh) == [
+    assert io.unsupported_data(tmp_path / "a.msh", mesh) == [
         "point data of more than 9 columns, or no numbers (ten)",
         "names of point data as they are (a  b)",
         "the width of point data, filled up to 3 or 9 columns (six, two)",
@@ -228,14 +228,16 @@ def test_no_cells_have_no_data(tmp_path):
 
 def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
-    assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.left_out(tmp_path / "a.msh", mesh)
+    assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.unsupported_data(
+        tmp_path / "a.msh", mesh
+    )
 
 
 def test_data_of_one_name_and_several_widths_are_told(tmp_path):
     quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"d": np.ones((2, 3)), "e": np.ones(2)})
     mesh = grid(2).replace(hex_data={"d": np.ones(8), "e": np.ones(8)}, cells=(quads,))
     path = tmp_path / "a.msh"
-    assert io.left_out(path, mesh) == ["names of cell data as they are (d)"]
+    assert io.unsupported_data(path, mesh) == ["names of cell data as they are (d)"]
     io.write(path, mesh)
     back = io.read(path)
     assert set(back.hex_data) == {"d", "e", "id"}

@@ -66,7 +66,7 @@ def test_names_and_values_that_fields_cannot_have_are_named(tmp_path):
     names = ["a/b", "a_b", ".", "é" * 40 + "1", "é" * 40 + "2"]
     data = {name: np.full(8, k) for k, name in enumerate(names)}
     mesh = grid(1).replace(node_data={**data, "words": np.array(["x"] * 8)})
-    said = io.left_out(tmp_path / "a.med", mesh)
+    said = io.unsupported_data(tmp_path / "a.med", mesh)
     assert said[0] == "point data that are no numbers (words)"
     assert said[1].startswith("names of data as they are (., a/b, ")
     io.write(tmp_path / "a.med", mesh)
@@ -118,7 +118,7 @@ def test_fields_of_other_meshes_are_left_out_and_said(tmp_path):
 
 def test_fields_that_get_another_name_for_their_type_are_told(tmp_path):
     mesh = grid(2).replace(node_data={"a": np.zeros(27)}, hex_data={"a": np.arange(8)})
-    assert "names of data as they are (a)" in io.left_out(tmp_path / "a.med", mesh)
+    assert "names of data as they are (a)" in io.unsupported_data(tmp_path / "a.med", mesh)
 
 
 def test_no_cells_have_no_values(tmp_path):

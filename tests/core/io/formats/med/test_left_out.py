@@ -14,7 +14,7 @@ def test_ids_that_are_no_whole_numbers_are_left_out_and_said_to_be(where, whole,
     count = mesh.n_nodes if where == "node_data" else mesh.n_hexes
     mesh = mesh.replace(**{where: {"id": np.arange(1, count + 1) + (0 if whole else 0.5)}})
     sort = "nodes" if where == "node_data" else "elements"
-    assert io.left_out(tmp_path / "a.med", mesh) == ([] if whole else [f"ids of {sort} (no whole numbers)"])
+    assert io.unsupported_data(tmp_path / "a.med", mesh) == ([] if whole else [f"ids of {sort} (no whole numbers)"])
 
 
 def test_a_file_says_that_it_is_of_med_4_1_and_holds_an_unstructured_mesh_of_three_dimensions(tmp_path):

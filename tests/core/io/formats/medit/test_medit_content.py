@@ -26,7 +26,7 @@ def test_cells_of_second_order_are_written_with_their_corners(suffix, tmp_path):
         hex_data={"medit:ref": np.array([7, 8])},
         node_sets={"corners": np.array([11, 23])},
     )
-    assert io.left_out(tmp_path / f"a{suffix}", mesh) == ["nodes of second order"]
+    assert io.unsupported_data(tmp_path / f"a{suffix}", mesh) == ["nodes of second order"]
     io.write(tmp_path / f"a{suffix}", mesh)
     back = io.read(tmp_path / f"a{suffix}")
     np.testing.assert_array_equal(back.points, bare.points)
@@ -43,4 +43,4 @@ def test_cells_of_second_order_are_written_with_their_corners(suffix, tmp_path):
 def test_that_cells_beside_the_hexes_lose_nodes_is_said(suffix, tmp_path):
     bare = grid(2)
     mesh = bare.replace(cells=(Cells("triangle6", np.array([[0, 2, 6, 1, 4, 3]])),))
-    assert "nodes of second order" in io.left_out(tmp_path / f"a{suffix}", mesh)
+    assert "nodes of second order" in io.unsupported_data(tmp_path / f"a{suffix}", mesh)

@@ -51,7 +51,7 @@ def test_what_is_written_is_read_again(nodes, tmp_path):
     np.testing.assert_allclose(again.points, mesh.points, rtol=1e-12, atol=1e-15)
     assert_same(mesh.rebuilt(points=again.points), again, without=("node_sets", "side_sets", "cells"))
     assert [one.kind for one in again.cells] == [one.kind for one in mesh.cells]
-    assert not any("property" in words for words in io.left_out(tmp_path / "a.nas", mesh))
+    assert not any("property" in words for words in io.unsupported_data(tmp_path / "a.nas", mesh))
 
 
 def test_of_27_nodes_20_are_written(tmp_path):
@@ -128,7 +128,7 @@ def test_what_is_wrong_is_named(old, new, words, tmp_path):
 )
 def test_elements_are_in_the_properties_they_were_in_or_it_is_said(sets, members, said, tmp_path):
     mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
-    assert io.left_out(tmp_path / "a.bdf", mesh) == said
+    assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
     io.write(tmp_path / "a.bdf", mesh)
     assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members
 
@@ -138,14 +138,14 @@ def test_digits_that_columns_have_no_place_for_are_said(tmp_path):
     fine = grid(2)
     for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
         mesh = Mesh(fine.points * scale, fine.hexes)
-        assert io.left_out(tmp_path / "a.bdf", mesh) == said
+        assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
         io.write(tmp_path / "a.bdf", mesh)
         assert np.array_equal(io.read(tmp_path / "a.bdf").points, mesh.points) == (not said)
 
 
 def test_ids_of_more_than_eight_digits_do_not_keep_a_mesh_from_being_written(tmp_path):
     mesh = grid(2).replace(node_data={"id": np.arange(27) + 10**8 - 26}, hex_data={"id": np.arange(8) + 10**8 - 8})
-    assert io.left_out(tmp_path / "a.bdf", mesh) == ["ids of nodes (some of 100,000,000 and above)"]
+    assert io.unsupported_data(tmp_path / "a.bdf", mesh) == ["ids of nodes (some of 100,000,000 and above)"]
     io.write(tmp_path / "a.bdf", mesh)
     back = io.read(tmp_path / "a.bdf")
     np.testing.assert_array_equal(back.node_data["id"], np.arange(27) + 1)

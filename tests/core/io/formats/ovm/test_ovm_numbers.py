@@ -13,7 +13,7 @@ MOST = 2**63 - 1
 def test_whole_numbers_are_kept_up_to_the_greatest(most, tmp_path):
     values = np.array([0, 1, 2, 3, 4, 5, 6, most], np.uint64)
     mesh = grid(2).replace(hex_data={"key": values})
-    assert io.left_out(tmp_path / "a.ovm", mesh) == []
+    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == []
     io.write(tmp_path / "a.ovm", mesh)
     assert io.read(tmp_path / "a.ovm").hex_data["key"].tolist() == values.tolist()
 
@@ -21,7 +21,7 @@ def test_whole_numbers_are_kept_up_to_the_greatest(most, tmp_path):
 @pytest.mark.parametrize("least", [0, MOST + 1])
 def test_a_greater_one_is_said_to_be_lost(least, tmp_path):
     values = np.array([least] * 7 + [MOST + 1], np.uint64)
-    assert io.left_out(tmp_path / "a.ovm", grid(2).replace(hex_data={"key": values})) != []
+    assert io.unsupported_data(tmp_path / "a.ovm", grid(2).replace(hex_data={"key": values})) != []
 
 
 @pytest.mark.parametrize("least", [-(2**31), -(2**31) - 1, -(2**63)])

@@ -109,7 +109,7 @@ def test_properties_sets_and_other_cells_are_read_again(tmp_path):
             Cells("tetra", np.array([[5, 6, 8, 9]]), {"id": np.array([10])}),
         ),
     )
-    assert io.left_out(tmp_path / "a.ovm", mesh) == []
+    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == []
     io.write(tmp_path / "a.ovm", mesh)
     back = io.read(tmp_path / "a.ovm")
     for name, values in mesh.node_data.items():
@@ -127,7 +127,7 @@ def test_what_the_format_has_no_type_for_is_named(tmp_path):
     mesh = grid(1).replace(
         node_data={"tensor": np.zeros((8, 9)), "large": np.full((8, 2), 2**40), 'a"b': np.ones(8), "a'b": np.zeros(8)}
     )
-    assert io.left_out(tmp_path / "a.ovm", mesh) == [
+    assert io.unsupported_data(tmp_path / "a.ovm", mesh) == [
         "point data of more than 4 columns, or no numbers (large, tensor)",
         'names of point data and sets as they are (a"b)',
     ]
@@ -144,7 +144,7 @@ def test_a_hex_with_a_node_twice_is_refused(tmp_path):
 
 def test_data_of_one_column_are_written_as_numbers(tmp_path):
     mesh = grid(2).replace(node_data={"one": np.arange(27.0)[:, None]})
-    assert not io.left_out(tmp_path / "a.ovm", mesh)
+    assert not io.unsupported_data(tmp_path / "a.ovm", mesh)
     io.write(tmp_path / "a.ovm", mesh)
     np.testing.assert_array_equal(io.read(tmp_path / "a.ovm").node_data["one"], np.arange(27.0))
 
