@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.study.thesis.mesh_figures import MeshFigure
@@ -74,7 +74,7 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
     if format_of(path) != "PNG":
         sheet.write(path)
         return
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         _with_palette(sheet.image(), bar).save(temporary, format="PNG")
 
 

@@ -7,20 +7,20 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import Block, Content, joined, to_mesh
+from hexmend.io.base.content import Block, Content, concatenate_data, to_mesh
 from hexmend.io.base.format import Format
 from hexmend.io.formats.cgns import ADF
 from hexmend.io.formats.cgns.reader import JOINED_BY
 from hexmend.io.formats.cgns.structured import hexes_between
 from hexmend.io.formats.vtk.grid import KINDS, WIDTHS
-from hexmend.io.storage.subprocess_reader import in_child
+from hexmend.io.storage.subprocess_reader import run_reader
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
 
 
 def read(path: Path) -> Mesh:
     """Read a CGNS file by VTK, in a process of its own: on a damaged file the library can end that."""
-    return to_mesh(path, in_child("hexmend_app.formats.cgns_adf:content", path))
+    return to_mesh(path, run_reader("hexmend_app.formats.cgns_adf:content", path))
 
 
 def content(path: Path) -> Content:
@@ -52,7 +52,7 @@ def content(path: Path) -> Content:
         points.append(here)
         data.append(_arrays(zone.GetPointData()))
         first += len(here)
-    node_data = joined(data, [len(part) for part in points])
+    node_data = concatenate_data(data, [len(part) for part in points])
     return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
 
 

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from hexmend import __version__
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.tables import Table
 from hexmend.study.bench.sections import machine
@@ -138,7 +138,7 @@ def _places(one: Chapter) -> list[tuple[str, str]]:
 
 def write_page(path: Path, text: str) -> None:
     """Write a page as a whole or not at all."""
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 

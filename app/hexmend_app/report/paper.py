@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.errors import HexmendError
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 
 
 def write_paper(path: Path, text: str) -> None:
@@ -23,7 +23,7 @@ def write_paper(path: Path, text: str) -> None:
     from weasyprint.urls import URLFetcher
 
     fetcher = URLFetcher(allowed_protocols=["data"])  # the page names nothing outside itself
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         HTML(string=text, url_fetcher=fetcher).write_pdf(temporary)
 
 

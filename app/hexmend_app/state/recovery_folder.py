@@ -14,7 +14,7 @@ from PySide6.QtCore import QLockFile
 
 from hexmend.io.archive.members import DESCRIPTION
 from hexmend.io.formats.session import KeptSession
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend_app.state import session_data
 from hexmend_app.state.task import Task
 
@@ -58,7 +58,7 @@ def write_session(folder: Path, kept: KeptSession, data: session_data.SessionDat
     """Write what is new of a session, with an account of it."""
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})
-    with replacing(folder / ABOUT) as temporary:
+    with atomic_write(folder / ABOUT) as temporary:
         temporary.write_text(about, encoding="utf-8")
     if (folder / SESSION).is_file():
         os.replace(folder / SESSION, folder / EARLIER)

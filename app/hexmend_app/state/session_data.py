@@ -11,7 +11,7 @@ from typing import Any
 from hexmend.advice import Advice
 from hexmend.errors import FileError, MeshError
 from hexmend.io.formats.session import SUFFIX, KeptSession, is_session, read_session, write_session
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
@@ -114,7 +114,7 @@ def write(path: Path, data: SessionData) -> None:
     FileError
         Where the place cannot be written to.
     """
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         write_session(temporary, *_stored(data))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.interop.conversion import importing, mesh_of
 from hexmend.interop.side_marks import with_side_marks
-from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh, joined, joined_sets, to_mesh
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, concatenate_sets, from_mesh, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
@@ -65,7 +65,7 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
     meshio = _library()
     content = from_mesh(with_side_marks(mesh))
     lengths = [len(block) for block in content.blocks]
-    data = joined([block.data for block in content.blocks], lengths)
+    data = concatenate_data([block.data for block in content.blocks], lengths)
     sets = dict.fromkeys(name for block in content.blocks for name in block.sets)
     return meshio.Mesh(
         np.array(content.points),
@@ -169,8 +169,8 @@ def _merged(blocks: Sequence[Block]) -> Block:
     """Blocks of one kind as one."""
     lengths = [len(block) for block in blocks]
     data, sets = (
-        joined([block.data for block in blocks], lengths),
-        joined_sets([block.sets for block in blocks], lengths),
+        concatenate_data([block.data for block in blocks], lengths),
+        concatenate_sets([block.sets for block in blocks], lengths),
     )
     return Block(blocks[0].kind, np.concatenate([block.nodes for block in blocks]), data, sets)
 

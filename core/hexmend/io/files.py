@@ -10,10 +10,10 @@ from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
-from hexmend.io.base.content import PLACING
+from hexmend.io.base.content import INTERPOLATE_MISSING
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.base.plugins import further
-from hexmend.io.storage.atomic import check_writable, replacing
+from hexmend.io.base.plugins import plugin_formats
+from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
@@ -45,11 +45,11 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_pla
     check_readable(path, "a mesh file")
     format = _format_of(path)
     try:
-        placing = PLACING.set(nodes_without_place)
+        placing = INTERPOLATE_MISSING.set(nodes_without_place)
         try:
             mesh = format.read(path).replace(name=path.stem)
         finally:
-            PLACING.reset(placing)
+            INTERPOLATE_MISSING.reset(placing)
         return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -84,7 +84,7 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
         raise FileError(
             path, f"{format.title} has no encoding {encoding!r}", f"Use one of {', '.join(format.encodings)}."
         )
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
         except FileError as error:  # which names the temporary file
@@ -141,7 +141,7 @@ def writable_suffixes() -> tuple[str, ...]:
 
 
 def _every_format() -> tuple[Format, ...]:
-    return *FORMATS.values(), *further()
+    return *FORMATS.values(), *plugin_formats()
 
 
 def _suffixes(formats: Iterable[Format]) -> tuple[str, ...]:
@@ -169,7 +169,7 @@ def _format_of(path: Path) -> Format:
     for format in FORMATS.values():
         if format.matches is not None and format.matches(head):
             return format
-    for format in further():  # which are looked for only where none of these knows the file
+    for format in plugin_formats():  # which are looked for only where none of these knows the file
         if format.matches is not None and format.matches(head):
             return format
         if not named and path.suffix.lower() in format.suffixes:
@@ -178,7 +178,7 @@ def _format_of(path: Path) -> Format:
 
 
 def _writer(path: Path) -> Format:
-    for formats in (FORMATS.values, further):  # other distributions' are looked for where none of ours writes it
+    for formats in (FORMATS.values, plugin_formats):  # other distributions' are looked for where none of ours writes it
         for format in formats():
             if format.write and path.suffix.lower() in format.suffixes:
                 return format

@@ -9,7 +9,7 @@ from statistics import median
 from typing import Any
 
 from hexmend.errors import HexmendError
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.documents import write_csv, write_text
 from hexmend.report.latex import latex
@@ -61,7 +61,7 @@ def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
         raise HexmendError(f"{path.name} needs pyarrow: run  pip install 'hexmend[study]'") from None
     known = {str: pa.string(), int: pa.int64(), float: pa.float64()}
     schema = pa.schema([(name, known[type_]) for name, type_ in types.items()])
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         parquet.write_table(pa.Table.from_pylist([dict(row) for row in rows], schema), temporary)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import Parametrised, parameter
 from hexmend.terminal_text import printable
@@ -210,5 +210,5 @@ def save_figure(figure: Figure, path: Path, dpi: float = 160, *, outlines: bool 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     how = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
-    with replacing(path) as temporary, rc_context(how):  # names that are not drawn by lot, and no date
+    with atomic_write(path) as temporary, rc_context(how):  # names that are not drawn by lot, and no date
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))

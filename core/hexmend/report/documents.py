@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import FileError
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.io.storage.temporary_files import make_folder
 from hexmend.report.latex import latex
@@ -85,7 +85,7 @@ def write_document(path: Path, table: Table, rows: Sequence[Mapping[str, Any]], 
 
 def write_text(path: Path, text: str) -> None:
     """Write a text file as a whole or not at all; names of files that are no text keep their bytes."""
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8", errors="surrogateescape")
 
 
@@ -94,7 +94,7 @@ def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     flat = [{key: _cell(value) for key, value in row.items() if not isinstance(value, list)} for row in rows]
     columns = list(dict.fromkeys(key for row in flat for key in row))
     with (
-        replacing(path) as temporary,
+        atomic_write(path) as temporary,
         open(temporary, "w", newline="", encoding="utf-8", errors="surrogateescape") as file,
     ):
         writer = csv.DictWriter(file, columns)

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 
 if TYPE_CHECKING:
     from hexmend.iteration import Result
@@ -44,7 +44,7 @@ def to_json(data: Any) -> str:
 
 def write_json(path: str | Path, data: Any) -> None:
     """Write JSON beside the target and rename it."""
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(to_json(data) + "\n", encoding="utf-8")
 
 
@@ -52,7 +52,7 @@ def write_history(path: str | Path, result: Result) -> None:
     """Write the history as CSV, an empty field where the objective is infinite."""
     from hexmend.iteration.figures import HISTORY
 
-    with replacing(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+    with atomic_write(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         rows = csv.DictWriter(file, HISTORY, extrasaction="ignore")
         rows.writeheader()
         rows.writerows(result.history)

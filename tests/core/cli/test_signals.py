@@ -100,9 +100,9 @@ def test_a_program_that_is_killed_while_writing_leaves_the_old_file_whole(mesh):
 def test_a_file_that_replaces_another_has_its_mode_from_the_first_byte(mesh, tmp_path):
     mesh.chmod(0o600)
     seen = []
-    from hexmend.io.storage.atomic import replacing
+    from hexmend.io.storage.atomic import atomic_write
 
-    with replacing(mesh) as temporary:
+    with atomic_write(mesh) as temporary:
         seen.append(stat.S_IMODE(os.stat(temporary).st_mode))
         temporary.write_bytes(b"new")
     assert seen == [0o600]

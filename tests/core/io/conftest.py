@@ -21,7 +21,7 @@ def readers_without_a_process_each(request, monkeypatch):
     def here(reader, path):
         module, _, function = reader.partition(":")
         arrays = {}
-        said = subprocess_reader.packed(getattr(import_module(module), function)(path), arrays)
-        return subprocess_reader.unpacked(said, arrays)
+        said = subprocess_reader.encode(getattr(import_module(module), function)(path), arrays)
+        return subprocess_reader.decode(said, arrays)
 
-    monkeypatch.setattr(subprocess_reader, "in_child", here)
+    monkeypatch.setattr(subprocess_reader, "run_reader", here)

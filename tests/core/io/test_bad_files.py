@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import FORMATS
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from tests.core.grids import grid, scrambled
 
 WAYS = [(one.suffixes[0], encoding) for one in FORMATS.values() for encoding in one.encodings]
@@ -91,7 +91,7 @@ def test_a_missing_file_is_said_with_its_nearest(tmp_path):
 def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
     path = tmp_path / "old.vtk"
     path.write_text("old")
-    with pytest.raises(ZeroDivisionError), replacing(path) as temporary:
+    with pytest.raises(ZeroDivisionError), atomic_write(path) as temporary:
         temporary.write_text("half")
         raise ZeroDivisionError
     assert path.read_text() == "old"
@@ -100,7 +100,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
 
 def test_a_write_replaces_the_file_with_the_users_permissions(tmp_path):
     path = tmp_path / "new.vtk"
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         assert temporary.parent == tmp_path
         assert temporary.suffix == ".vtk"
         temporary.write_text("new")

@@ -8,7 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import Sweep
@@ -92,7 +92,7 @@ class Script(QObject):
 
     def write(self, path: str | Path) -> None:
         """Save it as a file; `FileError` where it cannot be written."""
-        with replacing(path) as temporary:
+        with atomic_write(path) as temporary:
             Path(temporary).write_text(self.text, encoding="utf-8", errors="backslashreplace")
 
     # Meshes

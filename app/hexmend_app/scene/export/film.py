@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend.boundary.displacement import Displacement, Moment
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.scene.export.chart import histogram
 from hexmend_app.scene.export.frames import INK, colour_bar, letters, paper, pen_of, strip_height
@@ -134,7 +134,7 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
     lengths[0] = lengths[-1] = _STAND
     if format == "GIF":
         frames = _with_one_palette(frames)
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         if format == "MP4":
             write_movie(temporary, frames, lengths, rate)
             return

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.node_step import NodeStep
 from hexmend_app.scene.export.bar import draw_bar
@@ -86,7 +86,7 @@ class Sheet:
             For another suffix, or where the file cannot be written; the one that was there stays.
         """
         kind = format_of(path)
-        with replacing(path) as temporary:
+        with atomic_write(path) as temporary:
             if kind in _DATES:
                 self._write_vectors(temporary, kind)
             else:

@@ -19,7 +19,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.archive.archive import described, write_array
 from hexmend.io.archive.members import ARRAYS, DESCRIPTION, MEMBER
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.temporary_files import flush_file, flush_folder, make_folder
 
 
@@ -69,7 +69,7 @@ class ArchiveFolder:
                 flush_file(self._file(at))
             if fresh:
                 flush_folder(self.path / ARRAYS)
-            with replacing(self.path / DESCRIPTION) as temporary:
+            with atomic_write(self.path / DESCRIPTION) as temporary:
                 temporary.write_text(description, encoding="utf-8")
         except (OSError, FileError) as error:
             self._remove(at for _, at in fresh)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 import numpy as np
 
 from hexmend.io.base.content import ID
-from hexmend.io.base.fixed_marks import held_by_pins, needs_marks
+from hexmend.io.base.fixed_marks import needs_marks, redundant_marks
 from hexmend.io.base.format import Capability
 from hexmend.mesh.mesh import Mesh
 
@@ -33,7 +33,7 @@ def required_capabilities(mesh: Mesh, stored_names: Collection[str] = ()) -> dic
     volume_sets = [mesh.hex_sets, *(cells.sets for cells in mesh.cells if cells.dimension == 3)]
     lower_sets = [cells.sets for cells in mesh.cells if cells.dimension < 3]
     names = {
-        Capability.NODE_DATA: [name for name in mesh.node_data if name not in (ID, held_by_pins(mesh))],
+        Capability.NODE_DATA: [name for name in mesh.node_data if name not in (ID, redundant_marks(mesh))],
         Capability.HEX_DATA: [name for name in _names(data) if name != ID],
         Capability.IDS: [""] if ID in mesh.node_data or ID in _names(data) else [],
         Capability.NODE_SETS: _non_empty([mesh.node_sets]),

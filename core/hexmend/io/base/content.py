@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.fixed_marks import marks_in
+from hexmend.io.base.fixed_marks import find_marks
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
@@ -81,7 +81,7 @@ class Content:
 
 
 #: Whether nodes without finite coordinates are put between their neighbours, as who repairs a mesh wants it.
-PLACING: ContextVar[bool] = ContextVar("PLACING", default=False)
+INTERPOLATE_MISSING: ContextVar[bool] = ContextVar("INTERPOLATE_MISSING", default=False)
 
 
 def to_mesh(path: Path, content: Content) -> Mesh:
@@ -105,7 +105,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     lengths = [len(block) for block in hexes]
     volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
     notes, points = list(content.notes), content.points
-    if PLACING.get() and not np.isfinite(points).all():
+    if INTERPOLATE_MISSING.get() and not np.isfinite(points).all():
         points, note = _placed(points, hexes)
         notes.append(note)
     if volumes:
@@ -120,9 +120,9 @@ def to_mesh(path: Path, content: Content) -> Mesh:
         np.concatenate([block.nodes[:, :8] for block in hexes]),
         pinned=pinned,
         node_data=content.node_data,
-        hex_data=joined([block.data for block in hexes], lengths),
+        hex_data=concatenate_data([block.data for block in hexes], lengths),
         node_sets=content.node_sets,
-        hex_sets=joined_sets([block.sets for block in hexes], lengths),
+        hex_sets=concatenate_sets([block.sets for block in hexes], lengths),
         cells=tuple(Cells(block.kind, block.nodes.astype(np.int32), block.data, block.sets) for block in others),
         side_sets=content.side_sets,
         mid_nodes=_mid_nodes(hexes),
@@ -164,7 +164,7 @@ def hex_blocks(mesh: Mesh) -> Iterator[tuple[Block, np.ndarray]]:
             yield Block(kind, nodes, data, {name: members for name, members in sets.items() if members.size}), chosen
 
 
-def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+def concatenate_data(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
     """One array over all cells for each name; where a block has none of it, reals are NaN and all else is zero.
 
     Arrays of one name that have other widths, or are no numbers as the first are, go by that name and a number:
@@ -177,7 +177,7 @@ def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[st
         sorts = dict.fromkeys(_sort(part[name]) for part in named if name in part)
         for k, sort in enumerate(sorts):
             alike = [part.get(name) if name in part and _sort(part[name]) == sort else None for part in named]
-            title = unused(name, taken) if k else name
+            title = unused_name(name, taken) if k else name
             answer[title] = np.concatenate(
                 [_missing(alike, length) if one is None else one for one, length in zip(alike, lengths, strict=True)]
             )
@@ -185,7 +185,7 @@ def joined(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[st
     return answer
 
 
-def unused(name: str, taken: Collection[str]) -> str:
+def unused_name(name: str, taken: Collection[str]) -> str:
     """A name that is none of those taken: with a number behind it, from 2."""
     return next(title for k in count(2) if (title := f"{name}_{k}") not in taken)
 
@@ -201,7 +201,7 @@ def _missing(arrays: list[np.ndarray | None], length: int) -> np.ndarray:
     return np.full((length, *one.shape[1:]), np.nan if one.dtype.kind in "fc" else np.zeros(1, one.dtype)[0], one.dtype)
 
 
-def joined_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
+def concatenate_sets(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) -> dict[str, np.ndarray]:
     """The sets of all parts, whose cells are counted through them."""
     first = np.concatenate([[0], np.cumsum(lengths)])
     return {
@@ -252,7 +252,7 @@ def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
 
 def _pinned(content: Content) -> np.ndarray | None:
     """Pins of the file, or those that data named "fixed" make."""
-    return content.pinned if content.pinned is not None else marks_in(content.node_data)[1]
+    return content.pinned if content.pinned is not None else find_marks(content.node_data)[1]
 
 
 def _inventory(blocks: list[Block], unread: Mapping[str, int] | None = None) -> str:

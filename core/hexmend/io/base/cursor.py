@@ -33,61 +33,61 @@ class ByteCursor:
         The file; errors name it.
     data : bytes
         Its content.
-    text : bool
+    is_text : bool
         Whether the numbers are written in decimals, so that errors name lines; else they name bytes.
     """
 
-    def __init__(self, path: Path, data: bytes, text: bool = True):
+    def __init__(self, path: Path, data: bytes, is_text: bool = True):
         self.path = path
         self.data = data
-        self.text = text
+        self.is_text = is_text
         self.pos = 0
 
     def error(self, problem: str, remedy: str = _DAMAGED) -> FileError:
         """The error to raise."""
         return FileError(self.path, problem, remedy)
 
-    def place(self, pos: int) -> str:
+    def location_of(self, pos: int) -> str:
         """A byte's place in words."""
-        if not self.text:
+        if not self.is_text:
             return f"byte {pos}"
         return f"line {self.data.count(_NEWLINE, 0, pos) + 1}"
 
     @property
-    def here(self) -> str:
+    def location(self) -> str:
         """The place that was reached, in words."""
-        return self.place(self.pos)
+        return self.location_of(self.pos)
 
     @property
-    def ended(self) -> bool:
+    def at_end(self) -> bool:
         """Whether nothing but white space is left."""
         return _SPACE.match(self.data, self.pos).end() == len(self.data)
 
-    def raw_line(self) -> str:
+    def rest_of_line(self) -> str:
         """The rest of the line, without white space at its ends; empty for a blank one."""
         end = self.data.find(b"\n", self.pos)
         end = len(self.data) if end < 0 else end
         line, self.pos = self.data[self.pos : min(end, self.pos + _LINE)], min(end + 1, len(self.data))
         return line.decode("utf-8", errors="replace").strip()
 
-    def line(self) -> str:
+    def next_line(self) -> str:
         """The next line that is not blank; empty at the end."""
         self.pos = _SPACE.match(self.data, self.pos).end()
-        return self.raw_line()
+        return self.rest_of_line()
 
-    def word(self) -> str:
+    def next_word(self) -> str:
         """The next word; empty at the end."""
         found = _WORD.search(self.data, self.pos)
         self.pos = found.end() if found else len(self.data)
         return found.group().decode("utf-8", errors="replace") if found else ""
 
-    def whole(self, word: str, what: str) -> int:
+    def parse_count(self, word: str, what: str) -> int:
         """The natural number that a word of a heading stands for."""
         if not (word.isascii() and word.isdigit() and len(word) < 19):
-            raise self.error(f"{what} is {shown(word)} before {self.here}: expected a natural number")
+            raise self.error(f"{what} is {quoted(word)} before {self.location}: expected a natural number")
         return int(word)
 
-    def decimals(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
+    def read_numbers(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
         """Take rows * width numbers written in decimals.
 
         Parameters
@@ -114,12 +114,12 @@ class ByteCursor:
         elif found > count:  # the name of the next array begins with digits
             end = start + len(text.rsplit(None, found - count)[0])
         values = values[:count]
-        if np.dtype(dtype).kind in "iu" and clipped(values, text):
-            raise self.error(f"{section} holds a whole number of more than 64 bits before {self.place(end)}")
+        if np.dtype(dtype).kind in "iu" and exceeds_dtype(values, text):
+            raise self.error(f"{section} holds a whole number of more than 64 bits before {self.location_of(end)}")
         self.pos = end
         return values.reshape(rows, width)
 
-    def decimals_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
+    def read_numbers_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
         """Take all numbers written in decimals up to a word, and the word; (k,) array.
 
         Parameters
@@ -132,17 +132,19 @@ class ByteCursor:
         """
         end = self.data.find(mark, self.pos)
         if end < 0:
-            raise self.error(f"{section} ends without {mark.decode()}: the file ends at {self.place(len(self.data))}")
-        values = self.decimals_to(section, end, dtype)
+            raise self.error(
+                f"{section} ends without {mark.decode()}: the file ends at {self.location_of(len(self.data))}"
+            )
+        values = self.read_numbers_to(section, end, dtype)
         self.pos = end + len(mark)
         return values
 
-    def decimals_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
-        """Take all numbers written in decimals before a byte, (k,) array; see `decimals_until`."""
+    def read_numbers_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
+        """Take all numbers written in decimals before a byte, (k,) array; see `read_numbers_until`."""
         count = count_words(self.data[self.pos : end])
-        return self.decimals(section, count, 1, dtype)[:, 0]
+        return self.read_numbers(section, count, 1, dtype)[:, 0]
 
-    def binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
+    def read_binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
         """Take rows * width numbers as they lie in the file: a (rows, width) view of the file's byte order."""
         dtype = np.dtype(dtype)
         size = rows * width * dtype.itemsize
@@ -154,7 +156,7 @@ class ByteCursor:
         self.pos += size
         return values.reshape(rows, width)
 
-    def take(self, size: int, what: str) -> bytes:
+    def read_bytes(self, size: int, what: str) -> bytes:
         """Take bytes as they are."""
         if size > len(self.data) - self.pos:
             raise self.error(f"{what} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
@@ -188,7 +190,7 @@ class ByteCursor:
                     raise ValueError
                 kind(word)
             except ValueError:
-                where, what = self.place(found.start()), shown(word.decode("utf-8", errors="replace"))
+                where, what = self.location_of(found.start()), quoted(word.decode("utf-8", errors="replace"))
                 if _KEYWORD.match(word):
                     raise self.error(
                         f"{section} ends after {k // width} of {rows} rows: {where} goes on with {what}"
@@ -201,7 +203,7 @@ class ByteCursor:
         if k == rows * width:
             return end
         raise self.error(
-            f"{section} ends after {k // width} of {rows} rows: the file ends at {self.place(len(self.data))}"
+            f"{section} ends after {k // width} of {rows} rows: the file ends at {self.location_of(len(self.data))}"
         )
 
     def _numbers_until(self, dtype: np.dtype | type, count: int) -> tuple[int, int]:
@@ -217,7 +219,7 @@ class ByteCursor:
         return at, k
 
 
-def text_of(path: Path) -> bytes:
+def read_text_bytes(path: Path) -> bytes:
     """The content of a file of text, once its beginning is known to be that."""
     with open(path, "rb") as file:
         if b"\0" in file.read(4096):
@@ -226,7 +228,7 @@ def text_of(path: Path) -> bytes:
         return file.read()
 
 
-def shown(word: str) -> str:
+def quoted(word: str) -> str:
     """A word of the file for a message: quoted, printable and short."""
     word = "".join(c if c.isprintable() else "?" for c in word[:25])
     return repr(word[:20] + "..." if len(word) > 20 else word) if word else "missing"
@@ -240,7 +242,7 @@ def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
         return None
 
 
-def clipped(values: np.ndarray, text: bytes) -> bool:
+def exceeds_dtype(values: np.ndarray, text: bytes) -> bool:
     """Whether words among whole numbers are beyond what 64 bits hold: they were read as the last that these do."""
     ends = np.iinfo(values.dtype)
     if not values.size or (values.max() < ends.max and (ends.min == 0 or values.min() > ends.min)):

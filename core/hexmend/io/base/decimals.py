@@ -10,7 +10,7 @@ from hexmend.kernels import decimals
 ROWS = 65536
 
 
-def lines(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
+def format_rows(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
     """Rows of numbers; floats as the shortest text that gives the same number back.
 
     Parameters
@@ -22,9 +22,9 @@ def lines(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
 
     Examples
     --------
-    >>> lines(np.array([[1, 20], [300, 0]]))
+    >>> format_rows(np.array([[1, 20], [300, 0]]))
     b'1 20\\n300 0\\n'
-    >>> lines(np.array([0.1, 1e300]), np.array([7, 100000]))
+    >>> format_rows(np.array([0.1, 1e300]), np.array([7, 100000]))
     b'0.1 7\\n1e+300 100000\\n'
     """
     rows = values.reshape(len(values), -1)
@@ -36,6 +36,6 @@ def lines(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
     return decimals.decimal_lines(np.ascontiguousarray(rows, np.float64).ravel(), rows.shape[1], behind)
 
 
-def blocks(count: int) -> list[slice]:
+def row_chunks(count: int) -> list[slice]:
     """Rows to be written at a time."""
     return [slice(begin, begin + ROWS) for begin in range(0, count, ROWS)]

@@ -12,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 FIXED = "fixed"
 
 
-def marks_in(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndarray | None]:
+def find_marks(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndarray | None]:
     """Name of the data that mark fixed nodes, and which those are, (n,) bool; None where no data do.
 
     They are the first called "fixed", in whatever capitals, with one number a node. One of 0, or NaN, is not fixed.
@@ -43,16 +43,16 @@ def needs_marks(mesh: Mesh, marks: np.ndarray | None = None) -> bool:
     return not np.array_equal(known[free_of_cells], mesh.pinned[free_of_cells])
 
 
-def held_by_pins(mesh: Mesh) -> str | None:
+def redundant_marks(mesh: Mesh) -> str | None:
     """Name of the data that say no more than the pins do, and need not be written beside them; None for none."""
-    name, marks = marks_in(mesh.node_data) if needs_marks(mesh) else (None, None)
+    name, marks = find_marks(mesh.node_data) if needs_marks(mesh) else (None, None)
     return name if name is not None and (np.asarray(mesh.node_data[name])[marks] == 1).all() else None
 
 
 def with_marks(mesh: Mesh) -> dict[str, np.ndarray]:
     """Data of the nodes, the pins among them as data named "fixed" unless the file said just that."""
     data = dict(mesh.node_data)
-    name, marks = marks_in(data)
+    name, marks = find_marks(data)
     if needs_marks(mesh, marks):
         if name is None:  # which other data may be called
             name = next((one for one in (FIXED, FIXED.title()) if one not in data), FIXED.upper())

@@ -18,7 +18,7 @@ _ONE_FILE = "Write all data into one file with the program that made it (links: 
 _GROWTH, _ALWAYS = 100, 1 << 28
 
 
-def content_by(reader: str, path: Path) -> Content:
+def read_content(reader: str, path: Path) -> Content:
     """What a reader makes of a file, in a process of its own, which the HDF5 library may end on a damaged one.
 
     Parameters
@@ -32,7 +32,7 @@ def content_by(reader: str, path: Path) -> Content:
     FileError
         At once where the file is plainly none of HDF5; else as the reader does, or where it has no answer.
     """
-    from hexmend.io.storage.subprocess_reader import in_child
+    from hexmend.io.storage.subprocess_reader import run_reader
 
     size, at = os.path.getsize(path), 0
     with open(path, "rb") as file:
@@ -41,7 +41,7 @@ def content_by(reader: str, path: Path) -> Content:
             if at >= size:
                 raise FileError(path, "is no HDF5 file", "Check its suffix, or write it again: it may be damaged.")
             file.seek(at)
-    return in_child(reader, path)
+    return run_reader(reader, path)
 
 
 def open_file(path: Path) -> object:
@@ -57,7 +57,7 @@ def open_file(path: Path) -> object:
     try:
         file = h5py.File(path, "r")
     except OSError as error:
-        raise damaged(path, error) from None
+        raise damaged_file(path, error) from None
     try:
         _check_self_contained(path, file)
     except FileError:
@@ -82,7 +82,7 @@ def _check_self_contained(path: Path, file: object) -> None:
         file.id.links.visit(visit, info=True)
         said = next((f"{_title(name)} {way}" for name, kind in links if (way := _leads_out(file, name, kind))), "")
     except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-        raise damaged(path, error) from None
+        raise damaged_file(path, error) from None
     if said:
         raise FileError(path, f"its {said}: no other file is opened", _ONE_FILE)
 
@@ -116,7 +116,7 @@ def _title(name: bytes | str) -> str:
     return repr(f"{name[:80]}..." if len(name) > 80 else name)
 
 
-def values_of(path: Path, dataset: object) -> np.ndarray:
+def read_dataset(path: Path, dataset: object) -> np.ndarray:
     """The values of a dataset, once it is known that they are not larger than a file of this size can hold."""
     bound = max(_ALWAYS, _GROWTH * os.path.getsize(path))
     try:
@@ -124,7 +124,7 @@ def values_of(path: Path, dataset: object) -> np.ndarray:
         if size is not None and size * width <= bound:
             return dataset[()]
     except (OSError, ValueError, TypeError, RuntimeError, IndexError) as error:
-        raise damaged(path, error) from None
+        raise damaged_file(path, error) from None
     raise FileError(
         path,
         f"{dataset.name} would have {size} values: more than a file of its size holds",
@@ -132,7 +132,7 @@ def values_of(path: Path, dataset: object) -> np.ndarray:
     )
 
 
-def damaged(path: Path, error: Exception) -> FileError:
+def damaged_file(path: Path, error: Exception) -> FileError:
     """The error to raise where the library has failed."""
     detail = " ".join(str(error).split())[:160]
     return FileError(

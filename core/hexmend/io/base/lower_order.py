@@ -19,7 +19,7 @@ _LESS = {
 }  # fmt: skip
 
 
-def reduced(content: Content, kinds: Collection[str]) -> Content:
+def reduce_order(content: Content, kinds: Collection[str]) -> Content:
     """The content with cells of some kinds only: others lose nodes of second order, or are left out.
 
     Nodes that no cell has any longer, but had, are left out too, with their data and their places in sets.
@@ -55,7 +55,7 @@ def reduced(content: Content, kinds: Collection[str]) -> Content:
     )
 
 
-def middles_lost(mesh: Mesh, kinds: Collection[str]) -> list[str]:
-    """That `reduced` takes nodes of second order from cells beside hexes of first order, in words; else nothing."""
+def lost_mid_nodes(mesh: Mesh, kinds: Collection[str]) -> list[str]:
+    """Describe the mid-nodes that `reduce_order` removes from cells next to hexes of first order."""
     cut = any(cells.kind in _LESS and cells.kind not in kinds for cells in mesh.cells)
     return [Capability.SECOND_ORDER.value] if cut and mesh.mid_nodes is None else []

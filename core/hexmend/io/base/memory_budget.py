@@ -10,7 +10,7 @@ from hexmend.errors import FileError
 _FLOOR, _RATIO = 1 << 26, 100
 
 
-class Allowance:
+class MemoryBudget:
     """What is left of the bytes that a file's arrays may have.
 
     Parameters

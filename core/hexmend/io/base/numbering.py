@@ -13,7 +13,7 @@ from hexmend.io.base.content import ID, Block, from_mesh
 from hexmend.mesh.mesh import Mesh
 
 
-def places(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.ndarray:
+def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.ndarray:
     """Where numbers stand among those of the file.
 
     Parameters
@@ -38,7 +38,7 @@ def places(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.nda
 
     Examples
     --------
-    >>> places(Path("a.msh"), np.array([30, 10, 20]), np.array([[10, 30]]), "node")
+    >>> find_ids(Path("a.msh"), np.array([30, 10, 20]), np.array([[10, 30]]), "node")
     array([[1, 0]])
     """
     n = len(ids)
@@ -65,10 +65,10 @@ def places(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.nda
 
 
 #: Numbers of nodes and elements are below this in most formats.
-MOST = 2**31
+ID_LIMIT = 2**31
 
 
-def node_numbers(data: dict[str, np.ndarray], count: int, most: int = MOST) -> np.ndarray:
+def node_ids(data: dict[str, np.ndarray], count: int, most: int = ID_LIMIT) -> np.ndarray:
     """Numbers under which nodes are written, (count,) int64: their ids where these are usable, else from 1.
 
     Parameters
@@ -82,7 +82,7 @@ def node_numbers(data: dict[str, np.ndarray], count: int, most: int = MOST) -> n
     return np.arange(1, count + 1) if ids is None or len(np.unique(ids)) < count else ids
 
 
-def element_numbers(blocks: Sequence[Block], most: int = MOST) -> list[np.ndarray]:
+def element_ids(blocks: Sequence[Block], most: int = ID_LIMIT) -> list[np.ndarray]:
     """Numbers under which the elements of blocks are written: their ids where these are usable, others after them.
 
     No two elements have the same one.
@@ -126,12 +126,12 @@ def runs(*keys: np.ndarray) -> list[slice]:
     return [slice(begin, end) for begin, end in pairwise(ends)]
 
 
-def combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
+def set_combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
     """The combinations of sets that things are in, and which of them each of `count` things is in, (count,) int.
 
     Examples
     --------
-    >>> found, which = combinations({"a": [0, 1], "b": [1]}, 3)
+    >>> found, which = set_combinations({"a": [0, 1], "b": [1]}, 3)
     >>> [found[k] for k in which]
     [['a'], ['a', 'b'], []]
     """
@@ -149,7 +149,7 @@ def combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[
     return found, which
 
 
-def ids_lost(mesh: Mesh, most: int = MOST) -> list[str]:
+def unsupported_ids(mesh: Mesh, most: int = ID_LIMIT) -> list[str]:
     """Ids of a mesh that a file numbered from 1 cannot have, in words; its nodes or elements are numbered anew.
 
     Parameters
@@ -181,7 +181,7 @@ def _unfit(ids: np.ndarray, count: int, most: int) -> str:
         return "no whole numbers"
     if count and ids.min() < 1:
         return "some below 1"
-    return f"some of {'2^31' if most == MOST else f'{most:,}'} and above" if count and ids.max() >= most else ""
+    return f"some of {'2^31' if most == ID_LIMIT else f'{most:,}'} and above" if count and ids.max() >= most else ""
 
 
 def _repeated(ids: Sequence[np.ndarray]) -> str:

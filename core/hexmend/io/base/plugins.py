@@ -12,7 +12,7 @@ GROUP = "hexmend.formats"
 
 
 @cache
-def further() -> tuple[Format, ...]:
+def plugin_formats() -> tuple[Format, ...]:
     """Those formats, looked for once; one that cannot be loaded is told of, and the others go on."""
     found: list[Format] = []
 

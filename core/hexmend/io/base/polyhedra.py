@@ -32,7 +32,7 @@ _FIRST = {"hex": (2, 4), "wedge": (1, 2), "pyramid": (1, 2), "tetra": (1, 2)}
 
 
 @dataclass(frozen=True, eq=False)
-class Lists:
+class RaggedArray:
     """Rows of different lengths.
 
     Parameters
@@ -54,14 +54,16 @@ class Lists:
         return np.diff(self.start)
 
 
-def cells_of(faces: Lists, cells: Lists, turned: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def cells_from_faces(
+    faces: RaggedArray, cells: RaggedArray, turned: np.ndarray
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     """The cells of each kind that there is.
 
     Parameters
     ----------
-    faces : Lists
+    faces : RaggedArray
         Nodes of each face.
-    cells : Lists
+    cells : RaggedArray
         Faces of each cell.
     turned : (cells.start[-1],) bool
         Whether a cell sees the face from inside as the other way round.
@@ -75,7 +77,7 @@ def cells_of(faces: Lists, cells: Lists, turned: np.ndarray) -> dict[str, tuple[
     return {kind: (which, nodes) for kind, (which, nodes) in found.items() if len(which)}
 
 
-def _of_kind(kind: str, faces: Lists, cells: Lists, turned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     sizes = [len(loop) for loop in LOOPS[kind]]
     count, base = len(sizes), sizes[0]
     which = np.flatnonzero(cells.lengths == count)
@@ -117,7 +119,7 @@ def _of_kind(kind: str, faces: Lists, cells: Lists, turned: np.ndarray) -> tuple
     return which[right], nodes[right]
 
 
-def faces_of(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarray, Lists]:
+def faces_from_cells(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarray, RaggedArray]:
     """The faces of cells, each once, and the half-faces of each cell.
 
     Parameters
@@ -129,7 +131,7 @@ def faces_of(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarr
     -------
     loops : (f, 4) int64
         The nodes of each face as the first cell that has it sees it from inside; -1 behind those of a triangle.
-    halves : Lists
+    halves : RaggedArray
         Of each cell 2 k for face k, or 2 k + 1 where the cell sees it the other way round.
     """
     loops, start = [], [np.zeros(1, np.int64)]
@@ -152,7 +154,7 @@ def faces_of(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarr
     first = order[new]
     number = np.argsort(np.argsort(first))
     halves = 2 * number[group] + (turned != turned[first][group])
-    return given[np.sort(first)], Lists(np.concatenate(start), halves)
+    return given[np.sort(first)], RaggedArray(np.concatenate(start), halves)
 
 
 def _places(widths: np.ndarray, k: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from itertools import count
 
 
-def distinct(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str, str]:
+def make_unique(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str, str]:
     """Each name as it is written.
 
     Parameters
@@ -22,7 +22,7 @@ def distinct(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str,
 
     Examples
     --------
-    >>> distinct(["a\'b", 'a"b'], lambda name, end: name.replace('"', "'") + end)
+    >>> make_unique(["a\'b", 'a"b'], lambda name, end: name.replace('"', "'") + end)
     {"a'b": "a'b", 'a"b': "a'b 2"}
     """
     names = list(dict.fromkeys(names))
@@ -37,7 +37,7 @@ def distinct(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str,
     return {name: answer[name] for name in names}
 
 
-def renamed(titles: dict[str, str], of: str = "sets") -> list[str]:
+def altered_names(titles: dict[str, str], of: str = "sets") -> list[str]:
     """That some names (of sets, or of what is said) are not written as they are, in words; nothing where all are."""
     other = sorted(name for name, title in titles.items() if name != title)
     return [f"names of {of} as they are ({', '.join(other)})"] if other else []

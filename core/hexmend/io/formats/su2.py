@@ -10,12 +10,11 @@ import numpy as np
 
 from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import ByteCursor, shown, text_of
-from hexmend.io.base.decimals import blocks as parts_of
-from hexmend.io.base.decimals import lines
+from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import Capability, Format, register
-from hexmend.io.base.lower_order import middles_lost, reduced
-from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
+from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
@@ -35,7 +34,7 @@ class _Zone:
 
 def read(path: Path) -> Mesh:
     """Read all zones as one mesh; markers are sets of the boundary's cells."""
-    data = text_of(path)
+    data = read_text_bytes(path)
     source = ByteCursor(path, _COMMENT.sub(b"", data) if b"%" in data else data)
     keys = list(_KEY.finditer(source.data))
     zones = [_Zone()]
@@ -45,21 +44,21 @@ def read(path: Path) -> Mesh:
         source.pos = min(found.end() + 1, len(source.data))
         end = keys[k + 1].start() if k + 1 < len(keys) else len(source.data)
         if key == "NZONE":
-            announced = source.whole(value, "NZONE")
+            announced = source.parse_count(value, "NZONE")
         elif key == "IZONE":
             if zones[-1].points is not None or zones[-1].cells is not None:
                 zones.append(_Zone())
         elif key == "NDIME":
             if value != "3":
-                raise source.error(f"NDIME is {shown(value)}: expected 3", "Hexmend works in space.")
+                raise source.error(f"NDIME is {quoted(value)}: expected 3", "Hexmend works in space.")
         elif key == "NELEM":
-            zones[-1].cells = _cells(source, end, source.whole(value, "NELEM"), "NELEM")
+            zones[-1].cells = _cells(source, end, source.parse_count(value, "NELEM"), "NELEM")
         elif key == "NPOIN":
-            zones[-1].points = _points(source, end, source.whole((value.split() or [""])[0], "NPOIN"))
+            zones[-1].points = _points(source, end, source.parse_count((value.split() or [""])[0], "NPOIN"))
         elif key == "MARKER_TAG":
             tag = value
         elif key == "MARKER_ELEMS":
-            zones[-1].markers.append((tag, _cells(source, end, source.whole(value, "MARKER_ELEMS"), shown(tag))))
+            zones[-1].markers.append((tag, _cells(source, end, source.parse_count(value, "MARKER_ELEMS"), quoted(tag))))
     if zones[0].points is None and zones[0].cells is None:
         raise source.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
     if len(zones) != announced:
@@ -115,7 +114,7 @@ def _joined(source: ByteCursor, zones: list[_Zone]) -> Content:
 
 def _points(source: ByteCursor, end: int, count: int) -> np.ndarray:
     """Coordinates, (count, 3); behind them there may be a number."""
-    values = source.decimals_to("NPOIN", end, np.float64)
+    values = source.read_numbers_to("NPOIN", end, np.float64)
     for width in (3, 4):
         if values.size == count * width:
             return np.ascontiguousarray(values.reshape(count, width)[:, :3])
@@ -124,7 +123,7 @@ def _points(source: ByteCursor, end: int, count: int) -> np.ndarray:
 
 def _cells(source: ByteCursor, end: int, count: int, name: str) -> dict[str, np.ndarray]:
     """Elements by kind, each its number, nodes and perhaps one number more."""
-    values = source.decimals_to(name, end, np.int64)
+    values = source.read_numbers_to(name, end, np.int64)
     for behind in (0, 1):
         starts, at, view = [], 0, memoryview(values)
         while at < values.size and view[at] in KINDS and len(starts) < count:
@@ -151,7 +150,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
     Other sets, other cells and nodes of second order are left out.
     """
-    content = reduced(from_mesh(mesh), NUMBERS)
+    content = reduce_order(from_mesh(mesh), NUMBERS)
     titles = _titles(content)
     volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
     markers: dict[str, list[tuple[str, np.ndarray]]] = {}
@@ -164,8 +163,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         for block in volumes:
             _write_cells(file, block.kind, block.nodes)
         file.write(b"NPOIN= %d\n" % len(content.points))
-        for part in parts_of(len(content.points)):
-            file.write(lines(content.points[part]))
+        for part in row_chunks(len(content.points)):
+            file.write(format_rows(content.points[part]))
         file.write(b"NMARK= %d\n" % len(markers))
         for name, groups in markers.items():
             count = sum(len(nodes) for _, nodes in groups)
@@ -176,7 +175,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def limitations(mesh: Mesh) -> list[str]:
     """Names that markers cannot have, and mid-nodes, in words."""
-    return renamed(_titles(reduced(from_mesh(mesh), NUMBERS))) + middles_lost(mesh, NUMBERS)
+    return altered_names(_titles(reduce_order(from_mesh(mesh), NUMBERS))) + lost_mid_nodes(mesh, NUMBERS)
 
 
 def _titles(content: Content) -> dict[str, str]:
@@ -186,11 +185,11 @@ def _titles(content: Content) -> dict[str, str]:
         return "_".join((name.replace("%", " ") + end).split()) or "unnamed"
 
     boundary = [block for block in content.blocks if block.kind in ("triangle", "quad")]
-    return distinct((name for block in boundary for name in block.sets), form)
+    return make_unique((name for block in boundary for name in block.sets), form)
 
 
 def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
-    file.write(lines(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
+    file.write(format_rows(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
 
 
 def _matches(head: bytes) -> bool:

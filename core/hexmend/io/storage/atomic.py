@@ -13,7 +13,7 @@ from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_
 
 
 @contextmanager
-def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path beside `path`, of the same suffix, which takes the place of `path` when the block ends well.
 
     Where the block raises, the temporary file is removed and the old file stays as it was. The content is on the disk
@@ -62,7 +62,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
-    """Raise `FileError` where `replacing` would, as far as can be known before anything is written."""
+    """Raise `FileError` where `atomic_write` would, as far as can be known before anything is written."""
     path = Path(path)
     if not path.exists() or path.is_file() or path.is_dir():
         _writable(path)

@@ -24,7 +24,7 @@ MEMORY, MEMORY_TIMES = 4 << 30, 64
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
-def in_child(reader: str, path: Path) -> Content:
+def run_reader(reader: str, path: Path) -> Content:
     """What a function makes of a file, in another process.
 
     Parameters
@@ -63,7 +63,7 @@ def in_child(reader: str, path: Path) -> Content:
             said = json.loads(arrays["said"].tobytes())
             if "problem" in said:
                 raise FileError(path, said["problem"], said["remedy"])
-            return unpacked(said["content"], arrays)
+            return decode(said["content"], arrays)
 
 
 def main(reader: str, path: str, answer: str) -> None:
@@ -72,7 +72,7 @@ def main(reader: str, path: str, answer: str) -> None:
     module, _, function = reader.partition(":")
     arrays: dict[str, np.ndarray] = {}
     try:
-        said = {"content": packed(getattr(import_module(module), function)(Path(path)), arrays)}
+        said = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
     except MemoryError:
         said = {"problem": "needs more memory than a file of its size should", "remedy": _DAMAGED}
     except FileError as error:
@@ -80,7 +80,7 @@ def main(reader: str, path: str, answer: str) -> None:
     np.savez(answer, said=np.frombuffer(json.dumps(said).encode(), np.uint8), **arrays)
 
 
-def packed(value: object, arrays: dict[str, np.ndarray]) -> object:
+def encode(value: object, arrays: dict[str, np.ndarray]) -> object:
     """A content as JSON can hold it; its arrays are put among `arrays` and named."""
     if isinstance(value, np.ndarray | np.generic):
         name = f"a{len(arrays)}"
@@ -88,26 +88,26 @@ def packed(value: object, arrays: dict[str, np.ndarray]) -> object:
         return {"array": name}
     if isinstance(value, Content | Block):
         kind = type(value).__name__.lower()
-        return {kind: {one.name: packed(getattr(value, one.name), arrays) for one in fields(value)}}
+        return {kind: {one.name: encode(getattr(value, one.name), arrays) for one in fields(value)}}
     if isinstance(value, dict):
-        return {"items": [[name, packed(one, arrays)] for name, one in value.items()]}
+        return {"items": [[name, encode(one, arrays)] for name, one in value.items()]}
     if isinstance(value, list | tuple):
-        return [packed(one, arrays) for one in value]
+        return [encode(one, arrays) for one in value]
     return value
 
 
-def unpacked(value: object, arrays: object) -> object:
-    """What `packed` was given."""
+def decode(value: object, arrays: object) -> object:
+    """What `encode` was given."""
     if isinstance(value, list):
-        return [unpacked(one, arrays) for one in value]
+        return [decode(one, arrays) for one in value]
     if not isinstance(value, dict):
         return value
     ((kind, inside),) = value.items()
     if kind == "array":
         return arrays[inside]
     if kind == "items":
-        return {name: unpacked(one, arrays) for name, one in inside}
-    parts = {name: unpacked(one, arrays) for name, one in inside.items()}
+        return {name: decode(one, arrays) for name, one in inside}
+    parts = {name: decode(one, arrays) for name, one in inside.items()}
     if kind == "block":
         return Block(**parts)
     return Content(**{**parts, "blocks": tuple(parts["blocks"]), "notes": tuple(parts["notes"])})

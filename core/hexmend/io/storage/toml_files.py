@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.base.text import read_text
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend.toml_text import LARGEST
 
@@ -56,5 +56,5 @@ def write_toml(path: str | os.PathLike[str], what: str, text: str) -> None:
         For a suffix other than .toml, or where the place cannot be written to.
     """
     suffix_for(path, what, (".toml", ""))
-    with replacing(path) as temporary:
+    with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

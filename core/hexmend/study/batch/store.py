@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.study.batch.table_columns import Status, is_answer
 from hexmend.study.batch.task import Task
 
@@ -65,7 +65,7 @@ class Store:
             "limits": limits,
             "answer": dict(row),
         }
-        with replacing(self._path(task)) as temporary:
+        with atomic_write(self._path(task)) as temporary:
             temporary.write_text(json.dumps(stored, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
     def _path(self, task: Task) -> Path:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend import io
-from hexmend.io.base.unique_names import distinct
+from hexmend.io.base.unique_names import make_unique
 from hexmend.mesh.cells import Cells
 from tests.core.grids import grid
 
@@ -12,7 +12,7 @@ LONG = "é" * 45
 
 
 def test_names_that_can_be_written_are_not_changed_for_others():
-    assert distinct(["ab", "a", "ac"], lambda name, end: name[:1] + end) == {"ab": "a 2", "a": "a", "ac": "a 3"}
+    assert make_unique(["ab", "a", "ac"], lambda name, end: name[:1] + end) == {"ab": "a 2", "a": "a", "ac": "a 3"}
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, Content
-from hexmend.io.storage.subprocess_reader import in_child, packed, unpacked
+from hexmend.io.storage.subprocess_reader import decode, encode, run_reader
 
 READERS = """
 import os, signal
@@ -27,7 +27,7 @@ def test_a_content_is_the_same_when_unpacked():
         notes=("This was done.",),
     )
     arrays = {}
-    other = unpacked(packed(one, arrays), arrays)
+    other = decode(encode(one, arrays), arrays)
     np.testing.assert_array_equal(other.points, one.points)
     np.testing.assert_array_equal(other.blocks[0].nodes, one.blocks[0].nodes)
     assert other.blocks[0].data["id"].tolist() == [4]
@@ -50,4 +50,4 @@ def test_whatever_the_reader_does_this_process_says_it(reader, words, tmp_path, 
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "some.dat").write_bytes(b"x")
     with pytest.raises(FileError, match=words):
-        in_child(f"readers_that_fail:{reader}", tmp_path / "some.dat")
+        run_reader(f"readers_that_fail:{reader}", tmp_path / "some.dat")

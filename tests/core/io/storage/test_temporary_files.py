@@ -14,14 +14,14 @@ from hexmend.errors import FileError
 from hexmend.io.archive.folder import ArchiveFolder
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.storage import temporary_files
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 from hexmend.report import made_folder
 
 #: Begins to write a file, says so, and waits.
 WRITER = """
 import sys, time
-from hexmend.io.storage.atomic import replacing
-with replacing(sys.argv[1]) as temporary:
+from hexmend.io.storage.atomic import atomic_write
+with atomic_write(sys.argv[1]) as temporary:
     temporary.write_text("half")
     print(temporary, flush=True)
     time.sleep(600)
@@ -105,7 +105,7 @@ def test_a_disk_that_is_full_when_the_file_is_flushed_leaves_the_old_file(tmp_pa
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(FileError, match="No space left"), replacing(path) as temporary:
+    with pytest.raises(FileError, match="No space left"), atomic_write(path) as temporary:
         temporary.write_text("new")
     assert path.read_text() == "old"
     assert files(tmp_path) == ["mesh.vtk"]
@@ -116,7 +116,7 @@ def test_a_file_system_that_cannot_flush_is_written_to(tmp_path, monkeypatch):
         raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
 
     monkeypatch.setattr(os, "fsync", cannot)
-    with replacing(tmp_path / "mesh.vtk") as temporary:
+    with atomic_write(tmp_path / "mesh.vtk") as temporary:
         temporary.write_text("new")
     assert (tmp_path / "mesh.vtk").read_text() == "new"
 
@@ -133,7 +133,7 @@ def test_macos_flushes_the_cache_of_the_drive_too_where_it_can(tmp_path, monkeyp
     monkeypatch.setattr(fcntl, "F_FULLFSYNC", 51, raising=False)
     monkeypatch.setattr(fcntl, "fcntl", control)
     monkeypatch.setattr(os, "fsync", lambda handle: calls.append("fsync"))
-    with replacing(tmp_path / "mesh.vtk") as temporary:
+    with atomic_write(tmp_path / "mesh.vtk") as temporary:
         temporary.write_text("new")
     assert calls == ([51, 51] if works else [51, "fsync", 51, "fsync"])
 
@@ -158,7 +158,7 @@ def test_a_format_of_another_distribution_may_lock_the_file_that_it_writes(tmp_p
 
 @pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
 def test_nothing_is_left_beside_a_file_that_is_not_written_to_its_end(tmp_path, error):
-    with pytest.raises(error), replacing(tmp_path / "mesh.vtk") as temporary:
+    with pytest.raises(error), atomic_write(tmp_path / "mesh.vtk") as temporary:
         temporary.write_text("half")
         raise error
     assert files(tmp_path) == []
@@ -166,7 +166,7 @@ def test_nothing_is_left_beside_a_file_that_is_not_written_to_its_end(tmp_path, 
 
 def test_two_writers_of_a_file_have_a_temporary_file_each(tmp_path):
     path = tmp_path / "mesh.vtk"
-    with replacing(path) as first, replacing(path) as second:
+    with atomic_write(path) as first, atomic_write(path) as second:
         assert first != second
         first.write_text("first")
         second.write_text("second")
@@ -218,7 +218,7 @@ def test_a_file_system_without_locks_is_written_to_and_nothing_is_removed_from_i
 
     monkeypatch.setattr(fcntl, "flock", none)
     path = tmp_path / "mesh.vtk"
-    with replacing(path) as first, replacing(path) as second:
+    with atomic_write(path) as first, atomic_write(path) as second:
         first.write_text("first")
         second.write_text("second")
     assert path.read_text() == "first"
@@ -239,7 +239,7 @@ def test_a_file_that_another_process_removes_before_it_is_locked_is_made_again(t
         lock(handle, how)
 
     monkeypatch.setattr(fcntl, "flock", meet)
-    with replacing(tmp_path / "mesh.vtk") as temporary:
+    with atomic_write(tmp_path / "mesh.vtk") as temporary:
         assert temporary not in met
         temporary.write_text("new")
     assert (tmp_path / "mesh.vtk").read_text() == "new"
@@ -247,7 +247,7 @@ def test_a_file_that_another_process_removes_before_it_is_locked_is_made_again(t
 
 @pytest.mark.parametrize("name", ["m" * 251 + ".vtk", "é" * 125 + ".vtk", "m." + "s" * 253])
 def test_a_name_as_long_as_names_may_be_can_be_written(tmp_path, name):
-    with replacing(tmp_path / name) as temporary:
+    with atomic_write(tmp_path / name) as temporary:
         temporary.write_text("new")
         assert len(files(tmp_path)) == 2
         assert temporary.suffix == (".vtk" if name.endswith(".vtk") else "")

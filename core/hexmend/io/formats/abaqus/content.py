@@ -6,8 +6,8 @@ import numpy as np
 
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import shown
-from hexmend.io.base.numbering import places
+from hexmend.io.base.cursor import quoted
+from hexmend.io.base.numbering import find_ids
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Budget, Instance, Members, Names, Part, key_of
@@ -56,7 +56,7 @@ def to_mesh(deck: Deck, placed: list[Instance], top: Part, notes: list[str]) -> 
         side_sets,
         field_data={TYPES: joined.types} if joined.types else {},
         notes=tuple(notes),
-        unread={f"type {shown(type)}": count for type, count in unread.items()},
+        unread={f"type {quoted(type)}": count for type, count in unread.items()},
     )
     return mesh_of(deck.path, content)
 
@@ -94,7 +94,7 @@ class _Elements:
                 type.append(np.repeat(type_of.get(chunk.type, [-1]), many))
                 if chunk.kind:
                     counts[chunk.kind] += many
-                    nodes = places(deck.path, node_ids[k], chunk.nodes, "node") + first[k]
+                    nodes = find_ids(deck.path, node_ids[k], chunk.nodes, "node") + first[k]
                     self.rows[chunk.kind].append(nodes[:, ORDER[chunk.kind]] if chunk.kind in ORDER else nodes)
         self.kind, self.place, self.type = _joined(kind), _joined(place), _joined(type)
         self.counts = counts

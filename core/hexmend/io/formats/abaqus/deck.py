@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import ByteCursor, shown
+from hexmend.io.base.cursor import ByteCursor, quoted
 
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
@@ -111,13 +111,13 @@ class Deck:
     def numbers(self, card: Card, what: str, dtype: type) -> np.ndarray:
         """All numbers of a card, wherever its lines end."""
         self._numbers.pos = card.begin
-        return self._numbers.decimals_to(what, card.end, dtype)
+        return self._numbers.read_numbers_to(what, card.end, dtype)
 
     def _real(self, field: str) -> float:
         try:
             return float(field.upper().replace("D", "E")) if field else 0.0
         except ValueError:
-            raise self.error(f"*NODE holds {shown(field)}: expected a number") from None
+            raise self.error(f"*NODE holds {quoted(field)}: expected a number") from None
 
 
 def _parsed(head: str) -> tuple[str, dict[str, str]]:

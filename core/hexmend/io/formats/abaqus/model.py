@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexmend.io.base.cursor import shown
+from hexmend.io.base.cursor import quoted
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import width_of
 
@@ -158,9 +158,9 @@ class Names:
         """Places of the members of a set, in order and each once."""
         if key not in self._known:
             if key not in self.sets:
-                raise self.deck.error(f"names the set {shown(key)}, which is not there")
+                raise self.deck.error(f"names the set {quoted(key)}, which is not there")
             if key in within or len(within) > 100:
-                raise self.deck.error(f"the set {shown(key)} is a member of itself")
+                raise self.deck.error(f"the set {quoted(key)} is a member of itself")
             self._known[key] = self.members(self.sets[key], (*within, key))
         return self._known[key]
 
@@ -178,7 +178,7 @@ class Names:
                 self.budget.spend(len(found[-1]))
         for instance, lines in members.within.items():
             if instance not in self.instances:
-                raise self.deck.error(f"a set is of the instance {shown(instance)}, which is not there")
+                raise self.deck.error(f"a set is of the instance {quoted(instance)}, which is not there")
             found.append(self.instances[instance].members(lines))
         places = np.unique(np.concatenate(found))
         self.budget.spend(len(places))
@@ -206,7 +206,7 @@ def key_of(name: str) -> str:
 
 
 def title_of(name: str) -> str:
-    """A name as it is shown."""
+    """A name for a message."""
     return name.strip().strip('"')
 
 
@@ -239,7 +239,7 @@ def chunk_of(deck: Deck, card_rows: np.ndarray, type: str, kind: str, line: int)
     width = 1 + width_of(kind)
     if card_rows.size % width:
         raise deck.error(
-            f"*ELEMENT of type {shown(type)} in line {line} holds {card_rows.size} numbers: "
+            f"*ELEMENT of type {quoted(type)} in line {line} holds {card_rows.size} numbers: "
             f"expected {width} an element, its number and {width - 1} nodes",
             "Write the file again with the program that made it: it is damaged or cut short.",
         )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import shown, text_of
+from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
@@ -24,7 +24,7 @@ _PASSED_OVER = ("HEADING", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
 
 def read(path: Path) -> Mesh:
     """Read the mesh of an input file: its nodes, elements, sets and surfaces, of all instances of its parts."""
-    deck = Deck(path, text_of(path))
+    deck = Deck(path, read_text_bytes(path))
     return to_mesh(deck, *Reader(deck).model())
 
 
@@ -55,7 +55,7 @@ class Reader:
             raise self.deck.error("has no line that begins with *", "Is it an Abaqus file? Check its suffix.")
         notes = []
         if self.other:
-            names = ", ".join(f"*{shown(name)[1:-1]}" for name in list(self.other)[:6])
+            names = ", ".join(f"*{quoted(name)[1:-1]}" for name in list(self.other)[:6])
             more = "" if len(self.other) <= 6 else f" and {len(self.other) - 6} others"
             notes.append(f"What is no mesh ({names}{more}) is left out.")
         placed = self.instances
@@ -68,7 +68,7 @@ class Reader:
 
     def _refuse(self, card: Card) -> None:
         if card.name == "INCLUDE" or "INPUT" in card.options:
-            where = shown(card.options.get("INPUT", ""))
+            where = quoted(card.options.get("INPUT", ""))
             raise self.deck.error(
                 f"*{card.name} in line {card.line} takes what follows from another file, {where}",
                 "Put its content in the place of the line: one file is read at a time.",
@@ -124,7 +124,7 @@ class Reader:
             numbers = [int(word) for word in row if word.isascii() and word.isdigit() and len(word) < 19]
             if len(numbers) != len(row) or not 2 <= len(numbers) <= 3 or 0 in numbers[2:]:
                 raise self.deck.error(
-                    f"*{card.name} in line {card.line} holds {shown(', '.join(row))}: expected first, last and step"
+                    f"*{card.name} in line {card.line} holds {quoted(', '.join(row))}: expected first, last and step"
                 )
             members.ranges.append((*numbers, 1)[:3])
 
@@ -149,7 +149,7 @@ class Reader:
         """*INSTANCE, NAME=..., PART=...: what follows up to *END INSTANCE belongs to the instance alone."""
         part = self.parts.get(key_of(card.options.get("PART", "")))
         if part is None:
-            name = shown(card.options.get("PART", ""))
+            name = quoted(card.options.get("PART", ""))
             raise self.deck.error(f"*INSTANCE in line {card.line} is of the part {name}, which is not there")
         self.part = Part(part.name)
         self.instances.append(

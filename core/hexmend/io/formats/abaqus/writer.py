@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.content import HEX_KINDS, Block, from_mesh
-from hexmend.io.base.numbering import element_numbers, ids_lost, node_numbers, runs
-from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.base.numbering import element_ids, node_ids, runs, unsupported_ids
+from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.abaqus.content import TYPE, TYPES
 from hexmend.io.formats.abaqus.elements import ORDER, SIDE_OF_FACE, kind_of
 from hexmend.io.formats.abaqus.elements import TYPES as DEFAULT_TYPES
@@ -25,7 +25,7 @@ _WIDTH = 16
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write nodes, elements by their types, sets and surfaces."""
     content = from_mesh(mesh)
-    tags, numbers = node_numbers(dict(content.node_data), len(content.points)), element_numbers(content.blocks)
+    tags, numbers = node_ids(dict(content.node_data), len(content.points)), element_ids(content.blocks)
     types = mesh.field_data.get(TYPES)
     types = types if isinstance(types, list | tuple) else []
     element_sets: dict[str, list[np.ndarray]] = {}
@@ -74,13 +74,13 @@ def limitations(mesh: Mesh) -> list[str]:
     """Ids that are none here, and names with quotation marks, in words."""
     cells = [name for one in mesh.cells for name in one.sets]
     kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)
-    titles = {name: title for names in kinds for name, title in distinct(names, _clean).items()}
-    return ids_lost(mesh) + renamed(titles)
+    titles = {name: title for names in kinds for name, title in make_unique(names, _clean).items()}
+    return unsupported_ids(mesh) + altered_names(titles)
 
 
 def _titles(sets: Iterable[str]) -> dict[str, str]:
     """Names as they are written: quoted unless they are plain words that differ in more than capitals."""
-    titles = distinct(sets, _clean)
+    titles = make_unique(sets, _clean)
     upper = Counter(title.upper() for title in titles.values())
     return {
         name: title if _PLAIN.match(title) and upper[title.upper()] == 1 else f'"{title}"'

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.polyhedra import Lists, cells_of
+from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.cgns.elements import POLYGONS, POLYHEDRA
 from hexmend.io.formats.cgns.section import CGNSSection
 from hexmend.io.formats.cgns.zone import DAMAGED
@@ -34,7 +34,7 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
     """
     polygons = [one for one in sections if one.type == POLYGONS]
     rows = [one.rows() for one in polygons]
-    faces = Lists(
+    faces = RaggedArray(
         np.concatenate([[0], *(np.diff(one.start) for one in rows)]).cumsum(),
         np.concatenate([np.empty(0, np.int64), *(one.values for one in rows)]) - 1,
     )
@@ -52,7 +52,9 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
         place = np.searchsorted(numbers, np.abs(cells.values)).clip(0, max(0, len(numbers) - 1))
         if cells.values.size and (not len(numbers) or (numbers[place] != np.abs(cells.values)).any()):
             raise FileError(section.node.path, f"section {section.name!r} names faces that there are not", DAMAGED)
-        found = cells_of(faces, Lists(cells.start, place), cells.values > 0)  # whose normal points out of the cell
+        found = cells_from_faces(
+            faces, RaggedArray(cells.start, place), cells.values > 0
+        )  # whose normal points out of the cell
         left = len(section) - sum(len(which) for which, _ in found.values())
         if left:
             notes.append(f"{left:,} polyhedra of section {section.name!r} are left out.")

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
-from hexmend.io.base.content import HEX_KINDS, Block, Content, joined
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
 from hexmend.io.formats.cgns.structured import structured
 from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import unstructured
@@ -52,7 +52,7 @@ def content(path: Path) -> Content:
     return Content(
         points[kept],
         tuple(blocks),
-        {name: values[kept] for name, values in joined([zone.node_data for zone in zones], lengths).items()},
+        {name: values[kept] for name, values in concatenate_data([zone.node_data for zone in zones], lengths).items()},
         {name: np.unique(np.concatenate(parts)) for name, parts in node_sets.items()},
         {name: np.concatenate(parts) for name, parts in side_sets.items()},
         notes=tuple(notes),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.polyhedra import Lists
+from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.formats.cgns.elements import MIXED, ORDER, POLYGONS, POLYHEDRA, TYPES
 from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.zone import DAMAGED
@@ -28,7 +28,7 @@ class CGNSSection:
     def __len__(self) -> int:
         return self.last - self.first + 1
 
-    def rows(self) -> Lists:
+    def rows(self) -> RaggedArray:
         """What the elements of a section of polygons or polyhedra name, as the file has it.
 
         Raises
@@ -48,7 +48,7 @@ class CGNSSection:
             start, values = np.concatenate([[0], np.cumsum(lengths)]), np.delete(values, begins)
         if len(start) != len(self) + 1 or start[0] != 0 or (np.diff(start) < 0).any() or start[-1] != values.size:
             raise FileError(self.node.path, f"section {self.name!r} does not name {len(self)} rows", DAMAGED)
-        return Lists(start, values)
+        return RaggedArray(start, values)
 
     def parts(self, notes: list[str]) -> list[tuple[str, np.ndarray, np.ndarray]]:
         """Kind, nodes from 0 in VTK's order, and numbers in the zone of the elements of each kind."""

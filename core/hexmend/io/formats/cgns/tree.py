@@ -30,19 +30,19 @@ class CGNSNode:
             self.label = _text(group.attrs.get("label", b""))
             self._group = self._followed(group)
         except _FAILURES as error:
-            raise hdf5.damaged(path, error) from None
+            raise hdf5.damaged_file(path, error) from None
 
     def _followed(self, group: object) -> object:
         """The group, or that to which a link leads."""
         if _text(group.attrs.get("type", b"")) != "LK":
             return group
-        if " file" in group and (name := _text(hdf5.values_of(self.path, group[" file"]).tobytes())):
+        if " file" in group and (name := _text(hdf5.read_dataset(self.path, group[" file"]).tobytes())):
             raise FileError(
                 self.path,
                 f"its {self.name} is kept in another file, {name[:80]!r}",
                 "Open that file, or write both as one.",
             )
-        return group.file[_text(hdf5.values_of(self.path, group[" path"]).tobytes())]
+        return group.file[_text(hdf5.read_dataset(self.path, group[" path"]).tobytes())]
 
     def children(self, *labels: str) -> list[CGNSNode]:
         """Nodes below this one that have one of some labels, by name."""
@@ -55,7 +55,7 @@ class CGNSNode:
         except FileError:
             raise
         except _FAILURES as error:
-            raise hdf5.damaged(self.path, error) from None
+            raise hdf5.damaged_file(self.path, error) from None
 
     def child(self, label: str) -> CGNSNode | None:
         """The first node below this one that has a label."""
@@ -66,7 +66,7 @@ class CGNSNode:
         try:
             return CGNSNode(self.path, self._group[name], name) if name in self._group else None
         except _FAILURES as error:
-            raise hdf5.damaged(self.path, error) from None
+            raise hdf5.damaged_file(self.path, error) from None
 
     def value(self) -> np.ndarray:
         """The data, axes in Fortran's order reversed; empty where there are none."""
@@ -74,8 +74,8 @@ class CGNSNode:
             there = " data" in self._group
             data = self._group[" data"] if there else None
         except _FAILURES as error:
-            raise hdf5.damaged(self.path, error) from None
-        return hdf5.values_of(self.path, data) if there else np.empty(0)
+            raise hdf5.damaged_file(self.path, error) from None
+        return hdf5.read_dataset(self.path, data) if there else np.empty(0)
 
     def numbers(self) -> np.ndarray:
         """The data as 64-bit integers.

@@ -21,7 +21,7 @@ def read(path: Path) -> Mesh:
         classic = file.read(3) == b"CDF"
     if classic:
         return to_mesh(path, content(path))
-    return to_mesh(path, hdf5.content_by("hexmend.io.formats.exodus.reader:content", path))
+    return to_mesh(path, hdf5.read_content("hexmend.io.formats.exodus.reader:content", path))
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:

@@ -8,7 +8,7 @@ from itertools import chain, count
 import numpy as np
 
 from hexmend.io.base.content import ID
-from hexmend.io.base.unique_names import distinct
+from hexmend.io.base.unique_names import make_unique
 
 
 def form(name: str, end: str) -> str:
@@ -46,7 +46,7 @@ def column_titles(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, str]:
     for data in parts:
         for name, values in _variables(data).items():
             widths.setdefault(name, set()).add(int(np.prod(values.shape[1:])))
-    titles = distinct(widths, form)
+    titles = make_unique(widths, form)
     taken = {titles[name] for name, own in widths.items() if 1 in own}
     for name, own in widths.items():
         if max(own) > 1:

@@ -78,7 +78,7 @@ class Classic:
         self.path = path
         self._length = os.path.getsize(path)
         with open(path, "rb") as file:
-            head = _Head(ByteCursor(path, file.read(_HEAD), text=False))
+            head = _Head(ByteCursor(path, file.read(_HEAD), is_text=False))
         records = head.count()
         dimensions = head.dimensions()
         self.attributes = head.attributes()
@@ -122,17 +122,17 @@ class _Head:
 
     def __init__(self, source: ByteCursor):
         self.source = source
-        version = source.take(4, "the head")[3]
+        version = source.read_bytes(4, "the head")[3]
         self.width = 8 if version == 5 else 4  # bytes of a count
         self.offset = 4 if version == 1 else 8  # and of a place
 
     def count(self, width: int = 0) -> int:
         """The next number."""
-        return int.from_bytes(self.source.take(width or self.width, "the head"), "big")
+        return int.from_bytes(self.source.read_bytes(width or self.width, "the head"), "big")
 
     def length(self, kind: int, each: int) -> int:
         """How many entries a list has, each of some bytes at least."""
-        here = self.source.here
+        here = self.source.location
         tag, count = self.count(4), self.count()
         if tag not in (0, kind) or (tag == 0 and count) or count * each > len(self.source.data):
             raise self.source.error(f"the head's list at {here} has the kind {tag} and {count} entries")
@@ -140,15 +140,15 @@ class _Head:
 
     def padded(self, size: int) -> bytes:
         """Bytes, and what fills them up to four."""
-        data = self.source.take(size, "the head")
-        self.source.take(-size % 4, "the head")
+        data = self.source.read_bytes(size, "the head")
+        self.source.read_bytes(-size % 4, "the head")
         return data
 
     def name(self) -> str:
         return self.padded(self.count()).decode("utf-8", errors="replace")
 
     def type(self) -> np.dtype:
-        here, number = self.source.here, self.count(4)
+        here, number = self.source.location, self.count(4)
         if number not in TYPES:
             raise self.source.error(f"values at {here} are of type {number}: expected 1 to 11")
         return TYPES[number]
@@ -183,7 +183,7 @@ class _Head:
     def length_of_shape(self) -> int:
         count = self.count()
         if count * self.width > len(self.source.data):
-            raise self.source.error(f"a variable has {count} dimensions before {self.source.here}")
+            raise self.source.error(f"a variable has {count} dimensions before {self.source.location}")
         return count
 
 

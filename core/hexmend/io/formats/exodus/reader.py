@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, joined, joined_sets
-from hexmend.io.base.cursor import shown
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, concatenate_data, concatenate_sets
+from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS, family_of
 from hexmend.io.formats.exodus.ids import kept
@@ -121,7 +121,7 @@ class _Reader:
         widths = [HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes for kind in family]
         kind = dict(zip(widths, family, strict=True)).get(width)
         if kind is None and (not family or width < widths[0]):
-            named = f"type {shown(type_)[1:-1] if type_ else 'unnamed'} in block {number}"
+            named = f"type {quoted(type_)[1:-1] if type_ else 'unnamed'} in block {number}"
             self.notes.append(f"{count:,} cells of {named} are left out.")
             self.unread[named] = count
             return None
@@ -230,8 +230,8 @@ def _by_kind(blocks: list[Block]) -> list[Block]:
             Block(
                 kind,
                 np.concatenate([block.nodes for block in parts]),
-                joined([block.data for block in parts], lengths),
-                joined_sets([block.sets for block in parts], lengths),
+                concatenate_data([block.data for block in parts], lengths),
+                concatenate_sets([block.sets for block in parts], lengths),
             )
         )
     return answer

@@ -64,7 +64,7 @@ class OnHdf5:
             if "time_whole" in self._sets:  # a dimension that grows is not told how long it has become
                 self.dimensions["time_step"] = self._sets["time_whole"].size
         except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-            raise hdf5.damaged(path, error) from None
+            raise hdf5.damaged_file(path, error) from None
 
     def __contains__(self, name: str) -> bool:
         return name in self._sets
@@ -76,13 +76,13 @@ class OnHdf5:
         one = self._sets[name]
         if name.startswith("vals_"):
             one = _Record(one, record)
-        return hdf5.values_of(self.path, one)
+        return hdf5.read_dataset(self.path, one)
 
     def attribute(self, variable: str, name: str) -> object:
         try:
             value = self._sets[variable].attrs.get(name)
         except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-            raise hdf5.damaged(self.path, error) from None
+            raise hdf5.damaged_file(self.path, error) from None
         value = np.ravel(value)[0] if np.size(value) == 1 else value
         return value.decode(errors="replace") if isinstance(value, bytes) else value
 

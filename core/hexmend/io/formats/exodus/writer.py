@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data, rounded_integers
-from hexmend.io.base.content import ID, Block, hex_blocks, unused
-from hexmend.io.base.fixed_marks import FIXED, held_by_pins, needs_marks
-from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.base.content import ID, Block, hex_blocks, unused_name
+from hexmend.io.base.fixed_marks import FIXED, needs_marks, redundant_marks
+from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.exodus.columns import column_titles, columns, form, whole_numbers
 from hexmend.io.formats.exodus.elements import ORDER, PINS, SIDE_OF_FACE, TYPES
 from hexmend.io.formats.exodus.ids import IDS, ids_of
@@ -67,16 +67,18 @@ def limitations(mesh: Mesh) -> list[str]:
     """Data that are no numbers or are rounded, and names that the format cannot have or that clash, in words."""
     left, titles = rounded_integers(mesh) + non_numeric_data(mesh), {}
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
-    left += renamed(column_titles([_node_data(mesh)]), "point data") + renamed(column_titles(cell_data), "cell data")
+    left += altered_names(column_titles([_node_data(mesh)]), "point data") + altered_names(
+        column_titles(cell_data), "cell data"
+    )
     sets = [name for one in mesh.cells for name in one.sets]
     for names in (mesh.node_sets, [*mesh.hex_sets, *sets], mesh.side_sets):
-        titles |= distinct(names, form)
-    return left + renamed(titles)
+        titles |= make_unique(names, form)
+    return left + altered_names(titles)
 
 
 def _node_data(mesh: Mesh) -> dict[str, np.ndarray]:
     """Data of the nodes without those that say which are pinned."""
-    return {name: values for name, values in mesh.node_data.items() if name != held_by_pins(mesh)}
+    return {name: values for name, values in mesh.node_data.items() if name != redundant_marks(mesh)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +141,7 @@ def _add_node_sets(file: ClassicWriter, mesh: Mesh) -> None:
         fixed[members] |= name.lower() == FIXED
     by_name = not needs_marks(mesh, fixed) and (mesh.pinned is not None or not fixed.any())
     if not by_name and needs_marks(mesh):
-        pins = unused(FIXED, sets) if FIXED in sets else FIXED
+        pins = unused_name(FIXED, sets) if FIXED in sets else FIXED
         sets[pins] = np.flatnonzero(mesh.pinned)
     _add_list(file, mesh, "ns", "num_node_sets", list(sets))
     if sets and not by_name:  # so that no set is taken for the pins by its name
@@ -195,7 +197,7 @@ def _add_list(file: ClassicWriter, mesh: Mesh, start: str, dimension: str, names
         shape = {dimension: len(names)}
         file.add(f"{start}_status", shape, np.ones(len(names), np.int32))
         file.add(f"{start}_prop1", shape, np.array(ids_of(mesh.field_data.get(IDS), start, names)), name="ID")
-        titles = distinct((name for name in names if name or start != "eb"), form)  # a block may have no name
+        titles = make_unique((name for name in names if name or start != "eb"), form)  # a block may have no name
         file.add_text(f"{start}_names", dimension, [titles.get(name, "") for name in names])
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, unused
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, unused_name
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import shown
-from hexmend.io.base.memory_budget import Allowance
-from hexmend.io.base.numbering import places
+from hexmend.io.base.cursor import quoted
+from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.numbering import find_ids
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
@@ -143,7 +143,7 @@ def to_mesh(path: Path, read: Read) -> Mesh:
     if read.elements is None:
         raise FileError(path, "has no section $Elements", "Write the file again with the program that made it.")
     titles = {(dimension, number): name for (dimension, name), number in numbers_of(read.names).items()}
-    notes, blocks, allowance = list(read.notes), [], Allowance(path, path.stat().st_size)
+    notes, blocks, allowance = list(read.notes), [], MemoryBudget(path, path.stat().st_size)
     left = sum(len(part.tags) for part in read.elements if part.type not in KINDS)
     if left:
         notes.append(
@@ -151,7 +151,7 @@ def to_mesh(path: Path, read: Read) -> Mesh:
         )
     partitioned = any(part.partitions is not None and part.partitions.any() for part in read.elements)
     own = {one.name for one in read.data if not one.of_nodes}
-    partition = unused(PARTITION, own) if PARTITION in own else PARTITION
+    partition = unused_name(PARTITION, own) if PARTITION in own else PARTITION
     if partitioned:
         notes.append(
             f"The mesh is in parts for several processors: the data {partition!r} says which cell is in which."
@@ -202,7 +202,7 @@ def _block(
             "they are read as one each."
         )
         nodes, tags, partitions = nodes[kept], tags[kept], partitions[kept]
-    nodes = places(path, node_tags, nodes, "node")
+    nodes = find_ids(path, node_tags, nodes, "node")
     sets = {}
     for number, rows in members.items():
         chosen = np.concatenate(rows)
@@ -211,7 +211,7 @@ def _block(
     return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: tags}, sets), partitions
 
 
-def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: Allowance) -> dict[str, np.ndarray]:
+def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: MemoryBudget) -> dict[str, np.ndarray]:
     """Values by name for things of some tags; where the file has none for some of them they are no number."""
     found = {}
     for one in data:
@@ -221,7 +221,7 @@ def _data(data: Sequence[Data], of_nodes: bool, tags: np.ndarray, allowance: All
         at = np.minimum(np.searchsorted(one.tags[order], tags), len(order) - 1)
         there = one.tags[order[at]] == tags
         if there.any():
-            allowance.charge(len(tags) * one.values[:1].nbytes, f"the data {shown(one.name)} of all nodes or elements")
+            allowance.charge(len(tags) * one.values[:1].nbytes, f"the data {quoted(one.name)} of all nodes or elements")
             found[one.name] = one.values[order[at]]
             found[one.name][~there] = np.nan
     return found

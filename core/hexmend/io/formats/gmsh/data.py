@@ -7,8 +7,7 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.base.decimals import blocks as parts_of
-from hexmend.io.base.decimals import lines
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.formats.gmsh.content import Data, Read
 
 #: The sections, and what their rows belong to.
@@ -19,31 +18,31 @@ _WIDTHS, _WIDEST = (1, 3, 9), 1000
 
 def read_data(source: ByteCursor, order: str, key: str, result: Read) -> None:
     """A section of data: a name, times, the step, and how many values a row and how many rows there are."""
-    titles = [source.line() for _ in range(_count(source, key))]
+    titles = [source.next_line() for _ in range(_count(source, key))]
     for _ in range(_count(source, key)):
-        source.line()
-    whole = [source.whole(source.line(), f"a number of {key}") for _ in range(_count(source, key))]
+        source.next_line()
+    whole = [source.parse_count(source.next_line(), f"a number of {key}") for _ in range(_count(source, key))]
     if not titles or len(whole) < 3 or not 1 <= whole[1] <= _WIDEST:
         raise source.error(f"{key} has not a name, a step, 1 to {_WIDEST} values a row, and a number of rows")
     name, (step, width, count) = titles[0].strip('"'), whole[:3]
     if order:
-        rows = source.binary(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])[:, 0]
+        rows = source.read_binary(key, count, 1, [("tag", f"{order}i4"), ("values", f"{order}f8", (width,))])[:, 0]
         tags, values = rows["tag"].astype(np.int64), rows["values"].astype(np.float64)
     else:
-        rows = source.decimals(key, count, 1 + width, np.float64)
+        rows = source.read_numbers(key, count, 1 + width, np.float64)
         if not (np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53)).all():
             raise source.error(f"{key} holds tags that are no numbers")
         tags, values = rows[:, 0].astype(np.int64), rows[:, 1:].copy()
     end = f"$End{key[1:]}"
-    if source.line() != end:
-        raise source.error(f"{key} ends without {end} before {source.here}")
+    if source.next_line() != end:
+        raise source.error(f"{key} ends without {end} before {source.location}")
     if any(one.name == name and one.of_nodes == (key == "$NodeData") for one in result.data):
         name = f"{name} ({step})"
     result.data.append(Data(key == "$NodeData", name, tags, values[:, 0] if width == 1 else values))
 
 
 def _count(source: ByteCursor, key: str) -> int:
-    count = source.whole(source.line(), f"a number of {key}")
+    count = source.parse_count(source.next_line(), f"a number of {key}")
     if count > 1000:
         raise source.error(f"{key} announces {count} words: expected a few")
     return count
@@ -61,15 +60,15 @@ class DataWriter:
         if self.binary:
             self.file.write(b"".join(values.astype(f"<{code}").tobytes() for values, code in arrays))
         else:
-            self.file.write(lines(np.concatenate([values for values, _ in arrays])[None]))
+            self.file.write(format_rows(np.concatenate([values for values, _ in arrays])[None]))
 
     def rows(self, values: np.ndarray) -> None:
         """Rows of floats, or of whole numbers of the type u8."""
         if self.binary:
             self.file.write(values.astype("<f8" if values.dtype.kind == "f" else "<u8").tobytes())
         else:
-            for part in parts_of(len(values)):
-                self.file.write(lines(values[part]))
+            for part in row_chunks(len(values)):
+                self.file.write(format_rows(values[part]))
 
     def end(self, name: bytes) -> None:
         self.file.write((b"\n" if self.binary else b"") + b"$End%s\n" % name)
@@ -108,7 +107,7 @@ def write_data(out: DataWriter, key: str, name: str, tags: list[np.ndarray], dat
         packed["tag"], packed["values"] = numbers, values
         out.file.write(packed.tobytes() + b"\n")
     else:
-        for part in parts_of(len(values)):
-            texts = lines(values[part]).split(b"\n")
+        for part in row_chunks(len(values)):
+            texts = format_rows(values[part]).split(b"\n")
             out.file.write(b"".join(b"%d %s\n" % pair for pair in zip(numbers[part].tolist(), texts, strict=False)))
     out.file.write(b"$End%s\n" % key[1:].encode())

@@ -16,7 +16,7 @@ def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
 
 def read_elements(source: ByteCursor, order: str, result: Read) -> None:
     """$ELM: a count, then of each element its tag, type, physical group, entity, number of nodes, and nodes."""
-    values = source.decimals_until("$ELM", b"$ENDELM", np.int64)
+    values = source.read_numbers_until("$ELM", b"$ENDELM", np.int64)
     count = int(values[0]) if values.size else 0
     starts, at, view, widths = [], 1, memoryview(values), {}
     while at + 4 < values.size:

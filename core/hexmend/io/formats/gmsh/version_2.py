@@ -11,8 +11,8 @@ from hexmend.io.formats.gmsh.content import Elements, Read, width_of
 def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
     """$Nodes: a count, then the tag and the coordinates of each node."""
     if order:
-        count = source.whole(source.line(), "the number of nodes")
-        rows = source.binary("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])[:, 0]
+        count = source.parse_count(source.next_line(), "the number of nodes")
+        rows = source.read_binary("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])[:, 0]
         result.tags, result.points = rows["tag"].astype(np.int64), rows["x"].astype(np.float64)
         _expect(source, "$EndNodes")
         return
@@ -21,7 +21,7 @@ def read_nodes(source: ByteCursor, order: str, result: Read) -> None:
 
 def nodes_of_rows(source: ByteCursor, name: str, end: bytes, result: Read) -> None:
     """Nodes in decimals: a count, then the tag and the coordinates of each."""
-    values = source.decimals_until(name, end, np.float64)
+    values = source.read_numbers_until(name, end, np.float64)
     count = int(values[0]) if values.size and np.isfinite(values[0]) else 0
     if values.size != 1 + 4 * count:
         raise source.error(f"{name} holds {values.size} numbers: expected {1 + 4 * count} for {count} nodes")
@@ -37,7 +37,7 @@ def read_elements(source: ByteCursor, order: str, result: Read) -> None:
     if order:
         result.elements = _binary(source, order)
         return
-    values = source.decimals_until("$Elements", b"$EndElements", np.int64)
+    values = source.read_numbers_until("$Elements", b"$EndElements", np.int64)
     count = int(values[0]) if values.size else 0
     starts, at, view, widths = [], 1, memoryview(values), {}
     while at + 2 < values.size:
@@ -61,13 +61,13 @@ def read_elements(source: ByteCursor, order: str, result: Read) -> None:
 
 
 def _binary(source: ByteCursor, order: str) -> list[Elements]:
-    count = source.whole(source.line(), "the number of elements")
+    count = source.parse_count(source.next_line(), "the number of elements")
     found, seen = [], 0
     while seen < count:
-        kind, follow, more = source.binary("$Elements", 1, 3, f"{order}i4")[0].tolist()
+        kind, follow, more = source.read_binary("$Elements", 1, 3, f"{order}i4")[0].tolist()
         if follow < 1 or more < 0 or more > len(source.data):
-            raise source.error(f"$Elements announces {follow} elements with {more} groups at {source.here}")
-        rows = source.binary("$Elements", follow, 1 + more + width_of(source.path, kind), f"{order}i4")
+            raise source.error(f"$Elements announces {follow} elements with {more} groups at {source.location}")
+        rows = source.read_binary("$Elements", follow, 1 + more + width_of(source.path, kind), f"{order}i4")
         rows = rows.astype(np.int64)
         found.append(Elements(kind, rows[:, 0], rows[:, 1 + more :], *_group_and_partition(rows[:, 1 : 1 + more])))
         seen += follow
@@ -96,5 +96,5 @@ def whole_tags(source: ByteCursor, values: np.ndarray) -> np.ndarray:
 
 
 def _expect(source: ByteCursor, end: str) -> None:
-    if source.line() != end:
-        raise source.error(f"a section ends without {end} before {source.here}")
+    if source.next_line() != end:
+        raise source.error(f"a section ends without {end} before {source.location}")

@@ -24,14 +24,14 @@ class _Numbers:
 
     def __init__(self, source: ByteCursor, order: str, name: str, dtype: type):
         self.source, self.order, self.name, self.at = source, order, name, 0
-        self.values = None if order else source.decimals_until(f"${name}", f"$End{name}".encode(), dtype)
+        self.values = None if order else source.read_numbers_until(f"${name}", f"$End{name}".encode(), dtype)
 
     def take(self, count: int, code: str) -> np.ndarray:
         """Numbers: of the type i4, u8 or f8 in binary."""
         if count < 0:
             raise self.source.error(f"${self.name} announces {count} numbers")
         if self.values is None:
-            return self.source.binary(f"${self.name}", count, 1, f"{self.order}{code}")[:, 0]
+            return self.source.read_binary(f"${self.name}", count, 1, f"{self.order}{code}")[:, 0]
         if count > self.values.size - self.at:
             raise self.source.error(f"${self.name} ends early: {count} numbers more were announced")
         self.at += count
@@ -46,8 +46,8 @@ class _Numbers:
         if self.values is not None:
             if self.at != self.values.size:
                 raise self.source.error(f"${self.name} holds {self.values.size - self.at} numbers too many")
-        elif self.source.line() != f"$End{self.name}":
-            raise self.source.error(f"${self.name} ends without $End{self.name} before {self.source.here}")
+        elif self.source.next_line() != f"$End{self.name}":
+            raise self.source.error(f"${self.name} ends without $End{self.name} before {self.source.location}")
 
 
 def read_entities(source: ByteCursor, order: str, result: Read) -> None:

@@ -9,10 +9,10 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.io.base.capabilities import rounded_integers
-from hexmend.io.base.content import ID, Block, from_mesh, unused
+from hexmend.io.base.content import ID, Block, from_mesh, unused_name
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.numbering import combinations, element_numbers, ids_lost, node_numbers, runs
-from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.base.numbering import element_ids, node_ids, runs, set_combinations, unsupported_ids
+from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.gmsh.content import NUMBERS, ORDER, PHYSICAL, dimension_of, numbers_of, unnamed
 from hexmend.io.formats.gmsh.data import DataWriter, data_title, width_of_row, write_data, written_width
 from hexmend.mesh.mesh import Mesh
@@ -21,7 +21,7 @@ from hexmend.mesh.mesh import Mesh
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 4.1; elements stay in their order, so that an entity's may stand in several blocks."""
     content = from_mesh(mesh)
-    tags = node_numbers(dict(content.node_data), len(content.points))
+    tags = node_ids(dict(content.node_data), len(content.points))
     entities, groups, of_block = _entities(content.blocks, mesh.field_data.get(PHYSICAL))
     with open(path, "wb") as file:
         out = DataWriter(file, encoding == "binary")
@@ -32,14 +32,14 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         _write_names(file, groups)
         _write_entities(out, entities, content.points)
         _write_nodes(out, content.points, tags, next(tag for dimension, tag in entities if dimension == 3))
-        numbers = element_numbers(content.blocks)
+        numbers = element_ids(content.blocks)
         _write_elements(out, content.blocks, of_block, numbers, tags)
         of_nodes, of_cells = with_marks(mesh), _alike(content.blocks)
-        titles = distinct(of_nodes, data_title)
+        titles = make_unique(of_nodes, data_title)
         for name, values in of_nodes.items():
             if name != ID:
                 write_data(out, "$NodeData", titles[name], [tags], [np.asarray(values)])
-        titles = distinct(of_cells, data_title)
+        titles = make_unique(of_cells, data_title)
         for name, parts in of_cells.items():
             if name != ID:
                 write_data(out, "$ElementData", titles[name], [numbers[k] for k in parts], list(parts.values()))
@@ -48,17 +48,17 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 def limitations(mesh: Mesh) -> list[str]:
     """Ids and names of sets that the format cannot have, and data of other widths than its own, in words."""
     content = from_mesh(mesh)
-    left = ids_lost(mesh) + renamed(_titles(content.blocks)) + rounded_integers(mesh)
+    left = unsupported_ids(mesh) + altered_names(_titles(content.blocks)) + rounded_integers(mesh)
     for what, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
         arrays = [(name, np.asarray(values)) for part in data for name, values in part.items() if name != ID]
         lost = {name for name, values in arrays if written_width(values) is None}
         wider = {name for name, values in arrays if written_width(values) not in (None, width_of_row(values))}
         left += [f"{what} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
-        titles = distinct((name for name, _ in arrays), data_title)
+        titles = make_unique((name for name, _ in arrays), data_title)
         for name, title in titles.items():
             if len({values.shape[1:] for other, values in arrays if other == name}) > 1:
                 titles[name] = f"{title}_2"  # as those of another width are called
-        left += renamed(titles, what)
+        left += altered_names(titles, what)
         left += [f"the width of {what}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
     return left
 
@@ -69,7 +69,7 @@ def _titles(blocks: tuple[Block, ...]) -> dict[str, str]:
     def form(name: str, end: str) -> str:
         return (" ".join(name.split()) or "unnamed") + end
 
-    return distinct((name for block in blocks for name in block.sets), form)
+    return make_unique((name for block in blocks for name in block.sets), form)
 
 
 def _alike(blocks: tuple[Block, ...]) -> dict[str, dict[int, np.ndarray]]:
@@ -82,7 +82,7 @@ def _alike(blocks: tuple[Block, ...]) -> dict[str, dict[int, np.ndarray]]:
             if name in block.data:
                 values = np.asarray(block.data[name])
                 if values.shape[1:] not in titles:
-                    titles[values.shape[1:]] = unused(name, {*names, *answer}) if titles else name
+                    titles[values.shape[1:]] = unused_name(name, {*names, *answer}) if titles else name
                 answer.setdefault(titles[values.shape[1:]], {})[k] = values
     return answer
 
@@ -110,7 +110,7 @@ def _entities(
     of_block = []
     for block in blocks:
         dimension = dimension_of(block.kind)
-        found, which = combinations(block.sets, len(block))
+        found, which = set_combinations(block.sets, len(block))
         own = []
         for names in found:
             groups = tuple(sorted(numbers[dimension, name] for name in names))

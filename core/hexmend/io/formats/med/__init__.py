@@ -13,7 +13,7 @@ from hexmend.mesh.mesh import Mesh
 
 def read(path: Path) -> Mesh:
     """Read the first mesh of a file, in a process of its own, which the HDF5 library may end; groups are sets."""
-    return to_mesh(path, hdf5.content_by("hexmend.io.formats.med.reader:content", path))
+    return to_mesh(path, hdf5.read_content("hexmend.io.formats.med.reader:content", path))
 
 
 def _matches(head: bytes) -> bool:

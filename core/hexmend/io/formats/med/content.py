@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.unique_names import distinct
+from hexmend.io.base.unique_names import make_unique
 
 #: MED's names of the kinds of cells that are read.
 KINDS = {
@@ -86,7 +86,7 @@ def titles_of(names: Iterable[str]) -> dict[str, str]:
         cut = name.strip().split("\0", 1)[0].encode()[:room].decode(errors="ignore")
         return (cut + end).strip()
 
-    return distinct(names, form)
+    return make_unique(names, form)
 
 
 def bytes_of(names: list[str]) -> np.ndarray:

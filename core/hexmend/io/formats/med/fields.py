@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.memory_budget import Allowance
-from hexmend.io.base.unique_names import distinct
+from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.unique_names import make_unique
 from hexmend.io.formats.med.content import BITS, DAMAGED, taken
 
 #: What stands for a profile where all nodes or cells have values, and how wide names are, in bytes.
@@ -44,7 +44,7 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
         What is left out is added.
     """
     answer: Fields = {place: {} for place in counts}
-    others, bare, steps_left, allowance = [], [], [], Allowance(path, path.stat().st_size)
+    others, bare, steps_left, allowance = [], [], [], MemoryBudget(path, path.stat().st_size)
     for name, field in file["CHA"].items() if "CHA" in file else ():
         if _text(field.attrs.get("MAI", b"")) != mesh or not len(field):
             others.append(name)
@@ -132,7 +132,7 @@ def field_titles(data: Fields) -> dict[tuple[str, str, int], str]:
     Names are without / and around spaces, and cut to 64 bytes; a field is of one type and width, so that others of its
     name have one of their own.
     """
-    titles = distinct((name for part in data.values() for name in part), _form)
+    titles = make_unique((name for part in data.values() for name in part), _form)
     taken_titles = set(titles.values())
     answer: dict[tuple[str, str, int], str] = {}
     for part in data.values():

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.content import ID, Block, Content, from_mesh, joined
+from hexmend.io.base.content import ID, Block, Content, concatenate_data, from_mesh
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.numbering import combinations
-from hexmend.io.base.unique_names import renamed
+from hexmend.io.base.numbering import set_combinations
+from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.med.content import GEOMETRIES, NAMES, ORDER, bytes_of, titles_of
 from hexmend.io.formats.med.fields import ALL, code_of, field_titles, write_fields
 from hexmend.mesh.mesh import Mesh
@@ -87,7 +87,7 @@ def limitations(mesh: Mesh) -> list[str]:
         odd = sorted({name for part in parts for name, values in part.items() if code_of(values) is None})
         left += [f"{what} that are no numbers ({', '.join(odd)})"] if odd else []
     titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
-    return left + renamed(titles_of(_names(content))) + renamed(titles, "data")
+    return left + altered_names(titles_of(_names(content))) + altered_names(titles, "data")
 
 
 def _fields(content: Content) -> dict[str, dict[str, np.ndarray]]:
@@ -95,7 +95,9 @@ def _fields(content: Content) -> dict[str, dict[str, np.ndarray]]:
     answer = {"NOE": content.node_data}
     for kind in dict.fromkeys(block.kind for block in content.blocks):
         blocks = [block for block in content.blocks if block.kind == kind]
-        answer[f"MAI.{NAMES[kind]}"] = joined([block.data for block in blocks], [len(block) for block in blocks])
+        answer[f"MAI.{NAMES[kind]}"] = concatenate_data(
+            [block.data for block in blocks], [len(block) for block in blocks]
+        )
     return {
         place: {name: np.asarray(values) for name, values in part.items() if name != ID}
         for place, part in answer.items()
@@ -126,7 +128,7 @@ def _write_families(
     group: object, known: dict[tuple[str, ...], int], sets: Mapping[str, np.ndarray], count: int, sign: int
 ) -> np.ndarray:
     """The family of each node or cell, (count,) int64; those that are new are written, and noted in `known`."""
-    found, which = combinations(sets, count)
+    found, which = set_combinations(sets, count)
     numbers = []
     for names in map(tuple, found):
         if names and names not in known:

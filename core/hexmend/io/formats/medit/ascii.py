@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import ByteCursor, shown
-from hexmend.io.base.decimals import blocks, lines
+from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import Format, register
 from hexmend.io.formats.medit.content import CAPABILITIES, SECTIONS, STORED_NAMES, from_mesh, limitations, to_mesh
 from hexmend.mesh.mesh import Mesh
@@ -18,35 +18,37 @@ _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexae
 def read(path: Path) -> Mesh:
     """Read a Medit file; coordinates are taken in double precision whatever its version says."""
     source = ByteCursor(path, _without_comments(path.read_bytes()))
-    if source.word() != "MeshVersionFormatted":
+    if source.next_word() != "MeshVersionFormatted":
         raise source.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
-    source.whole(source.word(), "the version")
+    source.parse_count(source.next_word(), "the version")
     points = refs = None
     sections: dict[str, np.ndarray] = {}
     dimension = 0
-    while not source.ended:
-        line, key = source.here, source.word()
+    while not source.at_end:
+        line, key = source.location, source.next_word()
         if key == "End":
             break
         if key == "Dimension":
-            dimension = source.whole(source.word(), "Dimension")
+            dimension = source.parse_count(source.next_word(), "Dimension")
             if dimension != 3:
                 raise source.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
         elif key == "Vertices":
-            rows = source.decimals("Vertices", source.whole(source.word(), "the number of Vertices"), 4, np.float64)
+            rows = source.read_numbers(
+                "Vertices", source.parse_count(source.next_word(), "the number of Vertices"), 4, np.float64
+            )
             points, refs = np.ascontiguousarray(rows[:, :3]), _whole(source, rows[:, 3])
         elif key.lower() in _KNOWN:
             section = _KNOWN[key.lower()]
-            count = source.whole(source.word(), f"the number of {section.name}")
-            sections[section.name] = source.decimals(section.name, count, section.width, np.int64)
+            count = source.parse_count(source.next_word(), f"the number of {section.name}")
+            sections[section.name] = source.read_numbers(section.name, count, section.width, np.int64)
         elif key[:1].isalpha():
             _skip(source)  # a section that says nothing about hexes
         else:
-            raise source.error(f"{shown(key)} stands where a section should begin ({line})")
+            raise source.error(f"{quoted(key)} stands where a section should begin ({line})")
     if points is None:
         raise source.error("has no section Vertices")
     if "Hexahedra" not in sections and not source.data.rstrip().endswith(b"End"):
-        raise source.error(f"ends at {source.here} without Hexahedra")
+        raise source.error(f"ends at {source.location} without Hexahedra")
     return to_mesh(path, points, refs, sections)
 
 
@@ -62,9 +64,9 @@ def _whole(source: ByteCursor, numbers: np.ndarray) -> np.ndarray:
 
 def _skip(source: ByteCursor) -> None:
     """Go to the next word that begins with a letter."""
-    while not source.ended:
+    while not source.at_end:
         mark = source.pos
-        if source.word()[:1].isalpha():
+        if source.next_word()[:1].isalpha():
             source.pos = mark
             return
 
@@ -81,12 +83,12 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     points, refs, sections = from_mesh(mesh)
     with open(path, "wb") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n".encode())
-        for part in blocks(len(points)):
-            file.write(lines(points[part], refs[part]))
+        for part in row_chunks(len(points)):
+            file.write(format_rows(points[part], refs[part]))
         for name, rows in sections.items():
             file.write(f"{name}\n{len(rows)}\n".encode())
-            for part in blocks(len(rows)):
-                file.write(lines(rows[part]))
+            for part in row_chunks(len(rows)):
+                file.write(format_rows(rows[part]))
         file.write(b"End\n")
 
 

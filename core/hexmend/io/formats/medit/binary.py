@@ -19,12 +19,12 @@ _BY_CODE = {section.code: section for section in SECTIONS.values()}
 
 def read(path: Path) -> Mesh:
     """Read a binary Medit file of either byte order."""
-    source = ByteCursor(path, path.read_bytes(), text=False)
-    head = source.take(4, "the head")
+    source = ByteCursor(path, path.read_bytes(), is_text=False)
+    head = source.read_bytes(4, "the head")
     order = {b"\x01\x00\x00\x00": "<", b"\x00\x00\x00\x01": ">"}.get(head)
     if order is None:
         raise source.error("does not begin with the number 1", "Is it a binary Medit file? Check its suffix.")
-    (version,) = struct.unpack(f"{order}i", source.take(4, "the version"))
+    (version,) = struct.unpack(f"{order}i", source.read_bytes(4, "the version"))
     if not 1 <= version <= 4:
         raise source.error(f"is of version {version}: expected 1 to 4")
     whole = f"{order}i8" if version == 4 else f"{order}i4"
@@ -36,26 +36,26 @@ def read(path: Path) -> Mesh:
     seen = 0
     while source.pos < len(source.data):
         at = source.pos
-        (code,) = struct.unpack(f"{order}i", source.take(4, "a section's number"))
+        (code,) = struct.unpack(f"{order}i", source.read_bytes(4, "a section's number"))
         if code == _END:
             break
-        (after,) = struct.unpack(offset, source.take(struct.calcsize(offset), "the place of the next section"))
+        (after,) = struct.unpack(offset, source.read_bytes(struct.calcsize(offset), "the place of the next section"))
         if code == _DIMENSION:
-            (dimension,) = struct.unpack(f"{order}i", source.take(4, "the dimension"))
+            (dimension,) = struct.unpack(f"{order}i", source.read_bytes(4, "the dimension"))
             if dimension != 3:
                 raise source.error(f"its dimension is {dimension}: expected 3", "Hexmend works in space.")
             continue
         seen += 1
         if code == _VERTICES or code in _BY_CODE:
             name = "Vertices" if code == _VERTICES else _BY_CODE[code].name
-            count = int(source.binary(f"the number of {name}", 1, 1, whole)[0, 0])
+            count = int(source.read_binary(f"the number of {name}", 1, 1, whole)[0, 0])
             if count < 0:
                 raise source.error(f"the number of {name} at byte {at} is {count}: expected a natural number")
             if code == _VERTICES:
-                rows = source.binary(name, count, 1, [("x", real, 3), ("ref", whole)])
+                rows = source.read_binary(name, count, 1, [("x", real, 3), ("ref", whole)])
                 points, refs = rows["x"][:, 0].astype(np.float64), rows["ref"][:, 0].astype(np.int64)
             else:
-                sections[name] = source.binary(name, count, _BY_CODE[code].width, whole).astype(np.int64)
+                sections[name] = source.read_binary(name, count, _BY_CODE[code].width, whole).astype(np.int64)
         elif not source.pos <= after <= len(source.data):
             raise source.error(f"the section of number {code} at byte {at} leads to byte {after}, outside the file")
         else:

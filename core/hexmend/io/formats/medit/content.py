@@ -13,7 +13,7 @@ from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import needs_marks
 from hexmend.io.base.format import Capability
-from hexmend.io.base.lower_order import middles_lost, reduced
+from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.mesh.mesh import Mesh
 
 
@@ -109,7 +109,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
 
     Cells of second order are written with their corners, and nodes that no cell has any longer are left out.
     """
-    content = reduced(content_of(mesh), _KINDS)
+    content = reduce_order(content_of(mesh), _KINDS)
     order = np.argsort(np.concatenate([numbers for _, numbers in hex_blocks(mesh)]))  # which is that of the mesh
     rows: dict[str, list[np.ndarray]] = {}
     for block in content.blocks:
@@ -135,7 +135,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
 
 def limitations(mesh: Mesh) -> list[str]:
     """Nodes of second order of cells beside hexes of first order, in words."""
-    return middles_lost(mesh, _KINDS)
+    return lost_mid_nodes(mesh, _KINDS)
 
 
 def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:

@@ -12,8 +12,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, from_mesh
 from hexmend.io.base.format import Capability, Format, register
-from hexmend.io.base.lower_order import middles_lost, reduced
-from hexmend.io.base.numbering import element_numbers, ids_lost, node_numbers
+from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
+from hexmend.io.base.numbering import element_ids, node_ids, unsupported_ids
 from hexmend.mesh.mesh import Mesh
 
 #: What the elements of a kind are called.
@@ -45,9 +45,9 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
     Of the nodes of second order those in faces and in the middle of hexes are left out.
     """
-    content = reduced(from_mesh(mesh), _NAMES)
+    content = reduce_order(from_mesh(mesh), _NAMES)
     blocks = content.blocks
-    tags, numbers = node_numbers(dict(content.node_data), len(content.points), _MOST), element_numbers(blocks, _MOST)
+    tags, numbers = node_ids(dict(content.node_data), len(content.points), _MOST), element_ids(blocks, _MOST)
     if max(int(tags.max()), *(int(own.max(initial=0)) for own in numbers)) >= _MOST:
         raise FileError(path, "a number of a node or element has more than 8 digits", "Write .vtu or .msh instead.")
     used = {number for block in blocks for number in _properties(block)}
@@ -87,10 +87,10 @@ def _limitations(mesh: Mesh) -> list[str]:
                 losing.add(number)
             later[members] = True
     words = ", ".join(f"property {number}" for number in sorted(losing))
-    left = ids_lost(mesh, _MOST) + ([f"element sets that overlap ({words})"] if words else [])
+    left = unsupported_ids(mesh, _MOST) + ([f"element sets that overlap ({words})"] if words else [])
     if not all(map(_is_exact, mesh.points.ravel().tolist())):
         left.append("last digits of coordinates (a column has a place for 12 to 14)")
-    return left + middles_lost(mesh, _NAMES)
+    return left + lost_mid_nodes(mesh, _NAMES)
 
 
 def _is_exact(value: float) -> bool:

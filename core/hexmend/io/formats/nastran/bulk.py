@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.cursor import shown
+from hexmend.io.base.cursor import quoted
 from hexmend.io.formats.nastran.card_blocks import Lines, Stretch
 
 #: The line, name and fields of a card.
@@ -83,7 +83,7 @@ class Bulk:
             return int(word)
         digits = word[1:] if word[0] in "+-" else word
         if not (digits.isascii() and digits.isdigit() and len(digits) < 19):
-            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a whole number")
+            raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a whole number")
         return int(word)
 
     def real(self, word: str, line: int, name: str) -> float:
@@ -96,7 +96,7 @@ class Bulk:
         try:
             return float(f"{found[1]}e{found[2] or found[3] or ''}{found[4]}" if found else word)
         except ValueError:
-            raise self.error(f"{name} in line {line} holds {shown(word)}: expected a number") from None
+            raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a number") from None
 
 
 def _parted(line: str) -> tuple[str, list[str]]:

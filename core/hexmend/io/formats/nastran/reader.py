@@ -9,8 +9,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import shown, text_of
-from hexmend.io.base.numbering import places
+from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.numbering import find_ids
 from hexmend.io.formats.nastran import ORDER
 from hexmend.io.formats.nastran.bulk import Bulk
 from hexmend.io.formats.nastran.card_blocks import Stretch, wholes
@@ -29,7 +29,7 @@ KINDS = {
 
 def read(path: Path) -> Mesh:
     """Read grid points and elements; the elements of a property are the set "property N"."""
-    bulk = Bulk(path, text_of(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
+    bulk = Bulk(path, read_text_bytes(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
     reader = _Reader(bulk)
     for piece in bulk.pieces({"GRID", *KINDS}):
         if not isinstance(piece, Stretch):
@@ -154,7 +154,7 @@ class _Reader:
                 f"{self.partial:,} elements have some of their mid-nodes only: they are read with their corners."
             )
         if self.other:
-            words = ", ".join(f"{count:,} {shown(name)[1:-1]}" for name, count in list(self.other.items())[:6])
+            words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other.items())[:6])
             notes.append(f"Other cards ({words}{', ...' if len(self.other) > 6 else ''}) are left out.")
         blocks = [_block(self.bulk.path, kind, rows.whole(), tags) for kind, rows in self.rows.items()]
         blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
@@ -169,7 +169,7 @@ def _shape(name: str) -> tuple[int, str, str, int, int]:
 
 
 def _block(path: Path, kind: str, rows: np.ndarray, tags: np.ndarray) -> Block:
-    nodes = places(path, tags, rows[:, 2:], "node")
+    nodes = find_ids(path, tags, rows[:, 2:], "node")
     numbers = np.unique(rows[:, 1]).tolist()
     sets = {f"property {number}": np.flatnonzero(rows[:, 1] == number) for number in numbers if number > 0}
     return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: rows[:, 0].copy()}, sets)

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import ByteCursor, shown, text_of
+from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.format import Capability, Format, register
-from hexmend.io.base.polyhedra import Lists, cells_of
+from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
@@ -30,26 +30,26 @@ _WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "sho
 
 def read(path: Path) -> Mesh:
     """Read a mesh of polyhedra; properties of its vertices and cells are data of nodes and hexes."""
-    source = ByteCursor(path, text_of(path))
-    if source.line().upper() != "OVM ASCII":
+    source = ByteCursor(path, read_text_bytes(path))
+    if source.next_line().upper() != "OVM ASCII":
         raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
-    faces = cells = Lists(np.zeros(1, np.int64), np.zeros(0, np.int64))
+    faces = cells = RaggedArray(np.zeros(1, np.int64), np.zeros(0, np.int64))
     seen: set[object] = set()
     node_data: dict[str, np.ndarray] = {}
     cell_data: dict[str, np.ndarray] = {}
     notes: list[str] = []
-    while not source.ended:
-        line, key = source.here, source.line()
+    while not source.at_end:
+        line, key = source.location, source.next_line()
         section, named = key.upper(), _PROPERTY.match(key)
         mark = (named[1].upper(), *named.groups()[1:]) if named else section  # capitals tell names apart
         if mark in seen:
-            raise source.error(f"holds {shown(key)} twice, again at {line}")
+            raise source.error(f"holds {quoted(key)} twice, again at {line}")
         seen.add(mark)
         if section == "VERTICES":
-            points = source.decimals("Vertices", _count(source, "Vertices"), 3, np.float64)
+            points = source.read_numbers("Vertices", _count(source, "Vertices"), 3, np.float64)
         elif section == "EDGES":
-            edges = source.decimals("Edges", _count(source, "Edges"), 2, np.int64)
+            edges = source.read_numbers("Edges", _count(source, "Edges"), 2, np.int64)
             _check(source, "Edges", edges, len(points))
         elif section == "FACES":
             faces = _rows(source, "Faces", 2 * len(edges))
@@ -58,14 +58,14 @@ def read(path: Path) -> Mesh:
         elif found := _PROPERTY.match(key):
             first = _BEFORE.get(found[1].upper())
             if first is not None and first.upper() not in seen:
-                raise source.error(f"{shown(key)} stands before {first} ({line})")
+                raise source.error(f"{quoted(key)} stands before {first} ({line})")
             _property(source, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
         else:
-            raise source.error(f"{shown(key)} stands where a section should begin ({line})")
+            raise source.error(f"{quoted(key)} stands where a section should begin ({line})")
     if "POLYHEDRA" not in seen:
         raise source.error("ends without Polyhedra")
-    loops = Lists(faces.start, edges[faces.values >> 1, faces.values & 1])  # where each half-edge begins
-    found = cells_of(loops, Lists(cells.start, cells.values >> 1), (cells.values & 1) == 1)
+    loops = RaggedArray(faces.start, edges[faces.values >> 1, faces.values & 1])  # where each half-edge begins
+    found = cells_from_faces(loops, RaggedArray(cells.start, cells.values >> 1), (cells.values & 1) == 1)
     others = len(cells) - sum(len(which) for which, _ in found.values())
     if "hex" not in found and others:
         raise source.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
@@ -95,22 +95,22 @@ def _grid(
     )
 
 
-def _rows(source: ByteCursor, name: str, limit: int) -> Lists:
+def _rows(source: ByteCursor, name: str, limit: int) -> RaggedArray:
     """Rows that each begin with how many numbers follow, which are from 0 to limit - 1."""
     count = _count(source, name)
     letter = _LETTER.search(source.data, source.pos)
-    values = source.decimals_to(name, letter.start() if letter else len(source.data), np.int64)
+    values = source.read_numbers_to(name, letter.start() if letter else len(source.data), np.int64)
     starts, at, view = [], 0, memoryview(values)
     while at < values.size and view[at] >= 0:
         starts.append(at + 1)
         at += 1 + view[at]
     if len(starts) != count or at != values.size:
-        raise source.error(f"{name} holds {len(starts)} whole rows of {count} before {source.here}")
+        raise source.error(f"{name} holds {len(starts)} whole rows of {count} before {source.location}")
     inside = np.ones(values.size, bool)
     inside[np.array(starts, np.int64) - 1] = False
     _check(source, name, values[inside], limit)
     lengths = values[~inside]
-    return Lists(np.concatenate([[0], np.cumsum(lengths)]), values[inside])
+    return RaggedArray(np.concatenate([[0], np.cumsum(lengths)]), values[inside])
 
 
 def _property(
@@ -123,19 +123,19 @@ def _property(
         data, count = kept[entity.upper()]
         width = int(vector[1]) if vector else 1
         real = vector[2] in "df" if vector else type in _REALS
-        values = source.decimals(f"{entity} {shown(name)}", count, width, np.float64 if real else np.int64)
+        values = source.read_numbers(f"{entity} {quoted(name)}", count, width, np.float64 if real else np.int64)
         data[name] = values if vector else values[:, 0]
         return
-    notes.append(f"The property {shown(name)} ({entity} {shown(type)[1:-1]}) is left out.")
-    while not source.ended:
+    notes.append(f"The property {quoted(name)} ({entity} {quoted(type)[1:-1]}) is left out.")
+    while not source.at_end:
         before = source.pos
-        if _PROPERTY.match(source.line()):
+        if _PROPERTY.match(source.next_line()):
             source.pos = before
             return
 
 
 def _count(source: ByteCursor, name: str) -> int:
-    return source.whole(source.line(), f"the number of {name}")
+    return source.parse_count(source.next_line(), f"the number of {name}")
 
 
 def _check(source: ByteCursor, name: str, values: np.ndarray, limit: int) -> None:

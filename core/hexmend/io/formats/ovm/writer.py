@@ -14,13 +14,12 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import from_mesh as content_of
-from hexmend.io.base.decimals import blocks as parts_of
-from hexmend.io.base.decimals import lines
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.fixed_marks import with_marks
-from hexmend.io.base.lower_order import middles_lost, reduced
+from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import runs
-from hexmend.io.base.polyhedra import LOOPS, Lists, faces_of
-from hexmend.io.base.unique_names import distinct, renamed
+from hexmend.io.base.polyhedra import LOOPS, RaggedArray, faces_from_cells
+from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.vtk.grid import of_content
 from hexmend.mesh.mesh import Mesh
 
@@ -30,7 +29,7 @@ _KINDS = frozenset(LOOPS)
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write vertices, edges, faces, polyhedra and properties; nodes of second order are left out."""
-    content = reduced(replace(content_of(mesh), node_data=with_marks(mesh)), _KINDS)
+    content = reduce_order(replace(content_of(mesh), node_data=with_marks(mesh)), _KINDS)
     for block in content.blocks:
         twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
         if twice.size:
@@ -39,7 +38,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
                 f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's",
                 "Mend it with hexmend repair, or write .vtu instead.",
             )
-    loops, halves = faces_of([(block.kind, block.nodes) for block in content.blocks])
+    loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))
     grid = of_content(content)
     with open(path, "wb") as file:
@@ -59,11 +58,11 @@ def limitations(mesh: Mesh) -> list[str]:
     for what, data in (("point data", grid.node_data), ("cell data", grid.cell_data)):
         odd = sorted(name for name, values in data.items() if _type(np.asarray(values)) is None)
         left += [f"{what} of more than 4 columns, or no numbers ({', '.join(odd)})"] if odd else []
-        left += renamed(_titles(data), f"{what} and sets")
-    return left + middles_lost(mesh, _KINDS)
+        left += altered_names(_titles(data), f"{what} and sets")
+    return left + lost_mid_nodes(mesh, _KINDS)
 
 
-def _edges(loops: np.ndarray, count: int) -> tuple[np.ndarray, Lists]:
+def _edges(loops: np.ndarray, count: int) -> tuple[np.ndarray, RaggedArray]:
     """The edges of faces, (e, 2) nodes, and the half-edges of each face: 2 k, or 2 k + 1 for edge k the other way."""
     widths = (loops >= 0).sum(axis=1)
     inside = np.arange(4) < widths[:, None]
@@ -73,20 +72,20 @@ def _edges(loops: np.ndarray, count: int) -> tuple[np.ndarray, Lists]:
     _, first, which = np.unique(low * count + high, return_index=True, return_inverse=True)
     number = np.argsort(np.argsort(first))[which]  # as they come in the faces
     pairs = np.column_stack([begin, end])[np.sort(first)]
-    return pairs, Lists(np.concatenate([[0], np.cumsum(widths)]), 2 * number + (pairs[number, 0] != begin))
+    return pairs, RaggedArray(np.concatenate([[0], np.cumsum(widths)]), 2 * number + (pairs[number, 0] != begin))
 
 
 def _write_rows(file: BinaryIO, name: str, rows: np.ndarray) -> None:
     file.write(f"{name}\n{len(rows)}\n".encode())
-    for part in parts_of(len(rows)):
-        file.write(lines(rows[part]))
+    for part in row_chunks(len(rows)):
+        file.write(format_rows(rows[part]))
 
 
-def _write_lists(file: BinaryIO, name: str, lists: Lists) -> None:
+def _write_lists(file: BinaryIO, name: str, lists: RaggedArray) -> None:
     file.write(f"{name}\n{len(lists)}\n".encode())
     for part in runs(lists.lengths):
         rows = lists.values[lists.start[part.start] : lists.start[part.stop]].reshape(part.stop - part.start, -1)
-        file.write(lines(np.column_stack([np.full(len(rows), rows.shape[1]), rows])))
+        file.write(format_rows(np.column_stack([np.full(len(rows), rows.shape[1]), rows])))
 
 
 def _write_properties(file: BinaryIO, entity: str, data: Mapping[str, np.ndarray]) -> None:
@@ -96,8 +95,8 @@ def _write_properties(file: BinaryIO, entity: str, data: Mapping[str, np.ndarray
         kind = _type(array)
         if kind is not None:
             file.write(f'{entity} {kind} "{titles[name]}"\n'.encode("utf-8", "replace"))
-            for part in parts_of(len(array)):
-                file.write(lines(array[part].astype(np.int64) if array.dtype.kind == "b" else array[part]))
+            for part in row_chunks(len(array)):
+                file.write(format_rows(array[part].astype(np.int64) if array.dtype.kind == "b" else array[part]))
 
 
 def _type(values: np.ndarray) -> str | None:
@@ -120,4 +119,4 @@ def _titles(data: Mapping[str, np.ndarray]) -> dict[str, str]:
         clean = "".join(letter if letter.isprintable() else " " for letter in name.replace('"', "'"))
         return (clean.strip() or "property") + end
 
-    return distinct(data, form)
+    return make_unique(data, form)

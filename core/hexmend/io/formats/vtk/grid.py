@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, Block, Content, joined
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
@@ -142,7 +142,7 @@ def of_content(content: Content) -> Grid:
         start=np.concatenate([[0], np.cumsum(widths)]),
         nodes=np.concatenate([block.nodes.ravel() for block in content.blocks]),
         node_data=node_data,
-        cell_data=joined(
+        cell_data=concatenate_data(
             [
                 {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
                 for block in content.blocks
@@ -203,7 +203,7 @@ def _in_order(grid: Grid, types: np.ndarray, blocks: list[Block]) -> list[Block]
     order = np.argsort(np.concatenate(places), kind="stable")
     lengths = [len(block) for block in hexes]
     data, sets = _parted(
-        joined(
+        concatenate_data(
             [
                 {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
                 for block in hexes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.io.base.cursor import ByteCursor, shown
+from hexmend.io.base.cursor import ByteCursor, quoted
 
 TYPES = {
     "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
@@ -26,10 +26,10 @@ def array(source: ByteCursor, section: str, rows: int, width: int, kind: str) ->
     """Numbers of a VTK type, in the machine's byte order."""
     code = TYPES.get(kind.lower())
     if code is None:
-        raise source.error(f"{section} has the type {shown(kind)}: expected {', '.join(TYPES)}")
-    if source.text:
+        raise source.error(f"{section} has the type {quoted(kind)}: expected {', '.join(TYPES)}")
+    if source.is_text:
         wide = np.float64 if code[0] == "f" else np.uint64 if code == "u8" else np.int64
-        values = source.decimals(section, rows, width, wide)
+        values = source.read_numbers(section, rows, width, wide)
         if code[0] == "f":
             return values
         limit = np.iinfo(code)
@@ -40,9 +40,9 @@ def array(source: ByteCursor, section: str, rows: int, width: int, kind: str) ->
             )
         return values.astype(code)
     if kind.lower() == "bit":
-        bits = np.unpackbits(np.frombuffer(source.take((rows * width + 7) // 8, section), np.uint8))
+        bits = np.unpackbits(np.frombuffer(source.read_bytes((rows * width + 7) // 8, section), np.uint8))
         return bits[: rows * width].reshape(rows, width)
-    return source.binary(section, rows, width, f">{code}").astype(code)
+    return source.read_binary(section, rows, width, f">{code}").astype(code)
 
 
 def whole_numbers(source: ByteCursor, section: str, rows: int, kind: str) -> np.ndarray:
@@ -55,13 +55,13 @@ def whole_numbers(source: ByteCursor, section: str, rows: int, kind: str) -> np.
 def strings_of(source: ByteCursor, count: int) -> list[str]:
     """Strings: a line for each, or its length and it."""
     if count > len(source.data) - source.pos:
-        raise source.error(f"{count} strings are announced before {source.here}: the file ends before")
-    if source.text:
-        return [unquoted(source.raw_line()) for _ in range(count)]
+        raise source.error(f"{count} strings are announced before {source.location}: the file ends before")
+    if source.is_text:
+        return [unquoted(source.rest_of_line()) for _ in range(count)]
     answer = []
     for _ in range(count):
-        size = 8 >> source.take(1, "a string")[0] // 64  # 8, 4, 2 or 1 bytes hold the length, but for two bits
+        size = 8 >> source.read_bytes(1, "a string")[0] // 64  # 8, 4, 2 or 1 bytes hold the length, but for two bits
         source.pos -= 1
-        head = int.from_bytes(source.take(size, "a string"), "big") & ((1 << 8 * size - 2) - 1)
-        answer.append(source.take(head, "a string").decode("utf-8", errors="replace"))
+        head = int.from_bytes(source.read_bytes(size, "a string"), "big") & ((1 << 8 * size - 2) - 1)
+        answer.append(source.read_bytes(head, "a string").decode("utf-8", errors="replace"))
     return answer

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
-from hexmend.io.base.cursor import ByteCursor, shown
+from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.legacy_arrays import STRINGS, array, strings_of, unquoted, whole_numbers
@@ -42,7 +42,7 @@ class _Reader:
                 first = start.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
                 raise FileError(
                     path,
-                    f"line 1 is {shown(first)}: expected '# vtk DataFile Version ...'",
+                    f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'",
                     "Is it a VTK file? Check its suffix.",
                 )
             file.seek(0)
@@ -78,19 +78,19 @@ class _Reader:
 
     def _read(self, dataset: str, needed: tuple[str, ...]) -> None:
         source = self.source
-        source.line()  # the first, which was looked at
-        source.raw_line()  # the title
-        kind = source.line().upper()
+        source.next_line()  # the first, which was looked at
+        source.rest_of_line()  # the title
+        kind = source.next_line().upper()
         if kind not in ("ASCII", "BINARY"):
-            raise source.error(f"line 3 is {shown(kind)}: expected ASCII or BINARY")
-        source.text = kind == "ASCII"
-        words = source.line().upper().split()
+            raise source.error(f"line 3 is {quoted(kind)}: expected ASCII or BINARY")
+        source.is_text = kind == "ASCII"
+        words = source.next_line().upper().split()
         if words != ["DATASET", dataset]:
             what = words[1] if len(words) > 1 and words[0] == "DATASET" else "missing"
             remedy = f"Convert it to {_DATASETS[dataset]}."
             raise source.error(f"its dataset is {what}: expected {dataset}", remedy)
-        while not source.ended:
-            words = source.line().split()
+        while not source.at_end:
+            words = source.next_line().split()
             if dataset == "POLYDATA" and words[0].upper() in self.data:
                 break
             self._section(words)
@@ -102,71 +102,79 @@ class _Reader:
         source, key = self.source, words[0].upper()
         mark = source.pos
         if key in self.found or (key == "CELLS" and "CELL_TYPES" in self.found):
-            raise source.error(f"has a second section {key} before {source.here}")
+            raise source.error(f"has a second section {key} before {source.location}")
         try:
             if key == "POINTS":
                 self.found[key] = array(
-                    source, key, source.whole(words[1], "the number of points"), 3, words[2]
+                    source, key, source.parse_count(words[1], "the number of points"), 3, words[2]
                 ).astype(float)
             elif key == "CELLS":
-                self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
+                self._cells_section(
+                    source.parse_count(words[1], "the number of cells"), source.parse_count(words[2], "their size")
+                )
             elif key == "POLYGONS":
-                count = source.whole(words[1], "the number of polygons")
-                self._cells_section(count, source.whole(words[2], "their size"))
+                count = source.parse_count(words[1], "the number of polygons")
+                self._cells_section(count, source.parse_count(words[2], "their size"))
                 self.found["CELL_TYPES"] = np.zeros(count - ("OFFSETS" in self.found), np.uint8)
             elif key in ("VERTICES", "LINES"):
-                self._cells_section(source.whole(words[1], "the number of cells"), source.whole(words[2], "their size"))
+                self._cells_section(
+                    source.parse_count(words[1], "the number of cells"), source.parse_count(words[2], "their size")
+                )
                 for name in ("CELLS", "OFFSETS"):
                     self.found.pop(name, None)  # they are left out
             elif key == "TRIANGLE_STRIPS":
                 raise source.error("holds triangle strips: expected polygons", "Convert them to triangles.")
             elif key == "CELL_TYPES":
-                self.found[key] = array(source, key, source.whole(words[1], "the number of cells"), 1, "int")[:, 0]
+                self.found[key] = array(source, key, source.parse_count(words[1], "the number of cells"), 1, "int")[
+                    :, 0
+                ]
             elif key in self.data:
-                self.section, self.rows = key, source.whole(words[1], "the number of rows")
+                self.section, self.rows = key, source.parse_count(words[1], "the number of rows")
                 self._check_rows(key)
             elif key == "SCALARS":
-                width = source.whole(words[3], "the number of components") if len(words) > 3 else 1
+                width = source.parse_count(words[3], "the number of components") if len(words) > 3 else 1
                 before = source.pos
-                if not source.line().upper().startswith("LOOKUP_TABLE"):
+                if not source.next_line().upper().startswith("LOOKUP_TABLE"):
                     source.pos = before
                 self._keep(words[1], array(source, f"SCALARS {words[1]}", self.rows, width, words[2]))
             elif key in _WIDTHS:
                 self._keep(words[1], array(source, f"{key} {words[1]}", self.rows, _WIDTHS[key], words[2]))
             elif key == "TEXTURE_COORDINATES":
-                self._keep(words[1], array(source, key, self.rows, source.whole(words[2], "the dimension"), words[3]))
-            elif key == "COLOR_SCALARS":
-                kind = "float" if source.text else "unsigned_char"
                 self._keep(
-                    words[1], array(source, key, self.rows, source.whole(words[2], "the number of values"), kind)
+                    words[1], array(source, key, self.rows, source.parse_count(words[2], "the dimension"), words[3])
+                )
+            elif key == "COLOR_SCALARS":
+                kind = "float" if source.is_text else "unsigned_char"
+                self._keep(
+                    words[1], array(source, key, self.rows, source.parse_count(words[2], "the number of values"), kind)
                 )
             elif key == "LOOKUP_TABLE":
-                kind = "float" if source.text else "unsigned_char"
-                array(source, key, source.whole(words[2], "the size of the table"), 4, kind)
+                kind = "float" if source.is_text else "unsigned_char"
+                array(source, key, source.parse_count(words[2], "the size of the table"), 4, kind)
             elif key == "FIELD":
-                for _ in range(source.whole(words[2], "the number of arrays")):
+                for _ in range(source.parse_count(words[2], "the number of arrays")):
                     self._field()
             elif key == "METADATA":
-                while source.raw_line():
+                while source.rest_of_line():
                     pass
             else:
-                place = source.place(mark)
-                raise source.error(f"the line before {place} begins with {shown(words[0])}: expected a section")
+                place = source.location_of(mark)
+                raise source.error(f"the line before {place} begins with {quoted(words[0])}: expected a section")
         except IndexError:
-            heading = shown(" ".join(words))
-            raise source.error(f"the heading {heading} before {source.place(mark)} is incomplete") from None
+            heading = quoted(" ".join(words))
+            raise source.error(f"the heading {heading} before {source.location_of(mark)} is incomplete") from None
 
     def _field(self) -> None:
         source = self.source
-        words = source.line().split()
+        words = source.next_line().split()
         while words and words[0].upper() == "METADATA":
-            while source.raw_line():
+            while source.rest_of_line():
                 pass
-            words = source.line().split()
+            words = source.next_line().split()
         if len(words) < 4:
-            raise source.error(f"an array's heading before {source.here} lacks some of name, width, rows and type")
-        width = source.whole(words[1], "the number of components")
-        rows = source.whole(words[2], "the number of rows")
+            raise source.error(f"an array's heading before {source.location} lacks some of name, width, rows and type")
+        width = source.parse_count(words[1], "the number of components")
+        rows = source.parse_count(words[2], "the number of rows")
         if words[3].lower() in STRINGS:
             strings = strings_of(source, rows * width)
             if self.section:
@@ -185,7 +193,7 @@ class _Reader:
     def _keep(self, name: str, values: np.ndarray) -> None:
         target = self.data.get(self.section)
         if target is None:
-            raise self.source.error(f"the array {shown(name)} stands before POINT_DATA and CELL_DATA")
+            raise self.source.error(f"the array {quoted(name)} stands before POINT_DATA and CELL_DATA")
         target[self._name(name, target)] = values[:, 0] if values.shape[1] == 1 else values
 
     def _name(self, name: str, target: Mapping[str, object]) -> str:
@@ -201,17 +209,17 @@ class _Reader:
     def _cells_section(self, count: int, size: int) -> None:
         source = self.source
         mark = source.pos
-        words = source.line().split()
+        words = source.next_line().split()
         if words and words[0].upper() == "OFFSETS":  # version 5
             self.found["OFFSETS"] = whole_numbers(source, "OFFSETS", count, words[1]).astype(np.int64)
-            words = source.line().split()
+            words = source.next_line().split()
             if not words or words[0].upper() != "CONNECTIVITY":
-                raise source.error(f"CELLS goes on with {shown(' '.join(words))}: expected CONNECTIVITY")
+                raise source.error(f"CELLS goes on with {quoted(' '.join(words))}: expected CONNECTIVITY")
             self.found["CELLS"] = whole_numbers(source, "CONNECTIVITY", size, words[1])
         else:
             source.pos = mark
             if count > size:
-                raise source.error(f"{count} cells of {size} numbers are announced before {source.here}")
+                raise source.error(f"{count} cells of {size} numbers are announced before {source.location}")
             shape = (count, 9) if size == 9 * count else (size, 1)
             self.found["CELLS"] = array(source, "CELLS", *shape, "int").ravel()
 

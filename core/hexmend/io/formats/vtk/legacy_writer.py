@@ -11,7 +11,7 @@ from urllib.parse import quote
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.decimals import blocks, lines
+from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.mesh.mesh import Mesh
 
@@ -86,8 +86,8 @@ def _arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool)
 
 def _numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool) -> None:
     if ascii:
-        for part in blocks(len(values)):
-            file.write(lines(values[part]))
+        for part in row_chunks(len(values)):
+            file.write(format_rows(values[part]))
     else:
         file.write(np.ascontiguousarray(values, dtype=f">{code}").tobytes() + b"\n")
 

@@ -16,7 +16,7 @@ from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import Content, to_mesh
 from hexmend.io.base.format import Format, register
-from hexmend.io.base.memory_budget import Allowance
+from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import joined
 from hexmend.mesh.mesh import Mesh
@@ -28,7 +28,7 @@ _CHUNKS, _CHUNK = 1000, 24
 
 def read(path: Path) -> Mesh:
     """Read a VTKHDF file, in a process of its own; its parts are put together without their ghost cells."""
-    return to_mesh(path, hdf5.content_by("hexmend.io.formats.vtk.vtkhdf:content", path))
+    return to_mesh(path, hdf5.read_content("hexmend.io.formats.vtk.vtkhdf:content", path))
 
 
 def content(path: Path) -> Content:
@@ -58,7 +58,7 @@ class _Reader:
 
     def __init__(self, path: Path, root):
         self.path, self.root = path, root
-        self.allowance = Allowance(path, path.stat().st_size)
+        self.allowance = MemoryBudget(path, path.stat().st_size)
         self.notes: list[str] = []
 
     def grids(self) -> list[Grid]:

@@ -11,7 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.decimals import lines
+from hexmend.io.base.decimals import format_rows
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
 from hexmend.mesh.mesh import Mesh
@@ -100,7 +100,7 @@ def _array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: boo
         numbers = numbers.reshape(-1)
     file.write(f'{head} format="{"ascii" if ascii else "binary"}">\n'.encode("utf-8", "replace"))
     if ascii:
-        file.write(lines(numbers))
+        file.write(format_rows(numbers))
     else:
         _pack(file, numbers)
     file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")

@@ -13,7 +13,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.io.base.cursor import clipped, count_words
+from hexmend.io.base.cursor import count_words, exceeds_dtype
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, title
 
 #: How compressors are named.
@@ -82,7 +82,7 @@ def _decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int
         return values.astype(dtype.newbyteorder("="), copy=False)
     limit = np.iinfo(dtype)
     outside = np.flatnonzero((values < limit.min) | (values > limit.max))
-    if outside.size or clipped(values, text):
+    if outside.size or exceeds_dtype(values, text):
         word = values[outside[0]] if outside.size else "a number"
         raise document.error(f"{title(array)} holds {word}, which is outside of its type {array.get('type')}")
     return values.astype(dtype.newbyteorder("="), copy=False)

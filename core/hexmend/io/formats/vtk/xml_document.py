@@ -12,7 +12,7 @@ from typing import BinaryIO
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.memory_budget import Allowance
+from hexmend.io.base.memory_budget import MemoryBudget
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: Types of arrays, without their byte order. A bit is an eighth of a byte: see `hexmend.io.formats.vtk.xml_arrays`.
@@ -91,7 +91,7 @@ class Document:
             if not start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
                 raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
             self.size = self.file.seek(0, io.SEEK_END)
-            self.allowance = Allowance(path, self.size)
+            self.allowance = MemoryBudget(path, self.size)
             self._appended: int | None = None
             self.root = self._head(kind)
         except BaseException:

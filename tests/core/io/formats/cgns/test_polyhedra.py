@@ -6,7 +6,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.base.polyhedra import LOOPS, faces_of
+from hexmend.io.base.polyhedra import LOOPS, faces_from_cells
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, unstructured
@@ -14,7 +14,7 @@ from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, unst
 
 def written(path, points, blocks, offsets=True, change=lambda faces, cells: None):
     """A file of cells by their faces, with a result and a boundary condition."""
-    loops, halves = faces_of(blocks)
+    loops, halves = faces_from_cells(blocks)
     faces = [(row[row >= 0] + 1).tolist() for row in loops]
     signed = np.where(halves.values & 1, 1, -1) * ((halves.values >> 1) + 1)  # a loop from inside has its normal inside
     cells = [part.tolist() for part in np.split(signed, halves.start[1:-1])]

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from hexmend.io.storage.atomic import replacing
+from hexmend.io.storage.atomic import atomic_write
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts the open files of the process in /proc")
@@ -16,7 +16,7 @@ def test_as_many_files_are_open_after_writing_as_before(there, tmp_path):
         path.write_text("old")
     before = len(os.listdir("/proc/self/fd"))
     for _ in range(5):
-        with replacing(path) as temporary:
+        with atomic_write(path) as temporary:
             temporary.write_text("new")
     assert len(os.listdir("/proc/self/fd")) == before
     assert path.read_text() == "new"

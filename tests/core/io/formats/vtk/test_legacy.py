@@ -124,7 +124,7 @@ def test_arrays_of_one_name_are_all_kept(tmp_path):
 
 
 def test_many_sections_do_not_count_the_lines_before_each_of_them(tmp_path, monkeypatch):
-    monkeypatch.setattr(ByteCursor, "place", None)
+    monkeypatch.setattr(ByteCursor, "location_of", None)
     (tmp_path / "a.vtk").write_text(old(more="CELL_DATA 1\n" + "LOOKUP_TABLE t 1\n0 0 0 1\n" * 20_000))
     assert io.read(tmp_path / "a.vtk").n_hexes == 1
 
