@@ -1,6 +1,6 @@
 """The way back after an unexpected end: the session is written beside the window, and found again at the next start.
 
-What is new of it is written each time, into a folder that is whole at any moment (`KeptSession`).
+What is new of it is written each time, into a folder that is whole at any moment (`SessionFolder`).
 Every window has a folder of its own below `state_folder`, with a lock that ends with its process. A window that ends in
 order removes its folder; one whose lock nobody holds any more was left by a crash.
 """
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from hexmend.errors import HexmendError
-from hexmend.io.formats.session import KeptSession
+from hexmend.io.formats.session import SessionFolder
 from hexmend.io.storage.temporary_files import flush_folder, make_folder
 from hexmend_app.state.places import state_folder
 from hexmend_app.state.recovery_folder import (
@@ -63,7 +63,7 @@ class Recovery(QObject):
         super().__init__(parent)
         self._session = session
         self._folder: Path | None = None
-        self._kept: KeptSession | None = None
+        self._kept: SessionFolder | None = None
         self._lock: QLockFile | None = None
         self._task: Task | None = None
         self._after: list[Callable[[], object]] = []  # what is done once the session has been written
@@ -108,7 +108,7 @@ class Recovery(QObject):
         except OSError as error:
             self.failed.emit(error)
             return
-        self._folder, self._lock, self._kept = folder, locked(folder), KeptSession(folder / SESSION)
+        self._folder, self._lock, self._kept = folder, locked(folder), SessionFolder(folder / SESSION)
         others = [one for one in place.iterdir() if one.is_dir() and one != folder]
         self._left = sorted(filter(None, map(found, others)), key=lambda one: one.when, reverse=True)
         self._changed = True
@@ -180,7 +180,7 @@ class Recovery(QObject):
     def _begin_anew(self, left: Left | None) -> None:
         """Remove what was written of another mesh; what was taken up is as good as written."""
         remove_session(self._folder)
-        self._kept = KeptSession(self._folder / SESSION)
+        self._kept = SessionFolder(self._folder / SESSION)
         if left is None:
             return
         for name in (SESSION, ABOUT):

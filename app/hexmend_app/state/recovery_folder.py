@@ -13,7 +13,7 @@ from pathlib import Path
 from PySide6.QtCore import QLockFile
 
 from hexmend.io.archive.members import DESCRIPTION
-from hexmend.io.formats.session import KeptSession
+from hexmend.io.formats.session import SessionFolder
 from hexmend.io.storage.atomic import atomic_write
 from hexmend_app.state import session_data
 from hexmend_app.state.task import Task
@@ -54,7 +54,7 @@ class Left:
         return self.folder / SESSION
 
 
-def write_session(folder: Path, kept: KeptSession, data: session_data.SessionData, task: Task) -> None:
+def write_session(folder: Path, kept: SessionFolder, data: session_data.SessionData, task: Task) -> None:
     """Write what is new of a session, with an account of it."""
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})

@@ -10,7 +10,7 @@ from typing import Any
 
 from hexmend.advice import Advice
 from hexmend.errors import FileError, MeshError
-from hexmend.io.formats.session import SUFFIX, KeptSession, is_session, read_session, write_session
+from hexmend.io.formats.session import SUFFIX, SessionFolder, is_session, read_session, write_session
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
@@ -118,7 +118,7 @@ def write(path: Path, data: SessionData) -> None:
         write_session(temporary, *_stored(data))
 
 
-def keep(kept: KeptSession, data: SessionData) -> None:
+def keep(kept: SessionFolder, data: SessionData) -> None:
     """Write what is new of a session.
 
     Raises

@@ -13,7 +13,7 @@ from hexmend.mesh.orientation import with_consistent_orientation
 
 
 @contextmanager
-def importing(library: str) -> Iterator[None]:
+def require_library(library: str) -> Iterator[None]:
     """Raise `InstallationError`, which says how to install a library, where an import of it in the block fails."""
     try:
         yield
@@ -23,7 +23,7 @@ def importing(library: str) -> Iterator[None]:
         raise InstallationError(f"{library} is not installed: pip install {library}") from None
 
 
-def mesh_of(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Mesh:
+def convert_to_mesh(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Mesh:
     """Mesh of an object of another library, with its side sets and, unless `as_is`, its hexes turned the right way.
 
     Parameters

@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import importing, mesh_of
+from hexmend.interop.conversion import convert_to_mesh, require_library
 from hexmend.interop.side_marks import with_side_marks
 from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, concatenate_sets, from_mesh, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
@@ -107,11 +107,11 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
         raise MeshError(
             f"from_meshio() was given an object of type {type(meshio_mesh).__name__}; expected a meshio.Mesh"
         )
-    return mesh_of("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
+    return convert_to_mesh("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
 
 
 def _library() -> ModuleType:
-    with importing("meshio"):
+    with require_library("meshio"):
         import meshio
     return meshio
 

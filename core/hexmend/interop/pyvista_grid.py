@@ -9,10 +9,10 @@ from types import ModuleType
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import importing, mesh_of
+from hexmend.interop.conversion import convert_to_mesh, require_library
 from hexmend.interop.side_marks import with_side_marks
 from hexmend.io.formats.vtk.grid import Grid, from_mesh, to_mesh
-from hexmend.io.formats.vtk.merge_grids import joined
+from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh
 
 TYPE_CHECKING = False
@@ -124,11 +124,11 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
         _arrays(grid.cell_data),
         {name: _field(values) for name, values in grid.field_data.items()},
     )
-    return mesh_of("PyVista grid", lambda title: to_mesh(title, joined([read])), as_is)
+    return convert_to_mesh("PyVista grid", lambda title: to_mesh(title, merge_grids([read])), as_is)
 
 
 def _library() -> ModuleType:
-    with importing("pyvista"):
+    with require_library("pyvista"):
         import pyvista
     return pyvista
 

@@ -6,7 +6,7 @@ import pytest
 from hexmend.boundary.closest_point import triangulated
 from hexmend.errors import FileError
 from hexmend.io import read_surface
-from hexmend.io.surfaces import SURFACES
+from hexmend.io.surfaces import SURFACE_FORMATS
 
 pv = pytest.importorskip("pyvista")
 
@@ -224,5 +224,5 @@ def test_what_is_not_there(tmp_path):
 
 
 def test_every_format_is_tried():
-    suffixes = {suffix for one in SURFACES.values() for suffix in one.suffixes}
+    suffixes = {suffix for one in SURFACE_FORMATS.values() for suffix in one.suffixes}
     assert suffixes == {"." + name.rpartition(".")[2] for name in WRITERS}

@@ -16,7 +16,7 @@ from typing import IO, Any
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.archive.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, Arrays, members_of
+from hexmend.io.archive.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, ArrayReader, open_members
 
 #: What stands for an array in the description. Names that begin with its first letter get another one before them.
 _ARRAY = "$array"
@@ -34,8 +34,12 @@ def write_archive(path: str | os.PathLike[str], format: str, version: int, data:
     FileError
         For a value of another kind.
     """
-    arrays: dict[int, tuple[int, np.ndarray]] = {}
-    description = described(path, format, version, data, lambda one: arrays.setdefault(id(one), (len(arrays), one))[0])
+    arrays: dict[int, tuple[int, np.ndarray]] = {}  # by id: the number and the array
+
+    def number(array: np.ndarray) -> int:
+        return arrays.setdefault(id(array), (len(arrays), array))[0]
+
+    description = encode_description(path, format, version, data, number)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
         archive.writestr(DESCRIPTION, description)
         for number, array in arrays.values():
@@ -43,7 +47,7 @@ def write_archive(path: str | os.PathLike[str], format: str, version: int, data:
                 write_array(member, array)
 
 
-def described(path: Path, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
+def encode_description(path: Path, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
     """The description of a tree as JSON; `number` is called with each array, and says by which number it is known.
 
     Raises
@@ -86,11 +90,11 @@ def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tup
     """
     path = Path(path)
     try:
-        with members_of(path) as members:
+        with open_members(path) as members:
             with members.open(DESCRIPTION) as file:
                 description = json.loads(file.read())
             number, tree = _checked(path, description, format, version)
-            return number, _decoded(tree, Arrays(path, members))
+            return number, _decoded(tree, ArrayReader(path, members))
     except (zipfile.BadZipFile, EOFError) as error:
         raise FileError(path, f"is damaged or not whole: {_small(error)}", REMEDY) from None
     except RecursionError:

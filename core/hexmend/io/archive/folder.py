@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.archive.archive import described, write_array
+from hexmend.io.archive.archive import encode_description, write_array
 from hexmend.io.archive.members import ARRAYS, DESCRIPTION, MEMBER
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.temporary_files import flush_file, flush_folder, make_folder
@@ -60,7 +60,7 @@ class ArchiveFolder:
                     self._next += 1
             return named[id(array)][1]
 
-        description = described(self.path, format, version, data, number)
+        description = encode_description(self.path, format, version, data, number)
         try:
             for array, at in fresh:
                 with open(self._file(at), "wb") as file:

@@ -82,7 +82,7 @@ class _OfFolder(ArchiveMembers):
 
 
 @contextmanager
-def members_of(path: Path) -> Iterator[ArchiveMembers]:
+def open_members(path: Path) -> Iterator[ArchiveMembers]:
     """The members of a zip or of a folder, one of which is the description.
 
     Raises
@@ -126,7 +126,7 @@ def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
     return members
 
 
-class Arrays:
+class ArrayReader:
     """Arrays by their numbers, each read once."""
 
     def __init__(self, path: Path, members: ArchiveMembers):

@@ -22,7 +22,7 @@ _SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "ce
 _OWN = {"points", "surface", "mid_nodes"}
 
 
-def mesh_data(mesh: Mesh) -> dict[str, Any]:
+def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
     """Everything that a mesh is and carries; `surface` and `target` are where its boundary slides."""
     target = mesh.target
     return {
@@ -39,7 +39,7 @@ def mesh_data(mesh: Mesh) -> dict[str, Any]:
     }
 
 
-class Meshes:
+class MeshDecoder:
     """Makes meshes of plain data; those with the same arrays of hexes share one topology.
 
     Parameters
@@ -55,7 +55,7 @@ class Meshes:
         self._targets: dict[tuple, TargetSurface] = {}
 
     def mesh(self, data: Any) -> Mesh:
-        """The mesh that `mesh_data` describes.
+        """The mesh that `mesh_to_data` describes.
 
         Raises
         ------

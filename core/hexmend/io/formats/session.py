@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hexmend.aliases import exports
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.format import Format, register
 from hexmend.mesh.mesh import Mesh
@@ -26,7 +27,7 @@ _HEAD = b"PK\x03\x04", b"description.json"
 
 
 @dataclass(frozen=True, eq=False)
-class Stored:
+class SessionContent:
     """What a session file holds.
 
     Parameters
@@ -63,7 +64,7 @@ def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int
     write_archive(path, _FORMAT, VERSION, _tree(meshes, now, window))
 
 
-class KeptSession:
+class SessionFolder:
     """A session that is written again and again as a folder, of which only what is new is written each time.
 
     The folder can be read at any moment, whenever who writes it is killed; see `hexmend.io.archive.folder`.
@@ -91,36 +92,36 @@ class KeptSession:
 
 
 def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
-    from hexmend.io.archive.mesh_data import mesh_data
+    from hexmend.io.archive.mesh_data import mesh_to_data
 
-    return {"meshes": [mesh_data(mesh) for mesh in meshes], "now": now, "window": window}
+    return {"meshes": [mesh_to_data(mesh) for mesh in meshes], "now": now, "window": window}
 
 
-def read_session(path: str | os.PathLike[str]) -> Stored:
-    """Read a session, from a file or from the folder of a `KeptSession`.
+def read_session(path: str | os.PathLike[str]) -> SessionContent:
+    """Read a session, from a file or from the folder of a `SessionFolder`.
 
     Raises
     ------
     FileError
         Where it is none, is damaged, or is of a newer version.
     """
-    from hexmend.io.archive.mesh_data import Meshes
+    from hexmend.io.archive.mesh_data import MeshDecoder
 
     version, data = _data(path)
     try:
-        make, now = Meshes(version), _number(data)
-        return Stored(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"], version)
+        make, now = MeshDecoder(version), _number(data)
+        return SessionContent(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"], version)
     except MeshError as error:
         raise _unfit(path, error) from None
 
 
 def _read(path: Path) -> Mesh:
     """The mesh that was shown."""
-    from hexmend.io.archive.mesh_data import Meshes
+    from hexmend.io.archive.mesh_data import MeshDecoder
 
     version, data = _data(path)
     try:
-        return Meshes(version).mesh(data["meshes"][_number(data)])
+        return MeshDecoder(version).mesh(data["meshes"][_number(data)])
     except MeshError as error:
         raise _unfit(path, error) from None
 
@@ -171,3 +172,5 @@ register(
         matches=is_session,
     )
 )
+
+__getattr__ = exports(__name__)

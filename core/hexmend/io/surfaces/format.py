@@ -34,7 +34,7 @@ class SurfaceFormat:
     Parameters
     ----------
     name : str
-        The key in SURFACES.
+        The key in SURFACE_FORMATS.
     title : str
         What people call it.
     suffixes : tuple of str
@@ -50,12 +50,12 @@ class SurfaceFormat:
 
 
 #: Every format by name.
-SURFACES: Registry[SurfaceFormat] = Registry("surface format")
+SURFACE_FORMATS: Registry[SurfaceFormat] = Registry("surface format")
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
-def parsed(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:
+def parse_surface(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:
     """What a parser makes of a file; whatever it raises becomes a `FileError`: each of its failures is another one."""
     try:
         return parse()
@@ -66,14 +66,14 @@ def parsed(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:
         raise FileError(path, f"cannot be read as {title} ({detail[:120]})", DAMAGED) from None
 
 
-def of_meshlane(found) -> Polygons:
+def polygons_from_meshlane(found) -> Polygons:
     """The faces of a mesh of meshlane's; its other cells are left out."""
     kinds = ("triangle", "quad", "polygon")
     faces = [np.asarray(block.data, dtype=np.int64) for block in found.cells if block.type in kinds]
     return Polygons(np.asarray(found.points, dtype=np.float64).reshape(-1, 3), faces)
 
 
-def of_one_width(start: np.ndarray, nodes: np.ndarray) -> list[np.ndarray]:
+def group_by_width(start: np.ndarray, nodes: np.ndarray) -> list[np.ndarray]:
     """Faces as compressed rows, start (k + 1,) and nodes, put together by their number of nodes."""
     widths = np.diff(start)
     return [nodes[start[:-1][widths == width, None] + np.arange(width)] for width in np.unique(widths)]

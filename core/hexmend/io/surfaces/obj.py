@@ -10,7 +10,7 @@ import io
 import re
 from pathlib import Path
 
-from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_meshlane, parsed
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane
 
 
 def read(path: Path) -> Polygons:
@@ -18,7 +18,7 @@ def read(path: Path) -> Polygons:
     from meshlane import obj
 
     text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
-    return parsed(path, "OBJ", lambda: of_meshlane(obj.read(io.StringIO(_in_form(text)))))
+    return parse_surface(path, "OBJ", lambda: polygons_from_meshlane(obj.read(io.StringIO(_in_form(text)))))
 
 
 def _in_form(text: str) -> str:
@@ -35,4 +35,4 @@ def _in_form(text: str) -> str:
     return "\n".join(lines)
 
 
-SURFACES.add("obj", SurfaceFormat("obj", "OBJ", (".obj",), read))
+SURFACE_FORMATS.add("obj", SurfaceFormat("obj", "OBJ", (".obj",), read))

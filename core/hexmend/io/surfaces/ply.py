@@ -11,7 +11,7 @@ import re
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_meshlane, parsed
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane
 
 _END = b"end_header"
 
@@ -33,7 +33,7 @@ def read(path: Path) -> Polygons:
     # The list has two names, and other programs read both.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]
-    return parsed(path, "PLY", lambda: of_meshlane(ply.read(io.BytesIO(head + end + rest))))
+    return parse_surface(path, "PLY", lambda: polygons_from_meshlane(ply.read(io.BytesIO(head + end + rest))))
 
 
-SURFACES.add("ply", SurfaceFormat("ply", "PLY", (".ply",), read))
+SURFACE_FORMATS.add("ply", SurfaceFormat("ply", "PLY", (".ply",), read))

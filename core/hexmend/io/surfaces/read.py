@@ -11,7 +11,7 @@ from hexmend.boundary import SkinSurface
 from hexmend.boundary.edges import components
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
-from hexmend.io.surfaces.format import SURFACES, Polygons
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 
 #: Corners nearer to each other than this, as a share of the diagonal, are one; and a surface whose area is no larger a
 #: share of the square of its extent has none.
@@ -24,7 +24,7 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     Parameters
     ----------
     path : path-like
-        A file with the suffix of one of `SURFACES`.
+        A file with the suffix of one of `SURFACE_FORMATS`.
 
     Returns
     -------
@@ -38,9 +38,9 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     """
     path = Path(path)
     check_readable(path, "a file of a surface")
-    format = next((one for one in SURFACES.values() if path.suffix.lower() in one.suffixes), None)
+    format = next((one for one in SURFACE_FORMATS.values() if path.suffix.lower() in one.suffixes), None)
     if format is None:
-        known = ", ".join(f"{suffix} ({one.title})" for one in SURFACES.values() for suffix in one.suffixes)
+        known = ", ".join(f"{suffix} ({one.title})" for one in SURFACE_FORMATS.values() for suffix in one.suffixes)
         raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", f"Hexmend reads {known}.")
     try:
         found = format.read(path)

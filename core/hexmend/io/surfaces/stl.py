@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.surfaces.format import DAMAGED, SURFACES, Polygons, SurfaceFormat, parsed
+from hexmend.io.surfaces.format import DAMAGED, SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface
 
 #: Bytes before the triangles of a binary file, and what each of them has.
 _HEAD = 84
@@ -27,7 +27,7 @@ def read(path: Path) -> Polygons:
         raise FileError(
             path, f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles", DAMAGED
         )
-    return parsed(path, "STL", lambda: _soup(_corners(data.lower())))
+    return parse_surface(path, "STL", lambda: _soup(_corners(data.lower())))
 
 
 def _corners(data: bytes) -> np.ndarray:
@@ -47,4 +47,4 @@ def _soup(corners: np.ndarray) -> Polygons:
     return Polygons(points, [np.arange(len(points)).reshape(-1, 3)])
 
 
-SURFACES.add("stl", SurfaceFormat("stl", "STL", (".stl",), read))
+SURFACE_FORMATS.add("stl", SurfaceFormat("stl", "STL", (".stl",), read))

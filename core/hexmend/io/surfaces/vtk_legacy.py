@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.formats.vtk.legacy_reader import read_polygons
-from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_one_width
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, group_by_width
 
 
 def read(path: Path) -> Polygons:
     """Read the polygons of a legacy file."""
     points, start, nodes = read_polygons(path)
-    return Polygons(points, of_one_width(start, nodes))
+    return Polygons(points, group_by_width(start, nodes))
 
 
-SURFACES.add("vtk", SurfaceFormat("vtk", "VTK legacy", (".vtk",), read))
+SURFACE_FORMATS.add("vtk", SurfaceFormat("vtk", "VTK legacy", (".vtk",), read))

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.formats.vtk.xml_arrays import values_of
+from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import Document
-from hexmend.io.surfaces.format import SURFACES, Polygons, SurfaceFormat, of_one_width, parsed
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, group_by_width, parse_surface
 
 
 def read(path: Path) -> Polygons:
     """Read a VTP file: the polygons of its pieces."""
     with Document(path, "PolyData") as document:
-        return parsed(path, "VTP", lambda: _polygons(document))
+        return parse_surface(path, "VTP", lambda: _polygons(document))
 
 
 def _polygons(document: Document) -> Polygons:
@@ -22,16 +22,16 @@ def _polygons(document: Document) -> Polygons:
     for piece in document.root.first("PolyData").all("Piece"):
         found = piece.first("Points").arrays()
         if found and document.count(piece, "NumberOfPoints"):
-            x = values_of(document, found[0])
+            x = read_values(document, found[0])
             points.append(x.reshape(document.count(piece, "NumberOfPoints"), 3).astype(np.float64, copy=False))
         if document.count(piece, "NumberOfStrips"):
             raise document.error("holds triangle strips: expected polygons", "Convert them to triangles.")
         if document.count(piece, "NumberOfPolys"):
             arrays = {one.get("Name"): one for one in piece.first("Polys").arrays()}
-            nodes, ends = (values_of(document, arrays[name]).astype(np.int64) for name in ("connectivity", "offsets"))
-            faces += of_one_width(np.concatenate([[0], ends]), nodes + before)
+            nodes, ends = (read_values(document, arrays[name]).astype(np.int64) for name in ("connectivity", "offsets"))
+            faces += group_by_width(np.concatenate([[0], ends]), nodes + before)
         before += len(points[-1])
     return Polygons(np.concatenate(points), faces)
 
 
-SURFACES.add("vtp", SurfaceFormat("vtp", "VTP", (".vtp",), read))
+SURFACE_FORMATS.add("vtp", SurfaceFormat("vtp", "VTP", (".vtp",), read))

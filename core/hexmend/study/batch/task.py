@@ -11,7 +11,7 @@ from typing import Any
 
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
-from hexmend.io.formats.vtk.pvtu import pieces
+from hexmend.io.formats.vtk.pvtu import piece_paths
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def content_hash(path: Path) -> str:
     try:
         digest = _digest(path)
         if path.suffix.lower() == ".pvtu":
-            every = [digest, *(_digest(piece) for piece in pieces(path) if piece.is_file())]
+            every = [digest, *(_digest(piece) for piece in piece_paths(path) if piece.is_file())]
             digest = hashlib.sha256("".join(every).encode()).hexdigest()
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None

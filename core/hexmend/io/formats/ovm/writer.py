@@ -20,7 +20,7 @@ from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import runs
 from hexmend.io.base.polyhedra import LOOPS, RaggedArray, faces_from_cells
 from hexmend.io.base.unique_names import altered_names, make_unique
-from hexmend.io.formats.vtk.grid import of_content
+from hexmend.io.formats.vtk.grid import from_content
 from hexmend.mesh.mesh import Mesh
 
 #: Kinds of cells that are written.
@@ -40,7 +40,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             )
     loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))
-    grid = of_content(content)
+    grid = from_content(content)
     with open(path, "wb") as file:
         file.write(b"OVM ASCII\n")
         _write_rows(file, "Vertices", content.points)
@@ -53,7 +53,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def limitations(mesh: Mesh) -> list[str]:
     """Data of no type of the format, names that it cannot have, and mid-nodes, in words."""
-    grid = of_content(replace(content_of(mesh), node_data=with_marks(mesh)))
+    grid = from_content(replace(content_of(mesh), node_data=with_marks(mesh)))
     left = []
     for what, data in (("point data", grid.node_data), ("cell data", grid.cell_data)):
         odd = sorted(name for name, values in data.items() if _type(np.asarray(values)) is None)

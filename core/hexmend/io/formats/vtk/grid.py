@@ -126,10 +126,10 @@ def from_mesh(mesh: Mesh, kinds: str = "biufU") -> Grid:
     """
     content = content_of(mesh)
     blocks = tuple(replace(block, data=_of_kinds(block.data, kinds)) for block in content.blocks)
-    return of_content(replace(content, blocks=blocks, node_data=_of_kinds(with_marks(mesh), kinds)))
+    return from_content(replace(content, blocks=blocks, node_data=_of_kinds(with_marks(mesh), kinds)))
 
 
-def of_content(content: Content) -> Grid:
+def from_content(content: Content) -> Grid:
     """The grid of a content's blocks and arrays, one behind the other; sets are arrays named "set:..."."""
     lengths = [len(block) for block in content.blocks]
     node_data = dict(content.node_data)

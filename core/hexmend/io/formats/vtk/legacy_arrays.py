@@ -1,67 +1,140 @@
-"""Arrays of VTK's legacy format: numbers of a type in decimals or bytes, and strings."""
+"""Arrays of VTK's legacy format: numbers in decimals or big-endian bytes, strings, and lists of cells."""
 
 from __future__ import annotations
+
+from urllib.parse import unquote
 
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted
 
+#: NumPy types of VTK's types, without the byte order.
 TYPES = {
-    "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
-    "int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8", "vtktypeint64": "i8", "vtktypeuint64": "u8",
-    "vtkidtype": "i4", "float": "f4", "double": "f8",
-}  # fmt: skip
-#: Types that are no numbers.
+    "bit": "u1",
+    "char": "i1",
+    "signed_char": "i1",
+    "unsigned_char": "u1",
+    "short": "i2",
+    "unsigned_short": "u2",
+    "int": "i4",
+    "unsigned_int": "u4",
+    "long": "i8",
+    "unsigned_long": "u8",
+    "vtktypeint64": "i8",
+    "vtktypeuint64": "u8",
+    "vtkidtype": "i4",
+    "float": "f4",
+    "double": "f8",
+}
+#: VTK's types of texts.
 STRINGS = ("string", "utf8_string")
 
 
-def unquoted(word: str) -> str:
-    """A name or a string of the file, whose odd characters are written as %20."""
-    from urllib.parse import unquote
-
+def unquote_name(word: str) -> str:
+    """Decode a name or a string of the file, in which special characters are written as %20."""
     return unquote(word)
 
 
-def array(source: ByteCursor, section: str, rows: int, width: int, kind: str) -> np.ndarray:
-    """Numbers of a VTK type, in the machine's byte order."""
+def read_array(cursor: ByteCursor, section: str, rows: int, width: int, kind: str) -> np.ndarray:
+    """Read numbers of a VTK type.
+
+    Parameters
+    ----------
+    cursor : ByteCursor
+    section : str
+        Name in error messages.
+    rows, width : int
+    kind : str
+        VTK's name of the type.
+
+    Returns
+    -------
+    (rows, width) array
+        In the machine's byte order; real numbers of text files are float64.
+
+    Raises
+    ------
+    FileError
+        For an unknown type, missing numbers, and numbers outside the range of the type.
+    """
     code = TYPES.get(kind.lower())
     if code is None:
-        raise source.error(f"{section} has the type {quoted(kind)}: expected {', '.join(TYPES)}")
-    if source.is_text:
+        raise cursor.error(f"{section} has the type {quoted(kind)}: expected {', '.join(TYPES)}")
+    if cursor.is_text:
         wide = np.float64 if code[0] == "f" else np.uint64 if code == "u8" else np.int64
-        values = source.read_numbers(section, rows, width, wide)
+        values = cursor.read_numbers(section, rows, width, wide)
         if code[0] == "f":
             return values
         limit = np.iinfo(code)
         if values.size and (values.min() < limit.min or values.max() > limit.max):
             row, column = np.argwhere((values < limit.min) | (values > limit.max))[0]
-            raise source.error(
+            raise cursor.error(
                 f"{section} holds {values[row, column]} in row {row + 1} of {rows}, which its type {kind} cannot"
             )
         return values.astype(code)
     if kind.lower() == "bit":
-        bits = np.unpackbits(np.frombuffer(source.read_bytes((rows * width + 7) // 8, section), np.uint8))
+        bits = np.unpackbits(np.frombuffer(cursor.read_bytes((rows * width + 7) // 8, section), np.uint8))
         return bits[: rows * width].reshape(rows, width)
-    return source.read_binary(section, rows, width, f">{code}").astype(code)
+    return cursor.read_binary(section, rows, width, f">{code}").astype(code)
 
 
-def whole_numbers(source: ByteCursor, section: str, rows: int, kind: str) -> np.ndarray:
-    """The same in one column, of a type of whole numbers; (rows,)."""
+def read_integers(cursor: ByteCursor, section: str, rows: int, kind: str) -> np.ndarray:
+    """Read whole numbers of a VTK type, (rows,); see `read_array`."""
     if TYPES.get(kind.lower(), "i8")[0] == "f":
-        raise source.error(f"{section} has the type {kind}: expected whole numbers")
-    return array(source, section, rows, 1, kind)[:, 0]
+        raise cursor.error(f"{section} has the type {kind}: expected whole numbers")
+    return read_array(cursor, section, rows, 1, kind)[:, 0]
 
 
-def strings_of(source: ByteCursor, count: int) -> list[str]:
-    """Strings: a line for each, or its length and it."""
-    if count > len(source.data) - source.pos:
-        raise source.error(f"{count} strings are announced before {source.location}: the file ends before")
-    if source.is_text:
-        return [unquoted(source.rest_of_line()) for _ in range(count)]
-    answer = []
+def read_strings(cursor: ByteCursor, count: int) -> list[str]:
+    """Read strings: one a line in text files, each after its length in binary files."""
+    if count > len(cursor.data) - cursor.pos:
+        raise cursor.error(f"{count} strings are announced before {cursor.location}: the file ends before")
+    if cursor.is_text:
+        return [unquote_name(cursor.rest_of_line()) for _ in range(count)]
+    strings = []
     for _ in range(count):
-        size = 8 >> source.read_bytes(1, "a string")[0] // 64  # 8, 4, 2 or 1 bytes hold the length, but for two bits
-        source.pos -= 1
-        head = int.from_bytes(source.read_bytes(size, "a string"), "big") & ((1 << 8 * size - 2) - 1)
-        answer.append(source.read_bytes(head, "a string").decode("utf-8", errors="replace"))
-    return answer
+        # The first two bits of the length tell its size in bytes: 11 one, 10 two, 01 four, 00 eight.
+        size = 8 >> cursor.read_bytes(1, "a string")[0] // 64
+        cursor.pos -= 1
+        length = int.from_bytes(cursor.read_bytes(size, "a string"), "big") & ((1 << 8 * size - 2) - 1)
+        strings.append(cursor.read_bytes(length, "a string").decode("utf-8", errors="replace"))
+    return strings
+
+
+def split_cells(cursor: ByteCursor, flat: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Split the numbers of a section CELLS, in which each cell is its number of nodes and these.
+
+    Parameters
+    ----------
+    cursor : ByteCursor
+        Raises the errors.
+    flat : (k,) int64
+    count : int
+        Number of cells.
+
+    Returns
+    -------
+    start : (count + 1,) int64
+        Cell i has the nodes nodes[start[i]:start[i + 1]].
+    nodes : (start[-1],) int64
+
+    Raises
+    ------
+    FileError
+        Where the numbers do not make `count` cells.
+    """
+    if len(flat) == 9 * count and (flat[::9] == 8).all():
+        widths = np.full(count, 8)
+    else:
+        widths, at = np.empty(count, np.int64), 0
+        for i in range(count):
+            if at >= len(flat) or flat[at] < 0:
+                raise cursor.error(f"CELLS ends in cell {i} of the {count} that CELL_TYPES names")
+            widths[i] = flat[at]
+            at += 1 + int(flat[at])
+        if at != len(flat):
+            raise cursor.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {at}")
+    start = np.concatenate([[0], np.cumsum(widths)])
+    is_node = np.ones(len(flat), dtype=bool)
+    is_node[start[:-1] + np.arange(count)] = False
+    return start, flat[is_node]

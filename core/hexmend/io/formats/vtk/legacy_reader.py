@@ -13,242 +13,239 @@ from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.legacy_arrays import STRINGS, array, strings_of, unquoted, whole_numbers
+from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells, unquote_name
 from hexmend.io.formats.vtk.legacy_writer import write
 from hexmend.mesh.mesh import Mesh
 
-_START = 4096
-_DATASETS = {"UNSTRUCTURED_GRID": "an unstructured grid of hexahedra", "POLYDATA": "PolyData, or write it as STL"}
+#: Bytes in which the first line must end.
+_HEAD = 4096
+_REMEDIES = {"UNSTRUCTURED_GRID": "an unstructured grid of hexahedra", "POLYDATA": "PolyData, or write it as STL"}
+#: Number of components of attributes that do not state it.
 _WIDTHS = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9, "GLOBAL_IDS": 1, "PEDIGREE_IDS": 1}
 
 
 def read(path: Path) -> Mesh:
-    """Read a legacy file."""
-    return to_mesh(path, _Reader(path).grid())
+    """Read an unstructured grid."""
+    return to_mesh(path, _LegacyReader(path).read_grid())
 
 
 def read_polygons(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The points (n, 3) of a file of the dataset POLYDATA, where each polygon's nodes begin (k + 1,), and these."""
-    return _Reader(path).polygons()
+    """Read the polygons of a file with the dataset POLYDATA.
+
+    Returns
+    -------
+    points : (n, 3) float64
+    start : (k + 1,) int64
+        Polygon i has the nodes nodes[start[i]:start[i + 1]].
+    nodes : (start[-1],) int64
+    """
+    return _LegacyReader(path).read_polygons()
 
 
-class _Reader:
-    """Takes a file apart, section by section."""
+class _LegacyReader:
+    """Reader of one file, section by section."""
 
     def __init__(self, path: Path):
         with open(path, "rb") as file:
-            start = file.read(_START)
-            if not re.match(rb"\s*#\s*vtk\s+datafile", start, re.IGNORECASE):
-                first = start.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
+            head = file.read(_HEAD)
+            if not re.match(rb"\s*#\s*vtk\s+datafile", head, re.IGNORECASE):
+                first = head.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
                 raise FileError(
                     path,
                     f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'",
                     "Is it a VTK file? Check its suffix.",
                 )
             file.seek(0)
-            self.source = ByteCursor(path, file.read())
-        self.found: dict[str, np.ndarray] = {}
+            self.cursor = ByteCursor(path, file.read())
+        self.sections: dict[str, np.ndarray] = {}
         self.data: dict[str, dict[str, np.ndarray]] = {"POINT_DATA": {}, "CELL_DATA": {}}
-        self.fields: dict[str, np.ndarray | list[str]] = {}
-        self.section = ""  # of data, which the arrays belong to
-        self.rows = 0
-        self.left: dict[str, None] = {}
+        self.field_data: dict[str, np.ndarray | list[str]] = {}
+        self.data_section = ""  # key in `data` of the arrays that follow
+        self.rows = 0  # of these arrays
+        self.skipped: dict[str, None] = {}  # names of arrays, in the order of the file
 
-    def grid(self) -> Grid:
+    def read_grid(self) -> Grid:
         self._read("UNSTRUCTURED_GRID", ("POINTS", "CELLS", "CELL_TYPES"))
-        types = self.found["CELL_TYPES"]
+        types = self.sections["CELL_TYPES"]
         start, nodes = self._cells(types)
-        notes = (f"Arrays that are not of numbers, one row a node or cell, are left out: {', '.join(self.left)}.",)
+        note = f"Arrays that are not of numbers, one row a node or cell, are left out: {', '.join(self.skipped)}."
         return Grid(
-            self.found["POINTS"],
+            self.sections["POINTS"],
             types,
             start,
             nodes,
-            self.data["POINT_DATA"],
-            self.data["CELL_DATA"],
-            self.fields,
-            notes if self.left else (),
+            node_data=self.data["POINT_DATA"],
+            cell_data=self.data["CELL_DATA"],
+            field_data=self.field_data,
+            notes=(note,) if self.skipped else (),
         )
 
-    def polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def read_polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         self._read("POLYDATA", ("POINTS",))
-        if "CELL_TYPES" not in self.found:  # points or lines alone
-            return self.found["POINTS"], np.zeros(1, np.int64), np.empty(0, np.int64)
-        return self.found["POINTS"], *self._cells(self.found["CELL_TYPES"])
+        if "CELL_TYPES" not in self.sections:  # points or lines alone
+            return self.sections["POINTS"], np.zeros(1, np.int64), np.empty(0, np.int64)
+        return self.sections["POINTS"], *self._cells(self.sections["CELL_TYPES"])
 
-    def _read(self, dataset: str, needed: tuple[str, ...]) -> None:
-        source = self.source
-        source.next_line()  # the first, which was looked at
-        source.rest_of_line()  # the title
-        kind = source.next_line().upper()
+    def _read(self, dataset: str, required: tuple[str, ...]) -> None:
+        cursor = self.cursor
+        cursor.next_line()  # "# vtk DataFile ..."
+        cursor.rest_of_line()  # the title
+        kind = cursor.next_line().upper()
         if kind not in ("ASCII", "BINARY"):
-            raise source.error(f"line 3 is {quoted(kind)}: expected ASCII or BINARY")
-        source.is_text = kind == "ASCII"
-        words = source.next_line().upper().split()
+            raise cursor.error(f"line 3 is {quoted(kind)}: expected ASCII or BINARY")
+        cursor.is_text = kind == "ASCII"
+        words = cursor.next_line().upper().split()
         if words != ["DATASET", dataset]:
-            what = words[1] if len(words) > 1 and words[0] == "DATASET" else "missing"
-            remedy = f"Convert it to {_DATASETS[dataset]}."
-            raise source.error(f"its dataset is {what}: expected {dataset}", remedy)
-        while not source.at_end:
-            words = source.next_line().split()
+            found = words[1] if len(words) > 1 and words[0] == "DATASET" else "missing"
+            raise cursor.error(f"its dataset is {found}: expected {dataset}", f"Convert it to {_REMEDIES[dataset]}.")
+        while not cursor.at_end:
+            words = cursor.next_line().split()
             if dataset == "POLYDATA" and words[0].upper() in self.data:
                 break
-            self._section(words)
-        for name in needed:
-            if name not in self.found:
-                raise source.error(f"has no section {name}")
+            self._read_section(words)
+        for name in required:
+            if name not in self.sections:
+                raise cursor.error(f"has no section {name}")
 
-    def _section(self, words: list[str]) -> None:
-        source, key = self.source, words[0].upper()
-        mark = source.pos
-        if key in self.found or (key == "CELLS" and "CELL_TYPES" in self.found):
-            raise source.error(f"has a second section {key} before {source.location}")
+    def _read_section(self, heading: list[str]) -> None:
+        cursor, key = self.cursor, heading[0].upper()
+        mark = cursor.pos
+        if key in self.sections or (key == "CELLS" and "CELL_TYPES" in self.sections):
+            raise cursor.error(f"has a second section {key} before {cursor.location}")
         try:
-            if key == "POINTS":
-                self.found[key] = array(
-                    source, key, source.parse_count(words[1], "the number of points"), 3, words[2]
-                ).astype(float)
-            elif key == "CELLS":
-                self._cells_section(
-                    source.parse_count(words[1], "the number of cells"), source.parse_count(words[2], "their size")
-                )
-            elif key == "POLYGONS":
-                count = source.parse_count(words[1], "the number of polygons")
-                self._cells_section(count, source.parse_count(words[2], "their size"))
-                self.found["CELL_TYPES"] = np.zeros(count - ("OFFSETS" in self.found), np.uint8)
-            elif key in ("VERTICES", "LINES"):
-                self._cells_section(
-                    source.parse_count(words[1], "the number of cells"), source.parse_count(words[2], "their size")
-                )
-                for name in ("CELLS", "OFFSETS"):
-                    self.found.pop(name, None)  # they are left out
-            elif key == "TRIANGLE_STRIPS":
-                raise source.error("holds triangle strips: expected polygons", "Convert them to triangles.")
-            elif key == "CELL_TYPES":
-                self.found[key] = array(source, key, source.parse_count(words[1], "the number of cells"), 1, "int")[
-                    :, 0
-                ]
-            elif key in self.data:
-                self.section, self.rows = key, source.parse_count(words[1], "the number of rows")
-                self._check_rows(key)
-            elif key == "SCALARS":
-                width = source.parse_count(words[3], "the number of components") if len(words) > 3 else 1
-                before = source.pos
-                if not source.next_line().upper().startswith("LOOKUP_TABLE"):
-                    source.pos = before
-                self._keep(words[1], array(source, f"SCALARS {words[1]}", self.rows, width, words[2]))
-            elif key in _WIDTHS:
-                self._keep(words[1], array(source, f"{key} {words[1]}", self.rows, _WIDTHS[key], words[2]))
-            elif key == "TEXTURE_COORDINATES":
-                self._keep(
-                    words[1], array(source, key, self.rows, source.parse_count(words[2], "the dimension"), words[3])
-                )
-            elif key == "COLOR_SCALARS":
-                kind = "float" if source.is_text else "unsigned_char"
-                self._keep(
-                    words[1], array(source, key, self.rows, source.parse_count(words[2], "the number of values"), kind)
-                )
-            elif key == "LOOKUP_TABLE":
-                kind = "float" if source.is_text else "unsigned_char"
-                array(source, key, source.parse_count(words[2], "the size of the table"), 4, kind)
-            elif key == "FIELD":
-                for _ in range(source.parse_count(words[2], "the number of arrays")):
-                    self._field()
-            elif key == "METADATA":
-                while source.rest_of_line():
-                    pass
-            else:
-                place = source.location_of(mark)
-                raise source.error(f"the line before {place} begins with {quoted(words[0])}: expected a section")
+            if not (self._read_geometry(key, heading) or self._read_attributes(key, heading)):
+                line = cursor.location_of(mark)
+                raise cursor.error(f"the line before {line} begins with {quoted(heading[0])}: expected a section")
         except IndexError:
-            heading = quoted(" ".join(words))
-            raise source.error(f"the heading {heading} before {source.location_of(mark)} is incomplete") from None
+            line = cursor.location_of(mark)
+            raise cursor.error(f"the heading {quoted(' '.join(heading))} before {line} is incomplete") from None
 
-    def _field(self) -> None:
-        source = self.source
-        words = source.next_line().split()
-        while words and words[0].upper() == "METADATA":
-            while source.rest_of_line():
-                pass
-            words = source.next_line().split()
-        if len(words) < 4:
-            raise source.error(f"an array's heading before {source.location} lacks some of name, width, rows and type")
-        width = source.parse_count(words[1], "the number of components")
-        rows = source.parse_count(words[2], "the number of rows")
-        if words[3].lower() in STRINGS:
-            strings = strings_of(source, rows * width)
-            if self.section:
-                self.left[unquoted(words[0])] = None
-            else:
-                self.fields[self._name(words[0], self.fields)] = strings
-            return
-        values = array(source, f"array {words[0]}", rows, width, words[3])
-        if not self.section:
-            self.fields[self._name(words[0], self.fields)] = values[:, 0] if width == 1 else values
-        elif rows == self.rows:
-            self._keep(words[0], values)
+    def _read_geometry(self, key: str, heading: list[str]) -> bool:
+        """Read a section of points or cells; return False for another section."""
+        cursor, count = self.cursor, self.cursor.parse_count
+        if key == "POINTS":
+            points = read_array(cursor, key, count(heading[1], "the number of points"), 3, heading[2])
+            self.sections[key] = points.astype(float)
+        elif key == "CELLS":
+            self._read_cells(count(heading[1], "the number of cells"), count(heading[2], "their size"))
+        elif key == "POLYGONS":
+            polygons = count(heading[1], "the number of polygons")
+            self._read_cells(polygons, count(heading[2], "their size"))
+            self.sections["CELL_TYPES"] = np.zeros(polygons - ("OFFSETS" in self.sections), np.uint8)
+        elif key in ("VERTICES", "LINES"):  # not used
+            self._read_cells(count(heading[1], "the number of cells"), count(heading[2], "their size"))
+            self.sections.pop("CELLS", None)
+            self.sections.pop("OFFSETS", None)
+        elif key == "TRIANGLE_STRIPS":
+            raise cursor.error("holds triangle strips: expected polygons", "Convert them to triangles.")
+        elif key == "CELL_TYPES":
+            self.sections[key] = read_array(cursor, key, count(heading[1], "the number of cells"), 1, "int")[:, 0]
         else:
-            self.left[unquoted(words[0])] = None
+            return False
+        return True
 
-    def _keep(self, name: str, values: np.ndarray) -> None:
-        target = self.data.get(self.section)
-        if target is None:
-            raise self.source.error(f"the array {quoted(name)} stands before POINT_DATA and CELL_DATA")
-        target[self._name(name, target)] = values[:, 0] if values.shape[1] == 1 else values
+    def _read_attributes(self, key: str, heading: list[str]) -> bool:
+        """Read a section of point, cell or field data; return False for another section."""
+        cursor, count = self.cursor, self.cursor.parse_count
+        if key in self.data:
+            self.data_section, self.rows = key, count(heading[1], "the number of rows")
+            expected = len(self.sections.get("POINTS" if key == "POINT_DATA" else "CELL_TYPES", ()))
+            if expected != self.rows:
+                raise cursor.error(f"{key} has {self.rows} rows: expected {expected}")
+        elif key == "SCALARS":
+            width = count(heading[3], "the number of components") if len(heading) > 3 else 1
+            before = cursor.pos
+            if not cursor.next_line().upper().startswith("LOOKUP_TABLE"):
+                cursor.pos = before
+            self._store(heading[1], read_array(cursor, f"SCALARS {heading[1]}", self.rows, width, heading[2]))
+        elif key in _WIDTHS:
+            self._store(heading[1], read_array(cursor, f"{key} {heading[1]}", self.rows, _WIDTHS[key], heading[2]))
+        elif key == "TEXTURE_COORDINATES":
+            width = count(heading[2], "the dimension")
+            self._store(heading[1], read_array(cursor, key, self.rows, width, heading[3]))
+        elif key == "COLOR_SCALARS":
+            width = count(heading[2], "the number of values")
+            self._store(heading[1], read_array(cursor, key, self.rows, width, self._colour_type()))
+        elif key == "LOOKUP_TABLE":
+            read_array(cursor, key, count(heading[2], "the size of the table"), 4, self._colour_type())
+        elif key == "FIELD":
+            for _ in range(count(heading[2], "the number of arrays")):
+                self._read_field_array()
+        elif key == "METADATA":
+            self._skip_metadata()
+        else:
+            return False
+        return True
 
-    def _name(self, name: str, target: Mapping[str, object]) -> str:
-        """The name of an array; another where that is taken."""
-        name = unquoted(name)
-        return name if name not in target else f"{name} ({len(target) + 1})"
+    def _colour_type(self) -> str:
+        return "float" if self.cursor.is_text else "unsigned_char"
 
-    def _check_rows(self, key: str) -> None:
-        have = len(self.found.get("POINTS" if key == "POINT_DATA" else "CELL_TYPES", ()))
-        if have != self.rows:
-            raise self.source.error(f"{key} has {self.rows} rows: expected {have}")
+    def _skip_metadata(self) -> None:
+        while self.cursor.rest_of_line():
+            pass
 
-    def _cells_section(self, count: int, size: int) -> None:
-        source = self.source
-        mark = source.pos
-        words = source.next_line().split()
+    def _read_field_array(self) -> None:
+        cursor = self.cursor
+        heading = cursor.next_line().split()
+        while heading and heading[0].upper() == "METADATA":
+            self._skip_metadata()
+            heading = cursor.next_line().split()
+        if len(heading) < 4:
+            raise cursor.error(f"an array's heading before {cursor.location} lacks some of name, width, rows and type")
+        width = cursor.parse_count(heading[1], "the number of components")
+        rows = cursor.parse_count(heading[2], "the number of rows")
+        if heading[3].lower() in STRINGS:
+            values = read_strings(cursor, rows * width)
+        else:
+            values = read_array(cursor, f"array {heading[0]}", rows, width, heading[3])
+            if self.data_section and rows == self.rows:
+                self._store(heading[0], values)
+                return
+            values = values[:, 0] if width == 1 else values
+        if self.data_section:
+            self.skipped[unquote_name(heading[0])] = None
+        else:
+            self.field_data[_unused_name(heading[0], self.field_data)] = values
+
+    def _store(self, name: str, values: np.ndarray) -> None:
+        data = self.data.get(self.data_section)
+        if data is None:
+            raise self.cursor.error(f"the array {quoted(name)} stands before POINT_DATA and CELL_DATA")
+        data[_unused_name(name, data)] = values[:, 0] if values.shape[1] == 1 else values
+
+    def _read_cells(self, count: int, size: int) -> None:
+        cursor = self.cursor
+        mark = cursor.pos
+        words = cursor.next_line().split()
         if words and words[0].upper() == "OFFSETS":  # version 5
-            self.found["OFFSETS"] = whole_numbers(source, "OFFSETS", count, words[1]).astype(np.int64)
-            words = source.next_line().split()
+            self.sections["OFFSETS"] = read_integers(cursor, "OFFSETS", count, words[1]).astype(np.int64)
+            words = cursor.next_line().split()
             if not words or words[0].upper() != "CONNECTIVITY":
-                raise source.error(f"CELLS goes on with {quoted(' '.join(words))}: expected CONNECTIVITY")
-            self.found["CELLS"] = whole_numbers(source, "CONNECTIVITY", size, words[1])
+                raise cursor.error(f"CELLS goes on with {quoted(' '.join(words))}: expected CONNECTIVITY")
+            self.sections["CELLS"] = read_integers(cursor, "CONNECTIVITY", size, words[1])
         else:
-            source.pos = mark
+            cursor.pos = mark
             if count > size:
-                raise source.error(f"{count} cells of {size} numbers are announced before {source.location}")
-            shape = (count, 9) if size == 9 * count else (size, 1)
-            self.found["CELLS"] = array(source, "CELLS", *shape, "int").ravel()
+                raise cursor.error(f"{count} cells of {size} numbers are announced before {cursor.location}")
+            shape = (count, 9) if size == 9 * count else (size, 1)  # rows of hexahedra give better error messages
+            self.sections["CELLS"] = read_array(cursor, "CELLS", *shape, "int").ravel()
 
     def _cells(self, types: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Start of each cell and all cells' nodes."""
-        flat, count = self.found["CELLS"].astype(np.int64), len(types)
-        if "OFFSETS" in self.found:
-            start = self.found["OFFSETS"]
+        """Start of each cell, (c + 1,) int64, and the nodes of all cells, (start[-1],) int64."""
+        flat, count = self.sections["CELLS"].astype(np.int64), len(types)
+        if "OFFSETS" in self.sections:
+            start = self.sections["OFFSETS"]
             if len(start) != count + 1 or start[0] != 0 or start[-1] != len(flat) or (np.diff(start) < 0).any():
-                raise self.source.error(
+                raise self.cursor.error(
                     f"CELLS has {len(start)} OFFSETS for {count} cells of CELL_TYPES: expected {count + 1}, rising"
                 )
             return start, flat
-        widths = np.empty(count, np.int64)
-        if len(flat) == 9 * count and (flat[::9] == 8).all():
-            widths[:] = 8
-        else:
-            at = 0
-            for i in range(count):
-                if at >= len(flat) or flat[at] < 0:
-                    raise self.source.error(f"CELLS ends in cell {i} of the {count} that CELL_TYPES names")
-                widths[i] = flat[at]
-                at += 1 + int(flat[at])
-            if at != len(flat):
-                raise self.source.error(f"CELLS holds {len(flat)} numbers: its {count} cells need {at}")
-        start = np.concatenate([[0], np.cumsum(widths)])
-        keep = np.ones(len(flat), dtype=bool)
-        keep[start[:-1] + np.arange(count)] = False
-        return start, flat[keep]
+        return split_cells(self.cursor, flat, count)
+
+
+def _unused_name(name: str, data: Mapping[str, object]) -> str:
+    name = unquote_name(name)
+    return name if name not in data else f"{name} ({len(data) + 1})"
 
 
 register(

@@ -14,7 +14,7 @@ _GHOSTS = {"vtkGhostType": 1, "vtkGhostLevels": 255}
 _NUMBERS = ("GlobalNodeIds", "GlobalNodeId", "GlobalPointIds")
 
 
-def joined(grids: Sequence[Grid]) -> Grid:
+def merge_grids(grids: Sequence[Grid]) -> Grid:
     """One grid of several; its notes say what was done.
 
     Ghost cells are dropped. Nodes are one where the pieces number them through (by an array "GlobalNodeIds" or the

@@ -9,8 +9,8 @@ from pathlib import Path, PurePosixPath
 from hexmend.errors import FileError
 from hexmend.io.base.format import Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.merge_grids import joined
-from hexmend.io.formats.vtk.vtu import grids_of
+from hexmend.io.formats.vtk.merge_grids import merge_grids
+from hexmend.io.formats.vtk.vtu import read_grids
 from hexmend.io.formats.vtk.xml_document import Document
 from hexmend.mesh.mesh import Mesh
 
@@ -24,10 +24,10 @@ def read(path: Path) -> Mesh:
         raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
     grids = [grid for name in names for grid in _piece(path, name)]
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
-    return to_mesh(path, replace(joined(grids), field_data=fields))
+    return to_mesh(path, replace(merge_grids(grids), field_data=fields))
 
 
-def pieces(path: Path) -> list[Path]:
+def piece_paths(path: Path) -> list[Path]:
     """The files that a PVTU file names, there or not. Raises `FileError` where it is none, or names others' files."""
     return [_place(path, name) for name in _names(path)]
 
@@ -47,7 +47,7 @@ def _piece(path: Path, name: str) -> list[Grid]:
     place = _place(path, name)
     try:
         check_readable(place, "a VTU file")
-        return grids_of(place)
+        return read_grids(place)
     except FileError as error:
         raise FileError(path, f"its piece {_shown(name)}: {error.problem}", error.remedy) from None
 

@@ -18,7 +18,7 @@ from hexmend.io.base.content import Content, to_mesh
 from hexmend.io.base.format import Format, register
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.formats.vtk.grid import Grid, to_content
-from hexmend.io.formats.vtk.merge_grids import joined
+from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
@@ -44,7 +44,7 @@ def content(path: Path) -> Content:
     except Exception as error:  # each of the library's failures is another one
         detail = " ".join(str(error).split()) or type(error).__name__
         raise FileError(path, f"cannot be read as VTKHDF ({detail[:120]})", _DAMAGED) from None
-    return to_content(path, joined(grids))
+    return to_content(path, merge_grids(grids))
 
 
 class _Reader:

@@ -11,10 +11,10 @@ import numpy as np
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.merge_grids import joined
+from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import write
-from hexmend.io.formats.vtk.xml_arrays import strings_of, values_of
-from hexmend.io.formats.vtk.xml_document import Document, XMLElement, title
+from hexmend.io.formats.vtk.xml_arrays import read_strings, read_values
+from hexmend.io.formats.vtk.xml_document import Document, XMLElement, array_title
 from hexmend.mesh.mesh import Mesh
 
 _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
@@ -22,10 +22,10 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
 
 def read(path: Path) -> Mesh:
     """Read a VTU file, its pieces put together."""
-    return to_mesh(path, joined(grids_of(path)))
+    return to_mesh(path, merge_grids(read_grids(path)))
 
 
-def grids_of(path: Path) -> list[Grid]:
+def read_grids(path: Path) -> list[Grid]:
     """The pieces of a VTU file, at least one; field data are with the first."""
     with Document(path, "UnstructuredGrid") as document:
         top = document.root.first("UnstructuredGrid")
@@ -50,11 +50,11 @@ def _charge(document: Document, piece: XMLElement) -> None:
         for array in piece.first(section).arrays():
             if array.get("type") != "String":
                 width = _width(document, array) * document.dtype(array).itemsize
-                document.allowance.charge(document.count(piece, rows) * width, title(array))
+                document.allowance.charge(document.count(piece, rows) * width, array_title(array))
     for array in piece.first("Cells").arrays():
         if array.get("Name") in ("offsets", "types"):
             document.allowance.charge(
-                document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, title(array)
+                document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, array_title(array)
             )
 
 
@@ -65,7 +65,7 @@ def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
         raise document.error("its Points hold no array")
     if points and _width(document, found[0]) != 3:
         raise document.error(f"its Points have {_width(document, found[0])} coordinates each: expected 3")
-    places = values_of(document, found[0], 3 * points) if points else np.empty(0)
+    places = read_values(document, found[0], 3 * points) if points else np.empty(0)
     arrays = {array.get("Name"): array for array in piece.first("Cells").arrays()}
     for name in ("connectivity", "offsets", "types"):
         if cells and name not in arrays:
@@ -89,12 +89,12 @@ def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
 
 def _whole(document: Document, array: XMLElement, count: int) -> np.ndarray:
     """Whole numbers, (count,) int64."""
-    values = values_of(document, array, count)
+    values = read_values(document, array, count)
     if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
         with np.errstate(invalid="ignore"):
             wrong = np.flatnonzero((values.astype(np.int64) != values) | (np.abs(values) > 2.0**53))
         if wrong.size:
-            raise document.error(f"{title(array)} holds {values[wrong[0]]}: expected whole numbers")
+            raise document.error(f"{array_title(array)} holds {values[wrong[0]]}: expected whole numbers")
     return values.astype(np.int64, copy=False)
 
 
@@ -105,7 +105,7 @@ def _data(document: Document, section: XMLElement, rows: int, left: dict[str, No
         if array.get("type") == "String":
             left[name] = None
             continue
-        values = values_of(document, array, rows * width)
+        values = read_values(document, array, rows * width)
         name = name if name not in answer else f"{name} ({len(answer) + 1})"
         answer[name] = values if width == 1 else values.reshape(rows, width)
     return answer
@@ -113,13 +113,13 @@ def _data(document: Document, section: XMLElement, rows: int, left: dict[str, No
 
 def _field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
     if array.get("type") == "String":
-        return strings_of(document, array)
+        return read_strings(document, array)
     width = _width(document, array)
-    values = values_of(document, array)
+    values = read_values(document, array)
     if array.get("type") == "Bit" and "NumberOfTuples" in array.attributes:
         values = values[: document.count(array, "NumberOfTuples") * width]
     if len(values) % width:
-        raise document.error(f"{title(array)} has {len(values)} numbers: expected rows of {width}")
+        raise document.error(f"{array_title(array)} has {len(values)} numbers: expected rows of {width}")
     return values if width == 1 else values.reshape(-1, width)
 
 

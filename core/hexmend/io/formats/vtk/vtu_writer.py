@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zlib
 from base64 import b64encode
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import BinaryIO
 
@@ -13,6 +13,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import format_rows
 from hexmend.io.formats.vtk.grid import Grid, from_mesh
+from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
 from hexmend.mesh.mesh import Mesh
 
@@ -118,11 +119,9 @@ def _pack(file: BinaryIO, numbers: np.ndarray) -> None:
 
 def _compare(path: Path, sums: list[tuple[str, int]]) -> None:
     """Raise `FileError` unless the file holds arrays of these names and checksums, in this order."""
-    from hexmend.io.formats.vtk.xml_arrays import values_of
-
     with Document(path, "UnstructuredGrid") as document:
         arrays = list(_arrays(document.root))
-        found = [(one.get("Name"), zlib.crc32(_as_written(document, one, values_of))) for one in arrays]
+        found = [(one.get("Name"), zlib.crc32(_as_written(document, one))) for one in arrays]
     wrong = next((k for k, (a, b) in enumerate(zip(sums, found, strict=False)) if a != b), None)
     if wrong is not None or len(sums) != len(found):
         name = repr(sums[wrong][0]) if wrong is not None else "one"
@@ -131,8 +130,8 @@ def _compare(path: Path, sums: list[tuple[str, int]]) -> None:
         )
 
 
-def _as_written(document: Document, array: XMLElement, values_of: Callable[..., np.ndarray]) -> np.ndarray:
-    values = values_of(document, array)
+def _as_written(document: Document, array: XMLElement) -> np.ndarray:
+    values = read_values(document, array)
     dtype = np.uint8 if array.get("type") == "String" else document.dtype(array)
     return np.ascontiguousarray(values.astype(dtype, copy=False)).view(np.uint8)
 

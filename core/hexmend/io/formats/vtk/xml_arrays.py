@@ -14,14 +14,14 @@ from collections.abc import Callable
 import numpy as np
 
 from hexmend.io.base.cursor import count_words, exceeds_dtype
-from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, title
+from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
 
 #: How compressors are named.
 COMPRESSORS = {"vtkZLibDataCompressor": "zlib", "vtkLZ4DataCompressor": "LZ4", "vtkLZMADataCompressor": "LZMA"}
 _LZMA_MEMORY = 1 << 28
 
 
-def values_of(document: Document, array: XMLElement, count: int | None = None) -> np.ndarray:
+def read_values(document: Document, array: XMLElement, count: int | None = None) -> np.ndarray:
     """The numbers of an array.
 
     Parameters
@@ -49,16 +49,16 @@ def values_of(document: Document, array: XMLElement, count: int | None = None) -
     size = None if count is None else (count + 7) // 8 if bits else count * dtype.itemsize
     data = _bytes(document, array, size)
     if len(data) % dtype.itemsize:
-        raise document.error(f"{title(array)} has {len(data)} bytes: expected a multiple of {dtype.itemsize}")
+        raise document.error(f"{array_title(array)} has {len(data)} bytes: expected a multiple of {dtype.itemsize}")
     values = np.frombuffer(data, dtype)
     if bits:
         return np.unpackbits(values)[:count]
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def strings_of(document: Document, array: XMLElement) -> list[str]:
+def read_strings(document: Document, array: XMLElement) -> list[str]:
     """The strings of an array of them, each of which ends with a zero."""
-    data = values_of(document, array).astype(np.uint8).tobytes()
+    data = read_values(document, array).astype(np.uint8).tobytes()
     if not data:
         return []
     return [part.decode("utf-8", errors="replace") for part in data.removesuffix(b"\0").split(b"\0")]
@@ -75,21 +75,21 @@ def _decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int
         values = np.empty(0, wide)
     found = count_words(text)
     if len(values) < found:
-        raise document.error(f"{title(array)} holds words that are no numbers of its type")
+        raise document.error(f"{array_title(array)} holds words that are no numbers of its type")
     if count is not None and found != count:
-        raise document.error(f"{title(array)} holds {found} numbers: expected {count}")
+        raise document.error(f"{array_title(array)} holds {found} numbers: expected {count}")
     if wide.kind == "f":
         return values.astype(dtype.newbyteorder("="), copy=False)
     limit = np.iinfo(dtype)
     outside = np.flatnonzero((values < limit.min) | (values > limit.max))
     if outside.size or exceeds_dtype(values, text):
         word = values[outside[0]] if outside.size else "a number"
-        raise document.error(f"{title(array)} holds {word}, which is outside of its type {array.get('type')}")
+        raise document.error(f"{array_title(array)} holds {word}, which is outside of its type {array.get('type')}")
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
 def _bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
-    """The bytes of an array, unpacked; `size` as `values_of` says."""
+    """The bytes of an array, unpacked; `size` as `read_values` says."""
     where = array.get("format")
     stream: _Stored | _Encoded
     if where == "appended":
@@ -103,7 +103,7 @@ def _bytes(document: Document, array: XMLElement, size: int | None) -> bytes | n
         text = b"".join(document.text(array).split())
         stream = _Encoded(lambda at, n: text[at : at + n], len(text))
     else:
-        raise document.error(f"{title(array)} has the format {where[:20]!r}: expected ascii, binary or appended")
+        raise document.error(f"{array_title(array)} has the format {where[:20]!r}: expected ascii, binary or appended")
     compressor = document.root.get("compressor")
     if compressor and compressor not in COMPRESSORS:
         known = ", ".join(COMPRESSORS)
@@ -113,7 +113,7 @@ def _bytes(document: Document, array: XMLElement, size: int | None) -> bytes | n
             return _unpacked(document, array, stream, size, COMPRESSORS[compressor])
         return _plain(document, array, stream, size)
     except binascii.Error:
-        raise document.error(f"{title(array)} is no base64") from None
+        raise document.error(f"{array_title(array)} is no base64") from None
 
 
 class _Stored:
@@ -176,15 +176,16 @@ def _unpacked(
     at = to = 0
     for k, width in enumerate(packed):
         expected = whole if k < blocks - 1 else last or whole
+        block_title = f"block {k + 1} of {blocks} of {array_title(array)}"
         try:
             block = unpack(data[at : at + width], expected)
         except MemoryError:
             raise
         except Exception as error:  # each of the three libraries has its own
             detail = " ".join(str(error).split())[:80]
-            raise document.error(f"block {k + 1} of {blocks} of {title(array)} is no {kind} ({detail})") from None
+            raise document.error(f"{block_title} is no {kind} ({detail})") from None
         if len(block) != expected:
-            raise document.error(f"block {k + 1} of {blocks} of {title(array)} has not the {expected} bytes announced")
+            raise document.error(f"{block_title} has not the {expected} bytes announced")
         answer[to : to + expected] = np.frombuffer(block, np.uint8)
         at, to = at + width, to + expected
     return answer
@@ -199,7 +200,7 @@ def _numbers(document: Document, array: XMLElement, stream: _Stored | _Encoded, 
 def _taken(document: Document, array: XMLElement, stream: _Stored | _Encoded, at: int, size: int) -> bytes:
     data = stream.read(at, size) if size <= stream.left else b""
     if len(data) != size:
-        raise document.error(f"{title(array)} goes on behind the end of the data")
+        raise document.error(f"{array_title(array)} goes on behind the end of the data")
     return data
 
 
@@ -220,9 +221,9 @@ def _unpacker(kind: str) -> Callable[[bytes, int], bytes]:
 
 def _check_size(document: Document, array: XMLElement, length: int, size: int | None) -> None:
     if size is None:
-        document.allowance.charge(length, title(array))
+        document.allowance.charge(length, array_title(array))
     elif length != size:
-        raise document.error(f"{title(array)} has {length} bytes: expected {size}")
+        raise document.error(f"{array_title(array)} has {length} bytes: expected {size}")
 
 
 def _header(document: Document) -> np.dtype:

@@ -119,7 +119,7 @@ class Document:
         """The type of an array's numbers as they lie in the file."""
         kind = array.get("type")
         if kind not in TYPES:
-            raise self.error(f"{title(array)} has the type {kind[:20]!r}: expected {', '.join(TYPES)}")
+            raise self.error(f"{array_title(array)} has the type {kind[:20]!r}: expected {', '.join(TYPES)}")
         return np.dtype(TYPES[kind]).newbyteorder(self.order)
 
     @property
@@ -209,7 +209,7 @@ class Document:
             raise self.error(f"is a VTKFile of the type {found!r}: expected {kind}", f"Convert it to {kind}.")
 
 
-def title(array: XMLElement) -> str:
+def array_title(array: XMLElement) -> str:
     """An array for a message."""
     name = array.get("Name", "without name")
     return f"the array {''.join(c if c.isprintable() else '?' for c in name)[:60]!r}"
