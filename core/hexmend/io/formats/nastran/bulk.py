@@ -10,27 +10,28 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import quoted
-from hexmend.io.formats.nastran.card_blocks import Lines, Stretch
+from hexmend.io.formats.nastran.card_blocks import CardBlock, Lines
 
-#: The line, name and fields of a card.
+#: Line (from 1), name and fields of a card.
 Card = tuple[int, str, list[str]]
 
 _BEGIN = re.compile(rb"^[ \t\v\f]*BEGIN", re.IGNORECASE | re.MULTILINE)
 _EXPONENT = re.compile(r"([+-]?[0-9.]+)(?:[ED]([+-]?)|([+-]))([0-9]+)", re.IGNORECASE)
 
-#: Fields of a line behind its name: eight of 8 columns, or four of 16.
-_SMALL = [slice(k, k + 8) for k in range(8, 72, 8)]
-_LARGE = [slice(k, k + 16) for k in range(8, 72, 16)]
+#: Fields of a line after its name: eight of 8 columns, or four of 16.
+_SMALL_FIELDS = [slice(k, k + 8) for k in range(8, 72, 8)]
+_LARGE_FIELDS = [slice(k, k + 16) for k in range(8, 72, 16)]
 
 
-class Bulk:
+class BulkData:
     """The cards of a file.
 
     Parameters
     ----------
     path : Path
+        The file; errors name it.
     data : bytes
-        With "\\n" at the ends of lines.
+        Its content, with lines that end in "\\n".
     """
 
     def __init__(self, path: Path, data: bytes):
@@ -39,44 +40,44 @@ class Bulk:
         self._begin = int(np.searchsorted(self.lines.start, found.end(), "right")) if found else 0
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
-        """The error to raise."""
+        """Make the error to raise."""
         return FileError(self.path, problem, remedy)
 
-    def pieces(self, names: Collection[str]) -> Iterator[Card | Stretch]:
-        """The cards up to ENDDATA, in order: those of some names many at a time where they can be."""
-        at = self._begin
-        for stretch in self.lines.stretches(at, names):
-            for card in self.cards(at, stretch.first):
+    def cards_and_blocks(self, names: Collection[str]) -> Iterator[Card | CardBlock]:
+        """Iterate over the cards up to ENDDATA in order; cards of these names come as blocks where possible."""
+        line = self._begin
+        for block in self.lines.card_blocks(line, names):
+            for card in self.cards(line, block.first):
                 yield card
                 if card[1] == "ENDDATA":
                     return
-            yield stretch
-            at = stretch.last
-        yield from self.cards(at, len(self.lines))
+            yield block
+            line = block.last
+        yield from self.cards(line, len(self.lines))
 
     def cards(self, first: int, last: int) -> Iterator[Card]:
-        """The cards of some lines up to ENDDATA, continuations joined; fields are stripped."""
-        where, name, fields = 0, "", []
+        """Iterate over the cards of lines first to last - 1, up to ENDDATA, with stripped fields."""
+        card_line, name, fields = 0, "", []
         for k, line in enumerate(self.lines.text(first, last), first):
             if "$" in line:
                 line = line[: line.index("$")]
             if not line or line.isspace():
                 continue
-            head, own = _parted(line)
-            if head[:1] in ("", "+", "*"):  # goes on with the card before
+            head, own = _split_line(line)
+            if head[:1] in ("", "+", "*"):  # continues the card before
                 if name:
                     fields += own
                 continue
             if name:
-                yield where, name, fields
-            where, name, fields = k + 1, head, own
+                yield card_line, name, fields
+            card_line, name, fields = k + 1, head, own
             if name == "ENDDATA":
                 break
         if name:
-            yield where, name, fields
+            yield card_line, name, fields
 
-    def whole(self, word: str, line: int, name: str) -> int:
-        """A whole number; 0 for a blank."""
+    def integer(self, word: str, line: int, name: str) -> int:
+        """Parse a whole number, 0 for a blank field; `FileError` names the card and its line."""
         if not word:
             return 0
         if word.isdecimal() and word.isascii() and len(word) < 19:
@@ -87,7 +88,7 @@ class Bulk:
         return int(word)
 
     def real(self, word: str, line: int, name: str) -> float:
-        """A number, whose exponent may have the letter D, or lack its letter: 1.5D3, 1.5-3; 0 for a blank."""
+        """Parse a real number, 0 for a blank field; its exponent may have the letter D or none: 1.5D3, 1.5-3."""
         try:
             return float(word or 0)
         except ValueError:
@@ -99,8 +100,8 @@ class Bulk:
             raise self.error(f"{name} in line {line} holds {quoted(word)}: expected a number") from None
 
 
-def _parted(line: str) -> tuple[str, list[str]]:
-    """Name and fields of a line; as many fields as its kind of line has."""
+def _split_line(line: str) -> tuple[str, list[str]]:
+    """Name and fields of a line, in the number of fields of its format."""
     if "," in line:
         parts = [part.strip() for part in line.split(",")]
         head = parts[0].upper()
@@ -110,5 +111,5 @@ def _parted(line: str) -> tuple[str, list[str]]:
         line = line.expandtabs(8) if "\t" in line else line
         head = line[:8].strip().upper()
         large = head.endswith("*") or head.startswith("*")
-        own = [line[part].strip() for part in (_LARGE if large else _SMALL)]
+        own = [line[part].strip() for part in (_LARGE_FIELDS if large else _SMALL_FIELDS)]
     return (head.rstrip("*") if len(head) > 1 and not head.startswith("*") else head), own

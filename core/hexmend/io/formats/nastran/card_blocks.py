@@ -1,6 +1,6 @@
-"""Many cards of Nastran's bulk data at a time: stretches of cards of one name in columns of one width.
+"""Blocks of consecutive cards of one name and field width, whose fields are cut out by array operations.
 
-What is not in fixed columns, or has comments or blank lines inside, is left to `hexmend.io.formats.nastran.bulk`.
+Cards in free fields, or with comments or blank lines inside, are left to `hexmend.io.formats.nastran.bulk`.
 """
 
 from __future__ import annotations
@@ -13,30 +13,32 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from hexmend.io.base.numbering import runs
 
-#: Fewer cards than these are not worth it; and how many lines are cut into columns at a time.
-_FEW, _LINES = 32, 65536
-#: What a byte makes of its line: 0 nothing, 1 something, 2 something else than columns of plain text.
-_HOLDS = np.where(np.arange(256) > ord(" "), 1, 0).astype(np.uint8)
-_HOLDS[[*range(10), *range(11, 32), *b",$", *range(127, 256)]] = 2
+#: Shorter runs of cards are read one by one.
+_MIN_CARDS = 32
+#: Lines cut into fields at a time, which bounds the memory.
+_CHUNK_LINES = 65536
+#: Class of each byte: 0 blank, 1 plain text, 2 not allowed in fixed fields (tabs, commas, comments, other encodings).
+_BYTE_CLASS = np.where(np.arange(256) > ord(" "), 1, 0).astype(np.uint8)
+_BYTE_CLASS[[*range(10), *range(11, 32), *b",$", *range(127, 256)]] = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
-    """Cards of one name.
+class CardBlock:
+    """Consecutive cards of one name.
 
     Parameters
     ----------
     first, last : int
-        The lines that they are, from 0: from the first to that before the last.
+        Their lines, from 0: first to last - 1.
     name : str
-    words : (cards, fields) array of bytes
-        Their fields, continuations joined.
+    fields : (cards, fields) array of bytes
+        Their fields after the name, continuations joined.
     """
 
     first: int
     last: int
     name: str
-    words: np.ndarray
+    fields: np.ndarray
 
 
 class Lines:
@@ -45,7 +47,7 @@ class Lines:
     Parameters
     ----------
     data : bytes
-        With "\\n" at the ends of lines.
+        Its content, with lines that end in "\\n".
     """
 
     def __init__(self, data: bytes):
@@ -62,45 +64,45 @@ class Lines:
         return len(self.start)
 
     def text(self, first: int, last: int) -> list[str]:
-        """Lines from the first to that before the last."""
+        """Return the lines first to last - 1."""
         return self._data[self.start[first] : self.end[last - 1]].decode("latin-1").split("\n") if last > first else []
 
-    def stretches(self, begin: int, names: Collection[str]) -> list[Stretch]:
-        """Stretches of cards of some names from a line on, in order."""
+    def card_blocks(self, begin: int, names: Collection[str]) -> list[CardBlock]:
+        """Find the blocks of cards of these names from line `begin` on, in order."""
         if begin >= len(self):
             return []
-        heads = np.char.strip(np.concatenate([self._columns(part, 0, 8) for part in self._parts(begin)])[:, 0])
+        heads = np.char.strip(np.concatenate([self._fields(chunk, 0, 8) for chunk in self._chunks(begin)])[:, 0])
         letters = heads.astype("S1").view(np.uint8)
         large = (letters == ord("*")) | np.char.endswith(heads, b"*")
-        holds = np.maximum.reduceat(_HOLDS[self._bytes], self.start[begin:])
-        odd = holds != 1
-        goes_on = (holds == 0) | (letters == 0) | (letters == ord("+")) | (letters == ord("*")) | (letters == ord("$"))
-        cards = np.flatnonzero(~goes_on)
+        line_class = np.maximum.reduceat(_BYTE_CLASS[self._bytes], self.start[begin:])
+        irregular = line_class != 1
+        continued = (line_class == 0) | (letters == 0) | np.isin(letters, [*b"+*$"])
+        cards = np.flatnonzero(~continued)
         if not len(cards):
             return []
         counts = np.diff(np.append(cards, len(heads)))
-        odd |= large != np.repeat(large[cards], counts) if cards[0] == 0 else True
-        odd = np.logical_or.reduceat(odd, cards)
+        irregular |= large != np.repeat(large[cards], counts) if cards[0] == 0 else True
+        irregular = np.logical_or.reduceat(irregular, cards)
         kinds, which = np.unique(heads[cards], return_inverse=True)
         known = [kind.decode("latin-1").rstrip("*") in names and not kind.startswith(b"*") for kind in kinds]
-        found = []
-        for run in runs(which, counts, odd):
-            if run.stop - run.start < _FEW or odd[run.start] or not known[which[run.start]]:
+        blocks = []
+        for run in runs(which, counts, irregular):
+            if run.stop - run.start < _MIN_CARDS or irregular[run.start] or not known[which[run.start]]:
                 continue
             first, count = begin + int(cards[run.start]), int(counts[run.start])
             last = first + count * (run.stop - run.start)
             width = 16 if large[cards[run.start]] else 8
-            words = np.concatenate([self._columns(part, 8, width) for part in self._parts(first, last)])
+            fields = np.concatenate([self._fields(chunk, 8, width) for chunk in self._chunks(first, last)])
             name = kinds[which[run.start]].decode("latin-1").rstrip("*")
-            found.append(Stretch(first, last, name, words.reshape(run.stop - run.start, -1)))
-        return found
+            blocks.append(CardBlock(first, last, name, fields.reshape(run.stop - run.start, -1)))
+        return blocks
 
-    def _parts(self, first: int, last: int | None = None) -> list[range]:
+    def _chunks(self, first: int, last: int | None = None) -> list[range]:
         last = len(self) if last is None else last
-        return [range(k, min(k + _LINES, last)) for k in range(first, last, _LINES)]
+        return [range(k, min(k + _CHUNK_LINES, last)) for k in range(first, last, _CHUNK_LINES)]
 
-    def _columns(self, lines: range, left: int, width: int) -> np.ndarray:
-        """Fields of lines, the name's alone or the 64 columns behind it, (lines, fields) of bytes."""
+    def _fields(self, lines: range, left: int, width: int) -> np.ndarray:
+        """Fields of lines, (lines, fields) of bytes: the name (left = 0), or the 64 columns after it (left = 8)."""
         start, end = self.start[lines.start : lines.stop] + left, self.end[lines.start : lines.stop]
         columns = 64 if left else 8
         letters = sliding_window_view(self._padded, columns)[np.minimum(start, end)]
@@ -108,20 +110,30 @@ class Lines:
         return letters.view(f"S{width}")
 
 
-def wholes(words: np.ndarray) -> np.ndarray | None:
-    """Natural numbers, 0 for blanks; None unless all words are such.
+def natural_numbers(fields: np.ndarray) -> np.ndarray | None:
+    """Parse natural numbers, 0 for blanks; return None where a field holds anything else.
 
-    >>> wholes(np.array([b"12      ", b"      7", b""]))
+    Parameters
+    ----------
+    fields : array of bytes
+
+    Returns
+    -------
+    int64 array of the same shape, or None
+
+    Examples
+    --------
+    >>> natural_numbers(np.array([b"12      ", b"      7", b""]))
     array([12,  7,  0])
     """
-    letters = np.ascontiguousarray(words).view(np.uint8).reshape(*words.shape, -1)
-    values, begun, ended = (np.zeros(words.shape, kind) for kind in (np.int64, bool, bool))
+    letters = np.ascontiguousarray(fields).view(np.uint8).reshape(*fields.shape, -1)
+    values, begun, ended = (np.zeros(fields.shape, kind) for kind in (np.int64, bool, bool))
     for k in range(letters.shape[-1]):
-        digit = letters[..., k] - np.uint8(ord("0"))  # others wrap round
-        here = digit < 10
-        if (here & ended).any() or not (here | (letters[..., k] == ord(" ")) | (letters[..., k] == 0)).all():
+        digit = letters[..., k] - np.uint8(ord("0"))  # bytes below "0" wrap round to more than 9
+        is_digit = digit < 10
+        if (is_digit & ended).any() or not (is_digit | (letters[..., k] == ord(" ")) | (letters[..., k] == 0)).all():
             return None
-        values = np.where(here, 10 * values + digit, values)
-        ended |= begun & ~here
-        begun |= here
+        values = np.where(is_digit, 10 * values + digit, values)
+        ended |= begun & ~is_digit
+        begun |= is_digit
     return values

@@ -1,4 +1,4 @@
-"""Reads Nastran's bulk data: long stretches of cards at a time, and the others card by card."""
+"""Reader of Nastran's bulk data: regular cards in blocks, all others one by one."""
 
 from __future__ import annotations
 
@@ -9,171 +9,178 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.cursor import read_text_bytes
 from hexmend.io.base.numbering import find_ids
-from hexmend.io.formats.nastran import ORDER
-from hexmend.io.formats.nastran.bulk import Bulk
-from hexmend.io.formats.nastran.card_blocks import Stretch, wholes
-from hexmend.mesh.cells import CELL_KINDS
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.formats.nastran.bulk import BulkData
+from hexmend.io.formats.nastran.card_blocks import CardBlock, natural_numbers
+from hexmend.io.formats.nastran.cards import KINDS_OF_CARD, ORDER, element_layout
 from hexmend.mesh.mesh import Mesh
-
-#: What the elements of a name are, of first and second order.
-KINDS = {
-    "CHEXA": ("hex", "hex20"), "CTETRA": ("tetra", "tetra10"), "CPENTA": ("wedge", "wedge15"),
-    "CPYRAM": ("pyramid", "pyramid13"), "CPYRA": ("pyramid", "pyramid13"), "CQUAD4": ("quad", ""),
-    "CQUADR": ("quad", ""), "CSHEAR": ("quad", ""), "CQUAD8": ("quad", "quad8"), "CQUAD": ("quad", "quad9"),
-    "CTRIA3": ("triangle", ""), "CTRIAR": ("triangle", ""), "CTRIA6": ("triangle", "triangle6"),
-    "CBAR": ("line", ""), "CBEAM": ("line", ""), "CROD": ("line", ""), "CTUBE": ("line", ""), "PLOTEL": ("line", ""),
-}  # fmt: skip
 
 
 def read(path: Path) -> Mesh:
-    """Read grid points and elements; the elements of a property are the set "property N"."""
-    bulk = Bulk(path, read_text_bytes(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
-    reader = _Reader(bulk)
-    for piece in bulk.pieces({"GRID", *KINDS}):
-        if not isinstance(piece, Stretch):
-            reader.card(*piece)
-        elif not reader.stretch(piece):  # something in it is not as usual: it is read, or told, card by card
-            for card in bulk.cards(piece.first, piece.last):
-                reader.card(*card)
-    return mesh_of(path, reader.content())
+    """Read grid points and elements; the elements of property N become the set "property N".
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FileError
+        For a card that is malformed, a coordinate system other than the basic one, or INCLUDE.
+    MeshError
+        From `Mesh`.
+    """
+    bulk = BulkData(path, read_text_bytes(path).replace(b"\r\n", b"\n").replace(b"\r", b"\n"))
+    model = _Model(bulk)
+    for item in bulk.cards_and_blocks({"GRID", *KINDS_OF_CARD}):
+        if not isinstance(item, CardBlock):
+            model.add_card(*item)
+        elif not model.add_block(item):  # read card by card, which also finds the line of an error
+            for card in bulk.cards(item.first, item.last):
+                model.add_card(*card)
+    return mesh_of(path, model.content())
 
 
-class _Rows:
-    """Rows of numbers, to which come single ones and many at a time."""
+class _RowBuffer:
+    """Rows of numbers, appended one by one or in arrays."""
 
     def __init__(self, dtype: type):
-        self._dtype, self._parts, self._single = dtype, [], []
+        self._dtype, self._arrays, self._single = dtype, [], []
 
-    def add(self, row: object) -> None:
-        """One more, a number or a list of them."""
+    def append(self, row: object) -> None:
+        """Append a number or a list of numbers."""
         self._single.append(row)
 
     def extend(self, rows: np.ndarray) -> None:
-        """Many more."""
-        self._parts += [self._of_single(), rows] if self._single else [rows]
-        self._single = []
+        """Append an array of rows."""
+        self._flush()
+        self._arrays.append(rows)
 
-    def whole(self) -> np.ndarray:
-        """All of them in one array."""
-        parts = [*self._parts, self._of_single()] if self._single else self._parts
-        return np.concatenate(parts) if parts else np.empty(0, self._dtype)
+    def array(self) -> np.ndarray:
+        """Return all rows in one array."""
+        self._flush()
+        return np.concatenate(self._arrays) if self._arrays else np.empty(0, self._dtype)
 
-    def _of_single(self) -> np.ndarray:
-        return np.array(self._single, self._dtype)
+    def _flush(self) -> None:
+        if self._single:
+            self._arrays.append(np.array(self._single, self._dtype))
+            self._single = []
 
 
-class _Reader:
-    """Gathers what the cards say."""
+class _Model:
+    """Grid points and elements of the cards read so far."""
 
-    def __init__(self, bulk: Bulk):
+    def __init__(self, bulk: BulkData):
         self.bulk = bulk
-        self.ids, self.points = _Rows(np.int64), _Rows(np.float64)
-        self.rows: dict[str, _Rows] = {}  # of each kind the number, property and nodes of its elements
-        self.other: dict[str, int] = {}
-        self.partial = 0
+        self.node_ids, self.points = _RowBuffer(np.int64), _RowBuffer(np.float64)
+        self.elements: dict[str, _RowBuffer] = {}  # by kind; a row is an id, a property and nodes
+        self.other_cards: dict[str, int] = {}
+        self.n_partial = 0  # elements with some of their mid-nodes only
 
-    def card(self, line: int, name: str, fields: list[str]) -> None:
-        """Take one card."""
+    def add_card(self, line: int, name: str, fields: list[str]) -> None:
+        """Add one card."""
         bulk = self.bulk
         if name in ("GRID", "GRDSET"):
-            if bulk.whole(fields[1], line, name):
+            if bulk.integer(fields[1], line, name):
                 raise bulk.error(
                     f"{name} in line {line} is in the coordinate system {fields[1]}: expected 0, x, y and z",
                     "Write the file with all grid points in the basic coordinate system.",
                 )
             if name == "GRID":
-                self.ids.add(bulk.whole(fields[0], line, name))
-                self.points.add([bulk.real(word, line, name) for word in [*fields, ""][2:5]])
-        elif name in KINDS:
-            self._element(line, name, fields)
+                self.node_ids.append(bulk.integer(fields[0], line, name))
+                self.points.append([bulk.real(word, line, name) for word in [*fields, ""][2:5]])
+        elif name in KINDS_OF_CARD:
+            self._add_element(line, name, fields)
         elif name.startswith("INCLUDE"):
             raise bulk.error(f"INCLUDE in line {line} takes what follows from another file", "Put its content there.")
         elif name != "ENDDATA":
-            self.other[name] = self.other.get(name, 0) + 1
+            self.other_cards[name] = self.other_cards.get(name, 0) + 1
 
-    def stretch(self, cards: Stretch) -> bool:
-        """Take many cards of one name; False, and none is taken, where any of them is not as it should be."""
-        if cards.name == "GRID":
-            numbers = wholes(cards.words[:, :2])
-            if numbers is None or numbers[:, 1].any() or cards.words.shape[1] < 5:
-                return False
-            try:
-                points = self._reals(cards.words[:, 2:5])
-            except FileError:
-                return False
-            self.ids.extend(numbers[:, 0])
-            self.points.extend(points)
-            return True
-        first, small, large, width, longest = _shape(cards.name)
-        numbers = wholes(cards.words[:, : first + longest])
-        if numbers is None or numbers.shape[1] < first + width or not numbers[:, first : first + width].all():
+    def add_block(self, block: CardBlock) -> bool:
+        """Add a block of cards; return False, and add none, where one of them is irregular."""
+        return self._add_grid_points(block) if block.name == "GRID" else self._add_elements(block)
+
+    def _add_grid_points(self, block: CardBlock) -> bool:
+        numbers = natural_numbers(block.fields[:, :2])
+        if numbers is None or numbers[:, 1].any() or block.fields.shape[1] < 5:
             return False
-        head = np.column_stack([numbers[:, 0], numbers[:, 1] if first == 2 else np.zeros(len(numbers), np.int64)])
-        nodes = numbers[:, first:]
-        more = (nodes[:, width:] != 0).sum(axis=1)
-        full = (more == longest - width) if large else np.zeros(len(numbers), bool)
-        for kind, chosen, nodes_of in ((small, ~full, nodes[:, :width]), (large, full, nodes)):
-            if chosen.any():
-                rows = np.column_stack([head, nodes_of])[chosen]
-                self.rows.setdefault(kind, _Rows(np.int64)).extend(rows)
-        self.partial += int(((more > 0) & ~full).sum())
+        try:
+            points = self._reals(block.fields[:, 2:5])
+        except FileError:
+            return False
+        self.node_ids.extend(numbers[:, 0])
+        self.points.extend(points)
         return True
 
-    def _reals(self, words: np.ndarray) -> np.ndarray:
+    def _add_elements(self, block: CardBlock) -> bool:
+        first, linear, quadratic, n_corners, n_nodes = element_layout(block.name)
+        numbers = natural_numbers(block.fields[:, : first + n_nodes])
+        if numbers is None or numbers.shape[1] < first + n_corners or not numbers[:, first : first + n_corners].all():
+            return False
+        count = len(numbers)
+        head = np.column_stack([numbers[:, 0], numbers[:, 1] if first == 2 else np.zeros(count, np.int64)])
+        nodes = numbers[:, first:]
+        n_mid = (nodes[:, n_corners:] != 0).sum(axis=1)
+        full = (n_mid == n_nodes - n_corners) if quadratic else np.zeros(count, bool)
+        for kind, chosen, nodes_of in ((linear, ~full, nodes[:, :n_corners]), (quadratic, full, nodes)):
+            if chosen.any():
+                self._rows(kind).extend(np.column_stack([head, nodes_of])[chosen])
+        self.n_partial += int(((n_mid > 0) & ~full).sum())
+        return True
+
+    def _reals(self, fields: np.ndarray) -> np.ndarray:
         try:
-            return words.astype(np.float64)
+            return fields.astype(np.float64)
         except ValueError:  # blanks, and exponents without their letter
-            rows = np.char.strip(words).astype(str).tolist()
+            rows = np.char.strip(fields).astype(str).tolist()
             return np.array([[self.bulk.real(word, 0, "GRID") for word in row] for row in rows])
 
-    def _element(self, line: int, name: str, fields: list[str]) -> None:
+    def _add_element(self, line: int, name: str, fields: list[str]) -> None:
         bulk = self.bulk
-        first, small, large, width, longest = _shape(name)
-        property = bulk.whole(fields[1], line, name) if first == 2 else 0
-        nodes = [bulk.whole(word, line, name) for word in fields[first : first + longest]]
-        if len(nodes) < width or 0 in nodes[:width]:
+        first, linear, quadratic, n_corners, n_nodes = element_layout(name)
+        property_id = bulk.integer(fields[1], line, name) if first == 2 else 0
+        nodes = [bulk.integer(word, line, name) for word in fields[first : first + n_nodes]]
+        if len(nodes) < n_corners or 0 in nodes[:n_corners]:
             raise bulk.error(
-                f"{name} in line {line} has {sum(map(bool, nodes[:width]))} nodes: expected {width}",
-                "Write the file again with the program that made it: it is damaged or cut short.",
+                f"{name} in line {line} has {sum(map(bool, nodes[:n_corners]))} nodes: expected {n_corners}", DAMAGED
             )
-        more = sum(map(bool, nodes[width:]))
-        kind = large if large and more == longest - width else small
-        row = [bulk.whole(fields[0], line, name), property, *nodes[: longest if kind == large else width]]
-        self.rows.setdefault(kind, _Rows(np.int64)).add(row)
-        self.partial += bool(more) and kind != large
+        n_mid = sum(map(bool, nodes[n_corners:]))
+        full = bool(quadratic) and n_mid == n_nodes - n_corners
+        element_id = bulk.integer(fields[0], line, name)
+        self._rows(quadratic if full else linear).append(
+            [element_id, property_id, *nodes[: n_nodes if full else n_corners]]
+        )
+        self.n_partial += bool(n_mid) and not full
+
+    def _rows(self, kind: str) -> _RowBuffer:
+        return self.elements.setdefault(kind, _RowBuffer(np.int64))
 
     def content(self) -> Content:
-        """What all cards together make."""
-        tags, notes = self.ids.whole(), []
-        if not len(tags):
+        """Return the content that all cards make together."""
+        node_ids, notes = self.node_ids.array(), []
+        if not len(node_ids):
             raise self.bulk.error("has no GRID", "Is it a file of Nastran's bulk data? Check its suffix.")
-        if self.partial:
+        if self.n_partial:
             notes.append(
-                f"{self.partial:,} elements have some of their mid-nodes only: they are read with their corners."
+                f"{self.n_partial:,} elements have some of their mid-nodes only: they are read with their corners."
             )
-        if self.other:
-            words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other.items())[:6])
-            notes.append(f"Other cards ({words}{', ...' if len(self.other) > 6 else ''}) are left out.")
-        blocks = [_block(self.bulk.path, kind, rows.whole(), tags) for kind, rows in self.rows.items()]
+        if self.other_cards:
+            words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other_cards.items())[:6])
+            notes.append(f"Other cards ({words}{', ...' if len(self.other_cards) > 6 else ''}) are left out.")
+        blocks = [_block(self.bulk.path, kind, rows.array(), node_ids) for kind, rows in self.elements.items()]
         blocks.sort(key=lambda block: (block.kind not in HEX_KINDS, HEX_KINDS.get(block.kind, 0)))
-        return Content(self.points.whole(), tuple(blocks), {ID: tags}, notes=tuple(notes))
+        return Content(self.points.array(), tuple(blocks), {ID: node_ids}, notes=tuple(notes))
 
 
-def _shape(name: str) -> tuple[int, str, str, int, int]:
-    """Where the nodes of an element of a name begin, the kinds that it is, and how many nodes these have."""
-    small, large = KINDS[name]
-    width = _width(small)
-    return 1 if name == "PLOTEL" else 2, small, large, width, _width(large) if large else width
-
-
-def _block(path: Path, kind: str, rows: np.ndarray, tags: np.ndarray) -> Block:
-    nodes = find_ids(path, tags, rows[:, 2:], "node")
+def _block(path: Path, kind: str, rows: np.ndarray, node_ids: np.ndarray) -> Block:
+    """Block of the elements of a kind, of rows of an id, a property and nodes."""
+    nodes = find_ids(path, node_ids, rows[:, 2:], "node")
     numbers = np.unique(rows[:, 1]).tolist()
     sets = {f"property {number}": np.flatnonzero(rows[:, 1] == number) for number in numbers if number > 0}
     return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: rows[:, 0].copy()}, sets)
-
-
-def _width(kind: str) -> int:
-    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes

@@ -13,7 +13,14 @@ from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells, unquote_name
+from hexmend.io.formats.vtk.legacy_arrays import (
+    STRINGS,
+    read_array,
+    read_integers,
+    read_strings,
+    split_cells,
+    unquote_name,
+)
 from hexmend.io.formats.vtk.legacy_writer import write
 from hexmend.mesh.mesh import Mesh
 

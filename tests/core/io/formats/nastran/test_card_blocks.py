@@ -5,7 +5,7 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.formats.nastran.card_blocks import Lines, wholes
+from hexmend.io.formats.nastran.card_blocks import Lines, natural_numbers
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import UNIT_CUBE
 from tests.core.grids import grid, scrambled
@@ -58,13 +58,13 @@ def test_the_same_cards_give_the_same_mesh(change, text, tmp_path):
 
 
 def test_plain_cards_are_taken_many_at_a_time_and_others_are_not(text):
-    found = Lines(text.encode()).stretches(2, NAMES)
-    assert [(one.name, one.words.shape) for one in found] == [
+    found = Lines(text.encode()).card_blocks(2, NAMES)
+    assert [(one.name, one.fields.shape) for one in found] == [
         ("GRID", (125, 8)), ("CHEXA", (64, 16)), ("CQUAD4", (96, 8))
     ]  # fmt: skip
     assert (found[0].first, found[0].last, found[1].first) == (2, 252, 252)
-    assert Lines(commented(text).encode()).stretches(2, NAMES) == []
-    assert Lines(spread(text).encode()).stretches(2, NAMES) == []
+    assert Lines(commented(text).encode()).card_blocks(2, NAMES) == []
+    assert Lines(spread(text).encode()).card_blocks(2, NAMES) == []
 
 
 def test_hexes_of_some_and_of_all_mid_nodes_are_told_apart(tmp_path):
@@ -109,7 +109,7 @@ def test_a_coordinate_that_is_no_number_is_told_by_its_line(text, tmp_path):
 
 @pytest.mark.parametrize("word", [b"1 2", b"-1", b"1.", b"x", b"12-"])
 def test_what_is_no_natural_number_is_none(word):
-    assert wholes(np.array([b"1", word], "S8")) is None
+    assert natural_numbers(np.array([b"1", word], "S8")) is None
 
 
 @pytest.mark.parametrize("text", ["BEGIN BULK", "BEGIN BULK\n", "SOL 101\nBEGIN BULK\n"])

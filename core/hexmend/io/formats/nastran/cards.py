@@ -1,0 +1,99 @@
+"""Element cards of Nastran's bulk data, their node order, and real numbers in fields of 16 columns."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from hexmend.io.base.cell_kinds import node_count
+
+#: Card by which the elements of each kind are written.
+CARD_OF_KIND = {
+    "hex": "CHEXA", "hex20": "CHEXA", "tetra": "CTETRA", "tetra10": "CTETRA", "wedge": "CPENTA", "wedge15": "CPENTA",
+    "pyramid": "CPYRAM", "pyramid13": "CPYRAM", "quad": "CQUAD4", "quad8": "CQUAD8", "quad9": "CQUAD",
+    "triangle": "CTRIA3", "triangle6": "CTRIA6", "line": "CROD",
+}  # fmt: skip
+
+#: Kinds of first and second order that the elements of a card may be; "" where it has no second order.
+KINDS_OF_CARD = {
+    "CHEXA": ("hex", "hex20"), "CTETRA": ("tetra", "tetra10"), "CPENTA": ("wedge", "wedge15"),
+    "CPYRAM": ("pyramid", "pyramid13"), "CPYRA": ("pyramid", "pyramid13"), "CQUAD4": ("quad", ""),
+    "CQUADR": ("quad", ""), "CSHEAR": ("quad", ""), "CQUAD8": ("quad", "quad8"), "CQUAD": ("quad", "quad9"),
+    "CTRIA3": ("triangle", ""), "CTRIAR": ("triangle", ""), "CTRIA6": ("triangle", "triangle6"),
+    "CBAR": ("line", ""), "CBEAM": ("line", ""), "CROD": ("line", ""), "CTUBE": ("line", ""), "PLOTEL": ("line", ""),
+}  # fmt: skip
+
+#: VTK's node order: vtk = nastran[ORDER[kind]]. Nastran lists the mid-nodes of vertical edges before those of the
+#: upper face; kinds without an entry have one order in both.
+ORDER = {
+    "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
+    "wedge15": [*range(9), 12, 13, 14, 9, 10, 11],
+}
+
+#: Name of the element set that holds the elements of a property; group 1 is the property's number (PID).
+PROPERTY_SET = re.compile(r"property ([1-9][0-9]{0,7})\Z")
+
+
+class ElementLayout(NamedTuple):
+    """Position of the nodes in an element card, and the kinds of first and second order with their node counts."""
+
+    first_node: int
+    linear: str
+    quadratic: str
+    n_corners: int
+    n_nodes: int
+
+
+def element_layout(card: str) -> ElementLayout:
+    """Layout of an element card; without a second order, its two node counts are equal."""
+    linear, quadratic = KINDS_OF_CARD[card]
+    n_corners = node_count(linear)
+    # PLOTEL has no property
+    return ElementLayout(
+        1 if card == "PLOTEL" else 2, linear, quadratic, n_corners, node_count(quadratic) if quadratic else n_corners
+    )
+
+
+def real_field(value: float) -> str:
+    """Format a real number in at most 16 columns, with as many digits as fit.
+
+    Parameters
+    ----------
+    value : float
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    ValueError
+        For NaN and infinities.
+
+    Examples
+    --------
+    >>> real_field(0.1), real_field(1e-300), real_field(-2 / 3 * 1e-5)
+    ('0.1', '1.-300', '-6.66666666667-6')
+    """
+    text = repr(value)
+    if len(text) <= 16 and "e" not in text:
+        return text
+    digits = 14 - (value < 0)  # besides the sign, the first digit and the point
+    if 0.01 <= abs(value) < 1e12:
+        text = f"{value:.{digits - len(str(int(abs(value)))) + 1}f}".rstrip("0")
+        if len(text) <= 16:
+            return text
+    for decimals in range(digits - 2, 0, -1):
+        mantissa, exponent = f"{value:.{decimals}e}".split("e")
+        power = int(exponent)
+        short = f"{mantissa.rstrip('0')}{f'{power:+d}' if power else ''}"
+        if len(short) <= 16:
+            return short
+    raise ValueError(f"{value} does not fit into 16 columns")
+
+
+def is_exact(value: float) -> bool:
+    """Return True if a real number keeps all its digits in a field of 16 columns."""
+    text = real_field(value)
+    sign = max(text.rfind("+"), text.rfind("-"))  # of the exponent, which has no letter
+    return float(f"{text[:sign]}e{text[sign:]}" if sign > 0 else text) == value
