@@ -1,4 +1,8 @@
-"""Abaqus's and CalculiX's input files (.inp): their mesh, with its sets and surfaces."""
+"""Input files of Abaqus and CalculiX (.inp): nodes, elements, sets and surfaces.
+
+*Abaqus Keywords Guide*: *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *PART and *INSTANCE; data of other keywords are left
+out.
+"""
 
 from __future__ import annotations
 
@@ -8,36 +12,39 @@ from pathlib import Path
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.mesh.mesh import Mesh
 
+_FIRST_KEYWORDS = (b"HEADING", b"NODE", b"PART", b"PREPRINT", b"ELEMENT", b"ASSEMBLY", b"INCLUDE", b"PARAMETER")
+
 
 def read(path: Path) -> Mesh:
-    """Read the mesh of an input file: its nodes, elements, sets and surfaces, of all instances of its parts."""
-    from hexmend.io.formats.abaqus import reader as abaqus_read
+    """Read the mesh of an input file: the nodes, elements, sets and surfaces of all instances of its parts."""
+    from hexmend.io.formats.abaqus import reader
 
-    return abaqus_read.read(path)
+    return reader.read(path)
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write nodes, elements by their types, sets and surfaces."""
-    from hexmend.io.formats.abaqus import writer as abaqus_write
+    """Write nodes, elements by type, sets and surfaces."""
+    from hexmend.io.formats.abaqus import writer
 
-    abaqus_write.write(path, mesh, encoding)
+    writer.write(path, mesh)
 
 
 def _matches(head: bytes) -> bool:
-    """Whether the first keyword is one that begins such a file."""
+    """Return True if the first keyword, after comments and blank lines, is one that begins an input file."""
     found = re.search(rb"^[ \t]*\*(?!\*)[ \t]*([A-Za-z ]+)", head, re.MULTILINE)
-    known = (b"HEADING", b"NODE", b"PART", b"PREPRINT", b"ELEMENT", b"ASSEMBLY", b"INCLUDE", b"PARAMETER")
-    before = head[: found.start()] if found else b"x"
-    return all(line.strip().startswith(b"**") or not line.strip() for line in before.split(b"\n")) and (
-        found is not None and found[1].strip().upper() in known
-    )
+    before = head[: found.start()].split(b"\n") if found else []
+    comments = all(line.strip().startswith(b"**") or not line.strip() for line in before)
+    return found is not None and comments and found[1].strip().upper() in _FIRST_KEYWORDS
 
 
 def _limitations(mesh: Mesh) -> list[str]:
-    from hexmend.io.formats.abaqus import writer as abaqus_write
+    """List the data of a mesh that a file cannot hold, in words."""
+    from hexmend.io.formats.abaqus import writer
 
-    return abaqus_write.limitations(mesh)
+    return writer.limitations(mesh)
 
+
+HELD = (Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS, Capability.SIDE_SETS, Capability.CELL_SETS)
 
 register(
     Format(

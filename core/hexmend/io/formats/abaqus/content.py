@@ -1,6 +1,8 @@
-"""The mesh that the instances of an Abaqus file make together."""
+"""Content of an Abaqus file: all instances of its parts as one mesh."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -10,51 +12,67 @@ from hexmend.io.base.cursor import quoted
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
-from hexmend.io.formats.abaqus.model import Budget, Instance, Members, Names, Part, key_of
+from hexmend.io.formats.abaqus.model import Instance, Part
+from hexmend.io.formats.abaqus.sets import MemberBudget, SetLookup, name_key
 from hexmend.mesh.mesh import Mesh
 
-#: Data of cells: the place of their type in the list of this name among the field data.
+#: Name of the cell data that hold the index of each element's type among the field data of the name `TYPES`.
 TYPE = "abaqus:type"
 TYPES = "abaqus:types"
 
 
-def to_mesh(deck: Deck, placed: list[Instance], top: Part, notes: list[str]) -> Mesh:
-    """The mesh of instances and of what stands outside of them."""
-    outside = Instance("", top, np.zeros(3), np.eye(3))
-    every = [*placed, outside]
-    ids = [_joined(one.part.node_ids) for one in every]
-    if not sum(map(len, ids)):
+def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[str]) -> Mesh:
+    """Join instances and the assembly's own nodes and elements into one mesh.
+
+    Parameters
+    ----------
+    deck : Deck
+    instances : list of Instance
+    assembly : Part
+        Data outside of all parts and instances.
+    notes : list of str
+        Notes of the mesh; more are appended.
+
+    Raises
+    ------
+    FileError
+        For a file without nodes, or a name or number that does not exist.
+    MeshError
+        From `Mesh`.
+    """
+    several = len(instances) > 1
+    if several:
+        names = ", ".join(instance.name for instance in instances[:5])
+        notes.append(f"{len(instances)} instances ({names}...) are read as one mesh.")
+    instances = [*instances, Instance("", assembly)]
+    node_ids = [_concatenated(instance.part.node_ids) for instance in instances]
+    if not sum(map(len, node_ids)):
         raise deck.error("has no *NODE", "Is it an Abaqus file? Check its suffix.")
-    points = np.concatenate([_points(one) for one in every])
-    if len(placed) > 1:
-        notes.append(f"{len(placed)} instances ({', '.join(one.name for one in placed[:5])}...) are read as one mesh.")
-    joined = _Elements(deck, every, ids)
-    unread: dict[str, int] = {}
-    for chunk in (chunk for one in every for chunk in one.part.chunks if chunk.kind is None):
-        unread[chunk.type] = unread.get(chunk.type, 0) + len(chunk.ids)
+    points = np.concatenate([instance.points() for instance in instances])
+    elements = _Elements(deck, instances, node_ids)
+    unread = _unread(instances)
     if unread:
         types = ", ".join(sorted(unread)[:6])
         notes.append(f"{sum(unread.values()):,} elements of other types ({types}) are left out.")
 
-    budget = Budget(deck)
-    nodes = _names(deck, every, ids, "node_sets", budget)
-    elements = _names(deck, every, joined.ids, "element_sets", budget)
-    prefix = len(placed) > 1
-    node_sets = dict(_sets(every, nodes, "node_sets", prefix))
-    element_sets = dict(_sets(every, elements, "element_sets", prefix))
-    side_sets, other_faces = _side_sets(every, elements, joined, prefix)
-    if other_faces:
-        notes.append(f"{other_faces:,} entries of surfaces that are not faces S1 to S6 of hexes are left out.")
-    unknown = sum(one.unknown for one in (*nodes, *elements))
-    if unknown:
-        notes.append(f"{unknown:,} members of sets that do not exist in the file are passed over.")
+    budget = MemberBudget(deck)
+    of_nodes = _lookups(deck, instances, node_ids, "node_sets", budget)
+    of_elements = _lookups(deck, instances, elements.ids, "element_sets", budget)
+    node_sets = _sets(instances, of_nodes, several)
+    element_sets = _sets(instances, of_elements, several)
+    side_sets, n_other = _side_sets(instances, of_elements, elements, several)
+    if n_other:
+        notes.append(f"{n_other:,} entries of surfaces that are not faces S1 to S6 of hexes are left out.")
+    n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
+    if n_unknown:
+        notes.append(f"{n_unknown:,} members of sets that do not exist in the file are passed over.")
     content = Content(
         points,
-        tuple(joined.blocks(element_sets)),
-        {ID: np.concatenate(ids)},
+        tuple(elements.blocks(element_sets)),
+        {ID: np.concatenate(node_ids)},
         node_sets,
         side_sets,
-        field_data={TYPES: joined.types} if joined.types else {},
+        field_data={TYPES: elements.types} if elements.types else {},
         notes=tuple(notes),
         unread={f"type {quoted(type)}": count for type, count in unread.items()},
     )
@@ -67,115 +85,130 @@ class _Elements:
     Attributes
     ----------
     ids : list of (k,) int64
-        Numbers, an array an instance.
+        Element numbers of each instance.
+    kinds : list of str
+        Kinds of cells, hexes first.
     types : list of str
+        Element types.
+    counts : dict of str to int
+        Number of elements of each kind.
     kind : (n,) int
-        The place of each element's kind in `kinds`; -1 where it is not read.
-    place : (n,) int
-        Its place among those of its kind.
+        Index of each element's kind in `kinds`; -1 where it is not read.
+    type : (n,) int
+        Index of each element's type in `types`; -1 where it is not read.
+    row : (n,) int
+        Index of each element among those of its kind.
     """
 
-    def __init__(self, deck: Deck, every: list[Instance], node_ids: list[np.ndarray]):
-        chunks = [chunk for one in every for chunk in one.part.chunks]
-        first = np.concatenate([[0], np.cumsum([len(one) for one in node_ids])])
-        kinds = dict.fromkeys(chunk.kind for chunk in chunks if chunk.kind)
+    def __init__(self, deck: Deck, instances: list[Instance], node_ids: list[np.ndarray]):
+        cards = [card for instance in instances for card in instance.part.element_cards]
+        first_node = _offsets(node_ids)
+        kinds = dict.fromkeys(card.kind for card in cards if card.kind)
         self.kinds = sorted(kinds, key=lambda kind: kind not in HEX_KINDS)
-        self.types = list(dict.fromkeys(chunk.type for chunk in chunks if chunk.kind))
-        self.ids = [_joined([chunk.ids for chunk in one.part.chunks]) for one in every]
-        self.rows: dict[str, list[np.ndarray]] = {kind: [] for kind in self.kinds}
-        type_of = {name: np.array([k]) for k, name in enumerate(self.types)}
-        counts = dict.fromkeys(self.kinds, 0)
-        kind, place, type = [], [], []
-        for k, one in enumerate(every):
-            for chunk in one.part.chunks:
-                many = len(chunk.ids)
-                kind.append(np.full(many, self.kinds.index(chunk.kind) if chunk.kind else -1))
-                place.append(np.arange(many) + counts.get(chunk.kind, 0))
-                type.append(np.repeat(type_of.get(chunk.type, [-1]), many))
-                if chunk.kind:
-                    counts[chunk.kind] += many
-                    nodes = find_ids(deck.path, node_ids[k], chunk.nodes, "node") + first[k]
-                    self.rows[chunk.kind].append(nodes[:, ORDER[chunk.kind]] if chunk.kind in ORDER else nodes)
-        self.kind, self.place, self.type = _joined(kind), _joined(place), _joined(type)
-        self.counts = counts
+        self.types = list(dict.fromkeys(card.type for card in cards if card.kind))
+        self.ids = [_concatenated([card.ids for card in instance.part.element_cards]) for instance in instances]
+        self.counts = dict.fromkeys(self.kinds, 0)
+        self._nodes: dict[str, list[np.ndarray]] = {kind: [] for kind in self.kinds}
+        index_of = {name: k for k, name in enumerate(self.types)}
+        kind, row, type = [], [], []
+        for k, instance in enumerate(instances):
+            for card in instance.part.element_cards:
+                count = len(card.ids)
+                kind.append(np.full(count, self.kinds.index(card.kind) if card.kind else -1))
+                row.append(np.arange(count) + self.counts.get(card.kind, 0))
+                type.append(np.full(count, index_of.get(card.type, -1)))
+                if card.kind:
+                    self.counts[card.kind] += count
+                    nodes = find_ids(deck.path, node_ids[k], card.nodes, "node") + first_node[k]
+                    self._nodes[card.kind].append(nodes[:, ORDER[card.kind]] if card.kind in ORDER else nodes)
+        self.kind, self.row, self.type = _concatenated(kind), _concatenated(row), _concatenated(type)
 
-    def blocks(self, sets: dict[str, np.ndarray]) -> list[Block]:
-        """One block a kind, each with its share of the sets."""
-        ids, answer = _joined(self.ids), []
-        parted: dict[str, dict[str, np.ndarray]] = {kind: {} for kind in self.kinds}
+    def blocks(self, sets: Mapping[str, np.ndarray]) -> list[Block]:
+        """One block for each kind, with its members of the sets."""
+        ids, blocks = _concatenated(self.ids), []
+        sets_of: dict[str, dict[str, np.ndarray]] = {kind: {} for kind in self.kinds}
         for name, members in sets.items():
             for k in np.unique(self.kind[members]):
                 if k >= 0:
-                    parted[self.kinds[k]][name] = self.place[members[self.kind[members] == k]]
+                    sets_of[self.kinds[k]][name] = self.row[members[self.kind[members] == k]]
         for k, kind in enumerate(self.kinds):
-            own = self.kind == k
-            data = {ID: ids[own], TYPE: self.type[own]}
-            answer.append(Block(kind, np.concatenate(self.rows[kind]), data, parted[kind]))
-        return answer
+            chosen = self.kind == k
+            data = {ID: ids[chosen], TYPE: self.type[chosen]}
+            blocks.append(Block(kind, np.concatenate(self._nodes[kind]), data, sets_of[kind]))
+        return blocks
 
     def hexes(self, members: np.ndarray) -> np.ndarray:
-        """Numbers of hexes, counted through their kinds; -1 for others."""
-        first, answer = 0, np.full(len(members), -1)
+        """Numbers of hexes, counted through the blocks of hexes, (k,) int64; -1 for other elements."""
+        first, hexes = 0, np.full(len(members), -1)
         for k, kind in enumerate(self.kinds):
             if kind in HEX_KINDS:
-                own = self.kind[members] == k
-                answer[own] = self.place[members[own]] + first
+                chosen = self.kind[members] == k
+                hexes[chosen] = self.row[members[chosen]] + first
                 first += self.counts[kind]
-        return answer
+        return hexes
 
 
-def _names(deck: Deck, every: list[Instance], ids: list[np.ndarray], kind: str, budget: Budget) -> list[Names]:
-    """What looks up names: one an instance, and the last for what stands outside, which knows the others."""
-    first = np.concatenate([[0], np.cumsum([len(one) for one in ids])])
-    found: list[Names] = []
-    for k, one in enumerate(every):
-        known = (
-            {key_of(other.name): names for other, names in zip(every, found, strict=False)}
-            if k == len(every) - 1
-            else {}
-        )
-        found.append(Names(deck, ids[k], getattr(one.part, kind), int(first[k]), budget, known))
-    return found
+def _unread(instances: list[Instance]) -> dict[str, int]:
+    """Number of elements of each type that is not read."""
+    counts: dict[str, int] = {}
+    for card in (card for instance in instances for card in instance.part.element_cards if card.kind is None):
+        counts[card.type] = counts.get(card.type, 0) + len(card.ids)
+    return counts
 
 
-def _sets(every: list[Instance], names: list[Names], kind: str, prefix: bool) -> list[tuple[str, np.ndarray]]:
-    """Titles and members of all sets; of several instances each set has its instance's name before its own."""
-    found = []
-    for one, lookup in zip(every, names, strict=True):
-        sets: dict[str, Members] = getattr(one.part, kind)
-        for key, members in sets.items():
-            title = f"{one.name}.{members.title}" if prefix and one.name else members.title
-            found.append((title, lookup.set_named(key)))
+def _lookups(
+    deck: Deck, instances: list[Instance], ids: list[np.ndarray], attribute: str, budget: MemberBudget
+) -> list[SetLookup]:
+    """Lookups of the sets of each instance; the last, the assembly's, knows those of the others."""
+    first, lookups = _offsets(ids), []
+    known: dict[str, SetLookup] = {}
+    for k, instance in enumerate(instances):
+        others = dict(known) if k == len(instances) - 1 else None
+        lookups.append(SetLookup(deck, ids[k], getattr(instance.part, attribute), int(first[k]), budget, others))
+        known[name_key(instance.name)] = lookups[-1]
+    return lookups
+
+
+def _title(instance: Instance, name: str, several: bool) -> str:
+    """Name of a set or surface in the mesh: of several instances it begins with the instance's name."""
+    return f"{instance.name}.{name}" if several and instance.name else name
+
+
+def _sets(instances: list[Instance], lookups: list[SetLookup], several: bool) -> dict[str, np.ndarray]:
+    """Members of all sets by title."""
+    found = {}
+    for instance, lookup in zip(instances, lookups, strict=True):
+        for key, definition in lookup.sets.items():
+            found[_title(instance, definition.title, several)] = lookup.members(key)
     return found
 
 
 def _side_sets(
-    every: list[Instance], names: list[Names], joined: _Elements, prefix: bool
+    instances: list[Instance], lookups: list[SetLookup], elements: _Elements, several: bool
 ) -> tuple[dict[str, np.ndarray], int]:
-    """Surfaces as hexes and their faces, and how many entries are something else."""
-    answer, others = {}, 0
-    for one, lookup in zip(every, names, strict=True):
-        for title, entries in one.part.surfaces.items():
+    """Surfaces as side sets, (k, 2) int64 each, and the number of entries that are no faces of hexes."""
+    found, n_other = {}, 0
+    for instance, lookup in zip(instances, lookups, strict=True):
+        for name, entries in instance.part.surfaces.items():
             rows = []
-            for word, side in entries:
+            for entry, side in entries:
                 face = FACE_OF_SIDE.get(side)
-                hexes = joined.hexes(lookup.of(word))
+                hexes = elements.hexes(lookup.resolve(entry))
                 lookup.budget.spend(len(hexes))
-                others += int((hexes < 0).sum()) if face is not None else 1
+                n_other += int((hexes < 0).sum()) if face is not None else 1
                 hexes = hexes[hexes >= 0]
                 if face is not None and len(hexes):
                     rows.append(np.column_stack([hexes, np.full(len(hexes), face)]))
             if rows:
-                answer[f"{one.name}.{title}" if prefix and one.name else title] = np.concatenate(rows)
-    return answer, others
+                found[_title(instance, name, several)] = np.concatenate(rows)
+    return found, n_other
 
 
-def _points(one: Instance) -> np.ndarray:
-    points = np.concatenate([*one.part.points, np.zeros((0, 3))])
-    if np.array_equal(one.rotation, np.eye(3)):
-        return points + one.shift if one.shift.any() else points
-    return points @ one.rotation.T + one.shift
+def _offsets(arrays: list[np.ndarray]) -> np.ndarray:
+    """Index of the first entry of each array in their concatenation, and the end."""
+    return np.concatenate([[0], np.cumsum([len(values) for values in arrays])])
 
 
-def _joined(arrays: list[np.ndarray]) -> np.ndarray:
+def _concatenated(arrays: list[np.ndarray]) -> np.ndarray:
+    """Concatenation, empty int64 for no arrays."""
     return np.concatenate([*arrays, np.zeros(0, np.int64)])

@@ -1,4 +1,4 @@
-"""An Abaqus input deck as cards: a keyword with its options, and the lines of data behind it."""
+"""Input deck of Abaqus as cards: a keyword line with its parameters, and the data lines that follow."""
 
 from __future__ import annotations
 
@@ -15,23 +15,24 @@ from hexmend.io.base.cursor import ByteCursor, quoted
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
-_EMPTY = re.compile(rb",[ \t]*,|^[ \t]*,|[dD]", re.MULTILINE)
+#: Blank fields, and exponents with the letter D, which NumPy does not parse.
+_BLANK_FIELD = re.compile(rb",[ \t]*,|^[ \t]*,|[dD]", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class Card:
-    """A keyword and its data.
+    """Keyword line and its data lines.
 
     Parameters
     ----------
     name : str
-        In upper case, such as "NODE".
-    options : dict
-        By name in upper case; "" for those without a value.
+        Keyword in upper case, such as "NODE".
+    options : dict of str to str
+        Parameters by name in upper case; "" for those without a value.
     begin, end : int
-        The bytes of its data.
+        Byte range of the data lines in `Deck.data`.
     line : int
-        Where its keyword is.
+        Line of the keyword, from 1.
     """
 
     name: str
@@ -42,12 +43,14 @@ class Card:
 
 
 class Deck:
-    """The cards of a file, and what stands in their lines.
+    """The cards of a file, and parsers of their data lines.
 
     Parameters
     ----------
     path : Path
+        The file; errors name it.
     data : bytes
+        Its content.
     """
 
     def __init__(self, path: Path, data: bytes):
@@ -56,51 +59,55 @@ class Deck:
         if b"**" in data:
             data = _COMMENT.sub(b"", data)
         self.path, self.data = path, data
-        self._numbers = ByteCursor(path, data.replace(b",", b" "))
+        self._cursor = ByteCursor(path, data.replace(b",", b" "))
 
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
-        """The error to raise."""
+        """Make the error to raise."""
         return FileError(self.path, problem, remedy)
 
     def cards(self) -> Iterator[Card]:
-        """All cards in order."""
-        line, seen, skip_to = 1, 0, 0
-        found = list(_KEYWORD.finditer(self.data))
-        for k, one in enumerate(found):
-            if one.start() < skip_to:
+        """Iterate over all cards in order."""
+        line, counted_to, next_begin = 1, 0, 0
+        keywords = list(_KEYWORD.finditer(self.data))
+        for k, keyword in enumerate(keywords):
+            if keyword.start() < next_begin:
                 continue
-            line += self.data.count(b"\n", seen, one.start())
-            seen = one.start()
-            head, begin = one.group(), one.end() + 1
-            while head.rstrip().endswith(b",") and begin < len(self.data):  # goes on in the next line
+            line += self.data.count(b"\n", counted_to, keyword.start())
+            counted_to = keyword.start()
+            head, begin = keyword.group(), keyword.end() + 1
+            while head.rstrip().endswith(b",") and begin < len(self.data):  # continued on the next line
                 after = self.data.find(b"\n", begin)
                 after = len(self.data) if after < 0 else after
                 head, begin = head + self.data[begin:after], after + 1
-            skip_to = begin
-            end = found[k + 1].start() if k + 1 < len(found) else len(self.data)
-            name, options = _parsed(head.decode("utf-8", errors="replace"))
-            yield Card(name, options, min(begin, max(end, one.end())), max(end, one.end()), line)
+            next_begin = begin
+            end = keywords[k + 1].start() if k + 1 < len(keywords) else len(self.data)
+            end = max(end, keyword.end())
+            name, options = _split_keyword(head.decode("utf-8", errors="replace"))
+            yield Card(name, options, min(begin, end), end, line)
 
-    def rows(self, card: Card) -> list[list[str]]:
-        """The fields of each line that is not blank; a comma at its end is passed over."""
+    def lines(self, card: Card) -> list[str]:
+        """Return the data lines that are not blank, stripped."""
         text = self.data[card.begin : card.end].decode("utf-8", errors="replace")
-        lines = (line.strip() for line in text.split("\n"))
-        return [[field.strip() for field in _fields(line.removesuffix(","))] for line in lines if line]
+        return [line for line in map(str.strip, text.split("\n")) if line]
+
+    def fields(self, card: Card) -> list[list[str]]:
+        """Return the fields of each data line; a comma at its end adds none."""
+        return [[field.strip() for field in _split_fields(line.removesuffix(","))] for line in self.lines(card)]
 
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers (k,) int64 and coordinates (k, 3) float64 of the nodes of a card; what is left blank is 0."""
+        """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
         text = self.data[card.begin : card.end]
         first = text.lstrip().split(b"\n", 1)[0].strip().removesuffix(b",")
         width = first.count(b",") + 1 if first else 0
         lines = len(text.split()) and sum(1 for line in text.split(b"\n") if line.strip())
         values = None
-        if width >= 4 and not _EMPTY.search(text):
+        if width >= 4 and not _BLANK_FIELD.search(text):
             values = self.numbers(card, "*NODE", np.float64)
         if values is not None and values.size == lines * width:
             rows = values.reshape(lines, width)[:, :4]
         else:
             rows = np.zeros((lines, 4))
-            for k, fields in enumerate(self.rows(card)):
+            for k, fields in enumerate(self.fields(card)):
                 rows[k, : len(fields[:4])] = [self._real(field) for field in fields[:4]]
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
@@ -109,9 +116,9 @@ class Deck:
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
     def numbers(self, card: Card, what: str, dtype: type) -> np.ndarray:
-        """All numbers of a card, wherever its lines end."""
-        self._numbers.pos = card.begin
-        return self._numbers.read_numbers_to(what, card.end, dtype)
+        """Return all numbers of a card, (k,), line ends ignored."""
+        self._cursor.pos = card.begin
+        return self._cursor.decimals_to(what, card.end, dtype)
 
     def _real(self, field: str) -> float:
         try:
@@ -120,8 +127,9 @@ class Deck:
             raise self.error(f"*NODE holds {quoted(field)}: expected a number") from None
 
 
-def _parsed(head: str) -> tuple[str, dict[str, str]]:
-    fields = _fields(head.strip().lstrip("*").strip())
+def _split_keyword(head: str) -> tuple[str, dict[str, str]]:
+    """Keyword and parameters of a keyword line."""
+    fields = _split_fields(head.strip().lstrip("*").strip())
     options = {}
     for field in fields[1:]:
         key, _, value = field.partition("=")
@@ -129,8 +137,8 @@ def _parsed(head: str) -> tuple[str, dict[str, str]]:
     return " ".join((fields[0] if fields else "").upper().split()), options
 
 
-def _fields(line: str) -> list[str]:
-    """Parts between commas, those within quotes apart."""
+def _split_fields(line: str) -> list[str]:
+    """Split a line at its commas outside of quotes."""
     if '"' not in line:
         return line.split(",")
     return _FIELD.findall(line)

@@ -1,13 +1,10 @@
-"""Abaqus's types of elements, and their order of nodes and faces."""
+"""Abaqus's element types, and their order of nodes and faces (*Abaqus Elements Guide*)."""
 
 from __future__ import annotations
 
 import re
 
-from hexmend.io.base.content import HEX_KINDS
-from hexmend.mesh.cells import CELL_KINDS
-
-#: What the elements of a type are; prefixes such as DC (heat) and suffixes such as R (reduced integration) vary.
+#: Kinds by a pattern of their types; prefixes such as DC (heat) and suffixes such as R (reduced integration) vary.
 _PATTERNS = (
     (r"[A-Z]*C3D(8|20|27)[A-Z]*", {"8": "hex", "20": "hex20", "27": "hex27"}),
     (r"[A-Z]*C3D(4|5|6|10|13|15)[A-Z]*",
@@ -21,24 +18,24 @@ _PATTERNS = (
 )  # fmt: skip
 _COMPILED = [(re.compile(pattern), kinds) for pattern, kinds in _PATTERNS]
 
-#: What cells are written as that were not read of such a file.
-TYPES = {
+#: Type of each kind of cells whose type is not known from a file.
+DEFAULT_TYPES = {
     "hex": "C3D8", "hex20": "C3D20", "hex27": "C3D27", "tetra": "C3D4", "tetra10": "C3D10", "wedge": "C3D6",
     "wedge15": "C3D15", "pyramid": "C3D5", "pyramid13": "C3D13", "triangle": "S3", "triangle6": "STRI65",
     "quad": "S4", "quad8": "S8R", "quad9": "S9R5", "line": "T3D2", "line3": "T3D3", "vertex": "MASS",
 }  # fmt: skip
 
-#: VTK's order of nodes: nodes[ORDER[kind]] of Abaqus's. The middle of a line stands between its ends; in a hex of 27
-#: the middle comes before the faces S1 to S6.
+#: VTK's node order: vtk = abaqus[ORDER[kind]]. The mid-node of a line lies between its ends; in a hex of 27 nodes the
+#: centre comes before the faces S1 to S6. Kinds without an entry have one order in both.
 ORDER = {"line3": [0, 2, 1], "hex27": [*range(20), 26, 24, 23, 25, 21, 22, 20]}
 
-#: Which of `hexmend.mesh.hexahedron.FACES` the faces S1 to S6 of a hex are.
+#: Face, of `hexmend.mesh.hexahedron.FACES`, of the face identifiers S1 to S6 of a hex.
 FACE_OF_SIDE = {"S1": 4, "S2": 5, "S3": 2, "S4": 1, "S5": 3, "S6": 0}
 SIDE_OF_FACE = {face: side for side, face in FACE_OF_SIDE.items()}
 
 
 def kind_of(type: str) -> str | None:
-    """What the elements of a type are, one of `HEX_KINDS` or `CELL_KINDS`; None for what is not read.
+    """Kind of the elements of a type, one of `HEX_KINDS` or `CELL_KINDS`; None for types that are not read.
 
     Examples
     --------
@@ -50,8 +47,3 @@ def kind_of(type: str) -> str | None:
         if found:
             return kinds[found[1]]
     return None
-
-
-def width_of(kind: str) -> int:
-    """How many nodes cells of a kind have."""
-    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes

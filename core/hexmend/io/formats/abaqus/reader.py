@@ -1,10 +1,11 @@
-"""Reads the cards of an Abaqus or CalculiX file that say something of the mesh."""
+"""Reader of Abaqus and CalculiX input files: the cards that define the mesh."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
@@ -12,35 +13,54 @@ from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.formats.abaqus.content import to_mesh
 from hexmend.io.formats.abaqus.deck import Card, Deck
 from hexmend.io.formats.abaqus.elements import kind_of
-from hexmend.io.formats.abaqus.model import Chunk, Instance, Members, Part, chunk_of, key_of, moved, title_of
+from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, element_card, placement
+from hexmend.io.formats.abaqus.sets import SetDefinition, is_number, name_key, unquoted
 from hexmend.mesh.mesh import Mesh
 
-#: Cards that make nodes or elements out of others.
+#: Cards that generate nodes or elements from others.
 _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
 _EXPAND = "Write the file with all nodes and elements expanded, as Abaqus/CAE does."
-#: Cards that are of the mesh but say nothing that is kept.
-_PASSED_OVER = ("HEADING", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
+#: Cards without data of the mesh, which no note mentions.
+_IGNORED = ("HEADING", "PREPRINT", "ASSEMBLY", "END ASSEMBLY")
+#: Nodes of all instances that are never too many; more need a file of as many bytes.
+_ALWAYS_ALLOWED = 1_000_000
 
 
 def read(path: Path) -> Mesh:
-    """Read the mesh of an input file: its nodes, elements, sets and surfaces, of all instances of its parts."""
+    """Read the mesh of an input file: the nodes, elements, sets and surfaces of all instances of its parts.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FileError
+        For a malformed card, one that generates nodes or elements, or one that names another file.
+    MeshError
+        From `Mesh`.
+    """
     deck = Deck(path, read_text_bytes(path))
-    return to_mesh(deck, *Reader(deck).model())
+    return to_mesh(deck, *_Reader(deck).model())
 
 
-class Reader:
-    """Goes through the cards and gathers what they say."""
+class _Reader:
+    """Model data of the cards read so far; `part` is the one that the current card adds to."""
 
     def __init__(self, deck: Deck):
         self.deck = deck
-        self.flat = Part("")
+        self.assembly = Part("")
         self.parts: dict[str, Part] = {}
         self.instances: list[Instance] = []
-        self.part = self.flat
-        self.other: dict[str, int] = {}
+        self.part = self.assembly
+        self.other_cards: dict[str, int] = {}
 
     def model(self) -> tuple[list[Instance], Part, list[str]]:
-        """The instances, what stands outside of them, and notes."""
+        """Read all cards; return the instances, the assembly and notes."""
         count = 0
         for card in self.deck.cards():
             count += 1
@@ -49,24 +69,24 @@ class Reader:
                 self._refuse(card)
             elif reader is not None:
                 reader(self, card)
-            elif card.name not in _PASSED_OVER:
-                self.other[card.name] = self.other.get(card.name, 0) + 1
+            elif card.name not in _IGNORED:
+                self.other_cards[card.name] = self.other_cards.get(card.name, 0) + 1
         if not count:
             raise self.deck.error("has no line that begins with *", "Is it an Abaqus file? Check its suffix.")
         notes = []
-        if self.other:
-            names = ", ".join(f"*{quoted(name)[1:-1]}" for name in list(self.other)[:6])
-            more = "" if len(self.other) <= 6 else f" and {len(self.other) - 6} others"
-            notes.append(f"What is no mesh ({names}{more}) is left out.")
-        placed = self.instances
-        if not placed:
-            placed = [Instance(part.name, part, np.zeros(3), np.eye(3)) for part in self.parts.values()]
-        left = sum(all(one.part is not part for one in placed) for part in self.parts.values())
-        if left:
-            notes.append(f"{left} part{'s' * (left > 1)} without an instance {'are' if left > 1 else 'is'} left out.")
-        return [replace(one, part=one.part.joined(one.own)) for one in placed], self.flat, notes
+        if self.other_cards:
+            names = ", ".join(f"*{quoted(name)[1:-1]}" for name in list(self.other_cards)[:6])
+            more = "" if len(self.other_cards) <= 6 else f" and {len(self.other_cards) - 6} others"
+            notes.append(f"Keywords that define no mesh ({names}{more}) are left out.")
+        instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
+        unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
+        if unused:
+            verb = "s without an instance are" if unused > 1 else " without an instance is"
+            notes.append(f"{unused} part{verb} left out.")
+        return [replace(one, part=one.part.merged(one.own)) for one in instances], self.assembly, notes
 
-    def _refuse(self, card: Card) -> None:
+    def _refuse(self, card: Card) -> NoReturn:
+        """Raise the error for a card whose data are elsewhere or have to be generated."""
         if card.name == "INCLUDE" or "INPUT" in card.options:
             where = quoted(card.options.get("INPUT", ""))
             raise self.deck.error(
@@ -83,24 +103,29 @@ class Reader:
         self.part.node_ids.append(ids)
         self.part.points.append(points)
         if "NSET" in card.options:
-            _entry(self.part.node_sets, card.options["NSET"]).ids.append(ids)
+            _definition(self.part.node_sets, card.options["NSET"]).ids.append(ids)
 
     def read_element(self, card: Card) -> None:
         """*ELEMENT, TYPE=..., ELSET=..."""
         type = card.options.get("TYPE", "").upper()
         kind = kind_of(type)
         if kind is None:
-            ids, goes_on = [], False
-            for fields, line in zip(self.deck.rows(card), self._lines(card), strict=True):
-                if not goes_on and fields[0].isascii() and fields[0].isdigit() and len(fields[0]) < 19:
-                    ids.append(int(fields[0]))
-                goes_on = line.endswith(",")
-            chunk = Chunk(type, None, np.array(ids, np.int64), np.zeros((len(ids), 0), np.int64))
+            elements = ElementCard(type, None, self._element_ids(card), np.zeros((0, 0), np.int64))
         else:
-            chunk = chunk_of(self.deck, self.deck.numbers(card, "*ELEMENT", np.int64), type, kind, card.line)
-        self.part.chunks.append(chunk)
+            elements = element_card(self.deck, card, type, kind)
+        self.part.element_cards.append(elements)
         if "ELSET" in card.options:
-            _entry(self.part.element_sets, card.options["ELSET"]).ids.append(chunk.ids)
+            _definition(self.part.element_sets, card.options["ELSET"]).ids.append(elements.ids)
+
+    def _element_ids(self, card: Card) -> np.ndarray:
+        """Numbers of the elements of a card whose type is not known: the first fields of lines that continue none."""
+        ids, continued = [], False
+        for line in self.deck.lines(card):
+            first = line.split(",", 1)[0].strip()
+            if not continued and is_number(first):
+                ids.append(int(first))
+            continued = line.endswith(",")
+        return np.array(ids, np.int64)
 
     def read_node_set(self, card: Card) -> None:
         """*NSET, NSET=..., GENERATE, INSTANCE=..."""
@@ -110,76 +135,73 @@ class Reader:
         """*ELSET, ELSET=..., GENERATE, INSTANCE=..."""
         self._read_set(card, "ELSET", self.part.element_sets)
 
-    def _read_set(self, card: Card, option: str, sets: dict[str, Members]) -> None:
+    def _read_set(self, card: Card, option: str, sets: dict[str, SetDefinition]) -> None:
         name = card.options.get(option, "")
         if not name:
             raise self.deck.error(f"*{card.name} in line {card.line} has no name")
-        members = _entry(sets, name)
+        definition = _definition(sets, name)
         if "INSTANCE" in card.options:
-            members = members.within.setdefault(key_of(card.options["INSTANCE"]), Members(members.title))
-        for row in self.deck.rows(card):
+            instance = name_key(card.options["INSTANCE"])
+            definition = definition.by_instance.setdefault(instance, SetDefinition(definition.title))
+        for row in self.deck.fields(card):
             if "GENERATE" not in card.options:
-                members.words += [word for word in row if word]
+                definition.entries += [word for word in row if word]
                 continue
-            numbers = [int(word) for word in row if word.isascii() and word.isdigit() and len(word) < 19]
+            numbers = [int(word) for word in row if is_number(word)]
             if len(numbers) != len(row) or not 2 <= len(numbers) <= 3 or 0 in numbers[2:]:
                 raise self.deck.error(
                     f"*{card.name} in line {card.line} holds {quoted(', '.join(row))}: expected first, last and step"
                 )
-            members.ranges.append((*numbers, 1)[:3])
+            definition.ranges.append((*numbers, 1)[:3])
 
     def read_surface(self, card: Card) -> None:
         """*SURFACE, NAME=..., TYPE=ELEMENT or NODE."""
         name, type = card.options.get("NAME", ""), card.options.get("TYPE", "ELEMENT").upper()
         if type == "NODE":
-            members = _entry(self.part.node_sets, name)
-            members.words += [row[0] for row in self.deck.rows(card) if row and row[0]]
+            _definition(self.part.node_sets, name).entries += [row[0] for row in self.deck.fields(card) if row[0]]
         elif type == "ELEMENT":
-            rows = self.part.surfaces.setdefault(title_of(name), [])
-            rows += [(row[0], (row[1:] or [""])[0].upper()) for row in self.deck.rows(card) if row and row[0]]
+            rows = self.part.surfaces.setdefault(unquoted(name), [])
+            rows += [(row[0], (row[1:] or [""])[0].upper()) for row in self.deck.fields(card) if row[0]]
         else:
-            self.other[card.name] = self.other.get(card.name, 0) + 1
+            self.other_cards[card.name] = self.other_cards.get(card.name, 0) + 1
 
     def read_part(self, card: Card) -> None:
         """*PART, NAME=..."""
         name = card.options.get("NAME", "")
-        self.part = self.parts[key_of(name)] = Part(title_of(name))
+        self.part = self.parts[name_key(name)] = Part(unquoted(name))
 
     def read_instance(self, card: Card) -> None:
-        """*INSTANCE, NAME=..., PART=...: what follows up to *END INSTANCE belongs to the instance alone."""
-        part = self.parts.get(key_of(card.options.get("PART", "")))
+        """*INSTANCE, NAME=..., PART=...: the cards up to *END INSTANCE belong to the instance alone."""
+        part = self.parts.get(name_key(card.options.get("PART", "")))
         if part is None:
             name = quoted(card.options.get("PART", ""))
             raise self.deck.error(f"*INSTANCE in line {card.line} is of the part {name}, which is not there")
         self.part = Part(part.name)
-        self.instances.append(
-            Instance(title_of(card.options.get("NAME", "")), part, *moved(self.deck, self.deck.rows(card)), self.part)
-        )
-        nodes = sum(len(ids) for one in self.instances for ids in one.part.node_ids)
-        if nodes > 1_000_000 + len(self.deck.data):
+        translation, rotation = placement(self.deck, self.deck.fields(card))
+        name = unquoted(card.options.get("NAME", ""))
+        self.instances.append(Instance(name, part, translation, rotation, self.part))
+        n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
+        if n_nodes > _ALWAYS_ALLOWED + len(self.deck.data):
             raise self.deck.error(f"its {len(self.instances)} instances have more nodes than so small a file can mean")
 
     def end(self, card: Card) -> None:
-        """*END PART, *END INSTANCE: what follows belongs to the assembly."""
-        self.part = self.flat
-
-    def _lines(self, card: Card) -> list[str]:
-        text = self.deck.data[card.begin : card.end].decode("utf-8", errors="replace")
-        return [line.strip() for line in text.split("\n") if line.strip()]
+        """*END PART, *END INSTANCE: the next cards belong to the assembly."""
+        self.part = self.assembly
 
 
-def _entry(sets: dict[str, Members], name: str) -> Members:
-    return sets.setdefault(key_of(name), Members(title_of(name)))
+def _definition(sets: dict[str, SetDefinition], name: str) -> SetDefinition:
+    """Definition of the set of a name, new where there is none."""
+    return sets.setdefault(name_key(name), SetDefinition(unquoted(name)))
 
 
-_CARDS: dict[str, Callable[[Reader, Card], None]] = {
-    "NODE": Reader.read_node,
-    "ELEMENT": Reader.read_element,
-    "NSET": Reader.read_node_set,
-    "ELSET": Reader.read_element_set,
-    "SURFACE": Reader.read_surface,
-    "PART": Reader.read_part,
-    "INSTANCE": Reader.read_instance,
-    "END PART": Reader.end,
-    "END INSTANCE": Reader.end,
+_CARDS: dict[str, Callable[[_Reader, Card], None]] = {
+    "NODE": _Reader.read_node,
+    "ELEMENT": _Reader.read_element,
+    "NSET": _Reader.read_node_set,
+    "ELSET": _Reader.read_element_set,
+    "SURFACE": _Reader.read_surface,
+    "PART": _Reader.read_part,
+    "INSTANCE": _Reader.read_instance,
+    "END PART": _Reader.end,
+    "END INSTANCE": _Reader.end,
 }

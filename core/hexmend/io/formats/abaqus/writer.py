@@ -1,4 +1,4 @@
-"""Writes Abaqus's and CalculiX's input files: nodes, elements by their types, sets and surfaces."""
+"""Writer of Abaqus and CalculiX input files: nodes, elements by type, sets and surfaces."""
 
 from __future__ import annotations
 
@@ -6,98 +6,123 @@ import re
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TextIO
 
 import numpy as np
 
-from hexmend.io.base.content import HEX_KINDS, Block, from_mesh
-from hexmend.io.base.numbering import element_ids, node_ids, runs, unsupported_ids
+from hexmend.io.base import numbering
+from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.abaqus.content import TYPE, TYPES
-from hexmend.io.formats.abaqus.elements import ORDER, SIDE_OF_FACE, kind_of
-from hexmend.io.formats.abaqus.elements import TYPES as DEFAULT_TYPES
+from hexmend.io.formats.abaqus.elements import DEFAULT_TYPES, ORDER, SIDE_OF_FACE, kind_of
 from hexmend.mesh.mesh import Mesh
 
-_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_\-]*\Z")
-#: How many numbers a line may have.
-_WIDTH = 16
+#: Names that need no quotes.
+_LABEL = re.compile(r"[A-Za-z_][A-Za-z0-9_\-]*\Z")
+#: Numbers that a data line may hold.
+_LINE_LENGTH = 16
 
 
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write nodes, elements by their types, sets and surfaces."""
+def write(path: Path, mesh: Mesh) -> None:
+    """Write nodes, elements by type, sets and surfaces.
+
+    Elements have the type that they were read with, else the default of their kind.
+
+    Parameters
+    ----------
+    path : Path
+    mesh : Mesh
+    """
     content = from_mesh(mesh)
-    tags, numbers = node_ids(dict(content.node_data), len(content.points)), element_ids(content.blocks)
-    types = mesh.field_data.get(TYPES)
-    types = types if isinstance(types, list | tuple) else []
-    element_sets: dict[str, list[np.ndarray]] = {}
+    node_ids = numbering.node_ids(dict(content.node_data), len(content.points))
+    element_ids = numbering.element_ids(content.blocks)
     with open(path, "w", encoding="utf-8") as file:
         file.write("*HEADING\nWritten by Hexmend\n*NODE\n")
-        for tag, (x, y, z) in zip(tags.tolist(), content.points.tolist(), strict=True):
-            file.write(f"{tag}, {x!r}, {y!r}, {z!r}\n")
-        for block, own in zip(content.blocks, numbers, strict=True):
-            rows = np.column_stack([own, tags[block.nodes]])
-            if block.kind in ORDER:
-                rows[:, 1:] = rows[:, 1:][:, np.argsort(ORDER[block.kind])]
-            which = _types(block, types)
-            for stretch in runs(which):
-                file.write(f"*ELEMENT, TYPE={_type_named(block.kind, types, int(which[stretch.start]))}\n")
-                file.writelines(_wrapped(row) for row in rows[stretch].tolist())
-            for name, members in block.sets.items():
-                element_sets.setdefault(name, []).append(own[members])
-        for name, title in _titles(content.node_sets).items():
-            file.write(f"*NSET, NSET={title}\n")
-            file.write(_listed(tags[np.asarray(content.node_sets[name], np.int64)]))
-        for name, title in _titles(element_sets).items():
-            file.write(f"*ELSET, ELSET={title}\n")
-            file.write(_listed(np.concatenate(element_sets[name])))
-        hexes = [own for block, own in zip(content.blocks, numbers, strict=True) if block.kind in HEX_KINDS]
-        for name, title in _titles(content.side_sets).items():
-            file.write(f"*SURFACE, NAME={title}, TYPE=ELEMENT\n")
-            for hexa, face in np.asarray(content.side_sets[name]).tolist():
-                file.write(f"{np.concatenate(hexes)[hexa]}, {SIDE_OF_FACE[face]}\n")
+        for node_id, (x, y, z) in zip(node_ids.tolist(), content.points.tolist(), strict=True):
+            file.write(f"{node_id}, {x!r}, {y!r}, {z!r}\n")
+        _write_elements(file, content, node_ids, element_ids)
+        _write_sets(file, content, node_ids, element_ids)
+        _write_surfaces(file, content, element_ids)
 
 
-def _types(block: Block, types: list[str]) -> np.ndarray:
-    """The place of each element's type in the list; -1 where it is not known."""
+def _write_elements(file: TextIO, content: Content, node_ids: np.ndarray, element_ids: list[np.ndarray]) -> None:
+    types = content.field_data.get(TYPES)
+    types = types if isinstance(types, list | tuple) else []
+    for block, ids in zip(content.blocks, element_ids, strict=True):
+        rows = np.column_stack([ids, node_ids[block.nodes]])
+        if block.kind in ORDER:
+            rows[:, 1:] = rows[:, 1:][:, np.argsort(ORDER[block.kind])]
+        which = _type_indices(block, types)
+        for run in numbering.runs(which):
+            index = int(which[run.start])
+            file.write(f"*ELEMENT, TYPE={types[index] if index >= 0 else DEFAULT_TYPES[block.kind]}\n")
+            file.writelines(_element_lines(row) for row in rows[run].tolist())
+
+
+def _write_sets(file: TextIO, content: Content, node_ids: np.ndarray, element_ids: list[np.ndarray]) -> None:
+    element_sets: dict[str, list[np.ndarray]] = {}
+    for block, ids in zip(content.blocks, element_ids, strict=True):
+        for name, members in block.sets.items():
+            element_sets.setdefault(name, []).append(ids[members])
+    for name, title in _titles(content.node_sets).items():
+        file.write(f"*NSET, NSET={title}\n")
+        file.write(_set_lines(node_ids[np.asarray(content.node_sets[name], np.int64)]))
+    for name, title in _titles(element_sets).items():
+        file.write(f"*ELSET, ELSET={title}\n")
+        file.write(_set_lines(np.concatenate(element_sets[name])))
+
+
+def _write_surfaces(file: TextIO, content: Content, element_ids: list[np.ndarray]) -> None:
+    blocks = zip(content.blocks, element_ids, strict=True)
+    hex_ids = np.concatenate([ids for block, ids in blocks if block.kind in HEX_KINDS])
+    for name, title in _titles(content.side_sets).items():
+        file.write(f"*SURFACE, NAME={title}, TYPE=ELEMENT\n")
+        for hexa, face in np.asarray(content.side_sets[name]).tolist():
+            file.write(f"{hex_ids[hexa]}, {SIDE_OF_FACE[face]}\n")
+
+
+def _type_indices(block: Block, types: list[str]) -> np.ndarray:
+    """Index of each element's type in the list, (k,) int; -1 where it is unknown or of another kind."""
     which = np.asarray(block.data.get(TYPE, np.full(len(block), -1)))
-    right = np.array([kind_of(name) == block.kind for name in types] + [False])
+    fits = np.array([kind_of(name) == block.kind for name in types] + [False])
     if which.dtype.kind not in "iu" or which.shape != (len(block),):
         return np.full(len(block), -1)
     which = np.where((which < 0) | (which >= len(types)), len(types), which)
-    return np.where(right[which], which, -1)
-
-
-def _type_named(kind: str, types: list[str], place: int) -> str:
-    return types[place] if place >= 0 else DEFAULT_TYPES[kind]
+    return np.where(fits[which], which, -1)
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Ids that are none here, and names with quotation marks, in words."""
+    """List the ids and names of a mesh that a file cannot hold, in words."""
     cells = [name for one in mesh.cells for name in one.sets]
     kinds = (mesh.node_sets, [*mesh.hex_sets, *cells], mesh.side_sets)
     titles = {name: title for names in kinds for name, title in make_unique(names, _clean).items()}
-    return unsupported_ids(mesh) + altered_names(titles)
+    return numbering.unsupported_ids(mesh) + altered_names(titles)
 
 
 def _titles(sets: Iterable[str]) -> dict[str, str]:
-    """Names as they are written: quoted unless they are plain words that differ in more than capitals."""
+    """Names as the file has them: quoted where they are no labels, or differ only in upper and lower case."""
     titles = make_unique(sets, _clean)
     upper = Counter(title.upper() for title in titles.values())
     return {
-        name: title if _PLAIN.match(title) and upper[title.upper()] == 1 else f'"{title}"'
+        name: title if _LABEL.match(title) and upper[title.upper()] == 1 else f'"{title}"'
         for name, title in titles.items()
     }
 
 
 def _clean(name: str, end: str) -> str:
+    """Name without double quotes, with single spaces, and with an end."""
     return " ".join(name.replace('"', "'").split()) + end
 
 
-def _wrapped(row: list[int]) -> str:
-    """A line, or several of which all but the last end with a comma."""
-    parts = [row[k : k + _WIDTH] for k in range(0, len(row), _WIDTH)]
-    return ",\n".join(", ".join(map(str, part)) for part in parts) + "\n"
+def _element_lines(row: list[int]) -> str:
+    """Data lines of an element, of which all but the last end with a comma."""
+    return ",\n".join(_lines(row)) + "\n"
 
 
-def _listed(numbers: np.ndarray) -> str:
-    values = numbers.tolist()
-    return "".join(", ".join(map(str, values[k : k + _WIDTH])) + "\n" for k in range(0, len(values), _WIDTH))
+def _set_lines(numbers: np.ndarray) -> str:
+    """Data lines of a set."""
+    return "".join(line + "\n" for line in _lines(numbers.tolist()))
+
+
+def _lines(values: list[int]) -> list[str]:
+    return [", ".join(map(str, values[k : k + _LINE_LENGTH])) for k in range(0, len(values), _LINE_LENGTH)]

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
-from hexmend.io.base.cursor import read_text_bytes
+from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.base.numbering import find_ids
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.nastran.bulk import BulkData
