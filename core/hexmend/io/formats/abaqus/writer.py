@@ -10,7 +10,7 @@ from typing import TextIO
 
 import numpy as np
 
-from hexmend.io.base import numbering
+from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.io.formats.abaqus.content import TYPE, TYPES
@@ -49,9 +49,7 @@ def _write_elements(file: TextIO, content: Content, node_ids: np.ndarray, elemen
     types = content.field_data.get(TYPES)
     types = types if isinstance(types, list | tuple) else []
     for block, ids in zip(content.blocks, element_ids, strict=True):
-        rows = np.column_stack([ids, node_ids[block.nodes]])
-        if block.kind in ORDER:
-            rows[:, 1:] = rows[:, 1:][:, np.argsort(ORDER[block.kind])]
+        rows = np.column_stack([ids, from_vtk_order(node_ids[block.nodes], block.kind, ORDER)])
         which = _type_indices(block, types)
         for run in numbering.runs(which):
             index = int(which[run.start])

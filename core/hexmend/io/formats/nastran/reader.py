@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.cell_kinds import to_vtk_order
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted, read_text_bytes
@@ -183,4 +184,4 @@ def _block(path: Path, kind: str, rows: np.ndarray, node_ids: np.ndarray) -> Blo
     nodes = find_ids(path, node_ids, rows[:, 2:], "node")
     numbers = np.unique(rows[:, 1]).tolist()
     sets = {f"property {number}": np.flatnonzero(rows[:, 1] == number) for number in numbers if number > 0}
-    return Block(kind, nodes[:, ORDER[kind]] if kind in ORDER else nodes, {ID: rows[:, 0].copy()}, sets)
+    return Block(kind, to_vtk_order(nodes, kind, ORDER), {ID: rows[:, 0].copy()}, sets)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base import numbering
+from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import Block, from_mesh
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.formats.nastran.cards import CARD_OF_KIND, ORDER, PROPERTY_SET, is_exact, real_field
@@ -50,9 +50,7 @@ def write(path: Path, mesh: Mesh) -> None:
             property_ids = np.full(len(block), default)
             for number, members in _properties(block).items():
                 property_ids[members] = number
-            nodes = node_ids[block.nodes]
-            if block.kind in ORDER:
-                nodes = nodes[:, np.argsort(ORDER[block.kind])]
+            nodes = from_vtk_order(node_ids[block.nodes], block.kind, ORDER)
             card = f"{CARD_OF_KIND[block.kind]:<8}"
             for row in np.column_stack([ids, property_ids, nodes]).tolist():
                 fields = "".join(f"{number:<8}" for number in row)
