@@ -10,6 +10,7 @@ from hexmend.io.base.cell_kinds import to_vtk_order
 from hexmend.io.base.content import HEX_KINDS, ID, Block, Content
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import quoted
+from hexmend.io.base.numbering import find_ids
 from hexmend.io.formats.abaqus.deck import Deck
 from hexmend.io.formats.abaqus.elements import FACE_OF_SIDE, ORDER
 from hexmend.io.formats.abaqus.model import Instance, Part
@@ -119,7 +120,7 @@ class _Elements:
                 type.append(np.full(count, index_of.get(card.type, -1)))
                 if card.kind:
                     self.counts[card.kind] += count
-                    nodes = places(deck.path, node_ids[k], card.nodes, "node") + first_node[k]
+                    nodes = find_ids(deck.path, node_ids[k], card.nodes, "node") + first_node[k]
                     self._nodes[card.kind].append(to_vtk_order(nodes, card.kind, ORDER))
         self.kind, self.row, self.type = _concatenated(kind), _concatenated(row), _concatenated(type)
 

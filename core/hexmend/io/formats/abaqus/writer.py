@@ -10,6 +10,7 @@ from typing import TextIO
 
 import numpy as np
 
+from hexmend.io.base import numbering
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.unique_names import altered_names, make_unique

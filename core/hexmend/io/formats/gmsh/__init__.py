@@ -1,4 +1,7 @@
-"""Gmsh's format (.msh): versions 1, 2 and 4.1 are read, 4.1 is written, in decimals and binary."""
+"""Gmsh's format (.msh): versions 1, 2 and 4.1 are read, 4.1 is written, as text and binary.
+
+*Gmsh Reference Manual*, "MSH file format" (version 4.1) and "Legacy formats" (versions 1 and 2).
+"""
 
 from __future__ import annotations
 
@@ -10,28 +13,38 @@ from hexmend.mesh.mesh import Mesh
 
 def read(path: Path) -> Mesh:
     """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids."""
-    from hexmend.io.formats.gmsh import reader as gmsh_read
+    from hexmend.io.formats.gmsh import reader
 
-    return gmsh_read.read(path)
+    return reader.read(path)
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 4.1: sets become physical groups."""
-    from hexmend.io.formats.gmsh import writer as gmsh_write
+    from hexmend.io.formats.gmsh import writer
 
-    gmsh_write.write(path, mesh, encoding)
+    writer.write(path, mesh, encoding)
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Describe data of a mesh that are lost although the format has the capability."""
-    from hexmend.io.formats.gmsh import writer as gmsh_write
+    """List the data of a mesh that a file cannot hold, in words."""
+    from hexmend.io.formats.gmsh import writer
 
-    return gmsh_write.limitations(mesh)
+    return writer.limitations(mesh)
 
 
 def _matches(head: bytes) -> bool:
+    """Return True if a file begins with $MeshFormat, or with $NOD as version 1 does."""
     return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
 
+
+HELD = (
+    Capability.NODE_DATA,
+    Capability.HEX_DATA,
+    Capability.IDS,
+    Capability.HEX_SETS,
+    Capability.FIXED_NODES,
+    Capability.LOWER_CELLS,
+)
 
 register(
     Format(

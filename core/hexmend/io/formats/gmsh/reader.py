@@ -1,4 +1,4 @@
-"""Reads Gmsh's format, versions 1, 2 and 4.1, in decimals and (but for version 1) binary, section by section."""
+"""Reader of Gmsh's format, versions 1, 2 and 4.1, text and (except version 1) binary, section by section."""
 
 from __future__ import annotations
 
@@ -7,77 +7,90 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.formats.gmsh.content import Read, to_mesh
+from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
-from hexmend.io.formats.gmsh.version_1 import read_elements as elements_1
-from hexmend.io.formats.gmsh.version_1 import read_nodes as nodes_1
-from hexmend.io.formats.gmsh.version_2 import read_elements as elements_2
-from hexmend.io.formats.gmsh.version_2 import read_nodes as nodes_2
-from hexmend.io.formats.gmsh.version_4 import read_elements as elements_4
-from hexmend.io.formats.gmsh.version_4 import read_entities as entities_4
-from hexmend.io.formats.gmsh.version_4 import read_nodes as nodes_4
-from hexmend.io.formats.gmsh.version_4 import read_partitioned
+from hexmend.io.formats.gmsh.sections import Sections
 from hexmend.mesh.mesh import Mesh
 
-_SECTIONS = {
-    1: {"$NOD": nodes_1, "$ELM": elements_1},
-    2: {"$Nodes": nodes_2, "$Elements": elements_2},
+#: Readers of sections by version and keyword.
+_READERS = {
+    1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
+    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements},
     4: {
-        "$Entities": entities_4,
-        "$PartitionedEntities": read_partitioned,
-        "$Nodes": nodes_4,
-        "$Elements": elements_4,
+        "$Entities": version_4.read_entities,
+        "$PartitionedEntities": version_4.read_partitioned_entities,
+        "$Nodes": version_4.read_nodes,
+        "$Elements": version_4.read_elements,
     },
 }
 
 
 def read(path: Path) -> Mesh:
-    """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids."""
+    """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FileError
+        For another version, or a section that is malformed or missing.
+    MeshError
+        From `Mesh`.
+    """
     with open(path, "rb") as file:
-        if not file.read(4096).lstrip().startswith(b"$"):  # said before all of a large file is read
+        if not file.read(4096).lstrip().startswith(b"$"):  # found out before a large file is read
             raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
     source = ByteCursor(path, path.read_bytes())
-    version, order, result, left = 0, "", Read(), {}
-    while not source.at_end:
-        key = source.next_line()
+    version, order, sections, skipped = 0, "", Sections(), {}
+    while not source.ended:
+        key = source.line()
         if key == "$MeshFormat":
-            version, order = _head(source)
-        elif key in _SECTIONS[version or 1]:  # the first version has no $MeshFormat
+            version, order = _read_format(source)
+        elif key in _READERS[version or 1]:  # the first version has no $MeshFormat
             version = version or 1
-            _SECTIONS[version][key](source, order, result)
+            _READERS[version][key](source, order, sections)
         elif version and key == "$PhysicalNames":
-            _names(source, result)
+            _read_physical_names(source, sections)
         elif version and key in DATA:
-            read_data(source, order, key, result)
+            read_data(source, order, key, sections)
         elif key.startswith("$") and not key.startswith("$End"):
-            _skip(source, key)
-            left[quoted(key)[1:-1]] = None
+            _skip_section(source, key)
+            skipped[quoted(key)[1:-1]] = None
         elif not version:
             raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
         else:
             raise source.error(f"{quoted(key)} stands where a section should begin, before {source.location}")
     if not version:
         raise source.error("has no section $MeshFormat")
-    if left:
-        result.notes.append(f"Sections that are not kept ({', '.join(list(left)[:6])}) are left out.")
-    return to_mesh(path, result)
+    if skipped:
+        sections.notes.append(f"Sections that are not kept ({', '.join(list(skipped)[:6])}) are left out.")
+    return to_mesh(path, sections)
 
 
-def _head(source: ByteCursor) -> tuple[int, str]:
-    """2 or 4, and the order of a binary file's bytes, "" for one in decimals."""
-    words = source.next_line().split()
+def _read_format(source: ByteCursor) -> tuple[int, str]:
+    """Version, 2 or 4, and byte order, "<" or ">", of a binary file or "" of a text."""
+    words = source.line().split()
     if len(words) != 3:
         raise source.error("$MeshFormat has no version, file type and data size")
-    version, kind, size = words
+    version, file_type, size = words
     if version not in ("2", "2.0", "2.1", "2.2", "4.1"):
         raise source.error(
             f"is of version {quoted(version)} of the format: expected 2.2 or 4.1", "Save it as 4.1 with Gmsh."
         )
-    if kind not in ("0", "1") or size != "8":
-        raise source.error(f"its file type and data size are {quoted(kind)} and {quoted(size)}: expected 0 or 1, and 8")
+    if file_type not in ("0", "1") or size != "8":
+        raise source.error(
+            f"its file type and data size are {quoted(file_type)} and {quoted(size)}: expected 0 or 1, and 8"
+        )
     order = ""
-    if kind == "1":
-        one = source.read_bytes(4, "the number 1 that tells the order of bytes")
+    if file_type == "1":
+        one = source.take(4, "the number 1 that tells the order of bytes")
         order = "<" if struct.unpack("<i", one) == (1,) else ">"
         if struct.unpack(f"{order}i", one) != (1,):
             raise source.error("the number 1 that tells the order of bytes is another")
@@ -87,17 +100,18 @@ def _head(source: ByteCursor) -> tuple[int, str]:
     return int(version[0]), order
 
 
-def _names(source: ByteCursor, result: Read) -> None:
-    count = source.parse_count(source.next_line(), "the number of physical names")
-    while (line := source.next_line()) != "$EndPhysicalNames":
+def _read_physical_names(source: ByteCursor, sections: Sections) -> None:
+    """Read the lines of $PhysicalNames."""
+    count = source.whole(source.line(), "the number of physical names")
+    while (line := source.line()) != "$EndPhysicalNames":
         if not line:
             raise source.error("$PhysicalNames ends without $EndPhysicalNames")
-        result.names.append(line)
-    if len(result.names) != count:
-        raise source.error(f"$PhysicalNames holds {len(result.names)} names: expected {count}")
+        sections.names.append(line)
+    if len(sections.names) != count:
+        raise source.error(f"$PhysicalNames holds {len(sections.names)} names: expected {count}")
 
 
-def _skip(source: ByteCursor, key: str) -> None:
+def _skip_section(source: ByteCursor, key: str) -> None:
     end = f"$End{key[1:]}".encode()
     at = source.data.find(end, source.pos)
     if at < 0:

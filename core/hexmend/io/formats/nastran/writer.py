@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base import numbering
 from hexmend.io.base.cell_kinds import from_vtk_order
 from hexmend.io.base.content import Block, from_mesh
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order

@@ -1,4 +1,4 @@
-"""Meshes that Gmsh has cut into parts for several processors."""
+"""Partitioned meshes of Gmsh."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def test_a_partitioned_mesh_keeps_its_groups_and_says_which_cell_is_in_which_par
     assert version == 2 or mesh.hex_sets["end"].tolist() == [2]
     assert mesh.hex_data["partition"].tolist() == [1, 2, 3]
     assert quads.data["partition"].tolist() == [1, 2, 3]
-    assert any("in parts for several processors" in note for note in mesh.notes)
+    assert any("The mesh is partitioned" in note for note in mesh.notes)
     io.write(tmp_path / "b.msh", mesh)
     again = io.read(tmp_path / "b.msh")
     assert again.hex_data["partition"].tolist() == [1, 2, 3]
@@ -77,6 +77,6 @@ def test_data_of_the_file_called_partition_are_kept_beside_the_partition_numbers
     title = "partition_3" if own else "partition_2"
     assert mesh.hex_data["partition"].tolist() == [42, 43, 44]
     assert mesh.hex_data[title].tolist() == [1, 2, 3]
-    assert any(f"the data {title!r} says which cell" in note for note in mesh.notes)
+    assert any(f"the cell data {title!r} hold" in note for note in mesh.notes)
     io.write(tmp_path / "b.msh", mesh)
     assert io.read(tmp_path / "b.msh").hex_data[title].tolist() == [1, 2, 3]
