@@ -24,7 +24,7 @@ EXAMPLES = [
     ("A metric", "quality/metrics", "metrics", "oddy = oddy:ODDY"),
     ("A format", "io/formats", "formats", "plain = plain_text:PLAIN_TEXT"),
     ("A gallery mesh", "gallery", "gallery", "twisted-bar = twisted_bar:TwistedBar"),
-    ("A command", "cli", "commands", "volume = volume:command"),
+    ("A command", "cli/commands", "commands", "volume = volume:command"),
 ]
 PROGRAM = """
 import json, sys

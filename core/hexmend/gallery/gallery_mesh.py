@@ -61,7 +61,7 @@ G = TypeVar("G", bound=type[GalleryMesh])
 GROUP = "hexmend.gallery"
 
 
-def add_third_parties() -> None:
+def load_plugins() -> None:
     """Load the gallery meshes of other distributions."""
     load_others(GROUP, "gallery mesh", _take)
 
@@ -73,7 +73,7 @@ def _take(name: str, found: object) -> None:
         gallery_mesh(found)
 
 
-GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh", add_third_parties)
+GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh", load_plugins)
 
 
 def gallery_mesh(cls: G) -> G:

@@ -93,7 +93,7 @@ def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float
 GROUP = "hexmend.metrics"
 
 
-def load_plugin_metrics() -> None:
+def load_plugins() -> None:
     """Load the metrics of other distributions."""
     load_others(GROUP, "metric", _take)
 
@@ -105,4 +105,4 @@ def _take(name: str, metric: object) -> None:
         METRICS.add(metric.name, metric)
 
 
-METRICS: Registry[Metric] = Registry("metric", load_plugin_metrics)
+METRICS: Registry[Metric] = Registry("metric", load_plugins)

@@ -49,7 +49,7 @@ def metric_statistics(mesh: Mesh, figures: ElementQuality | None = None) -> dict
     --------
     >>> from hexmend.mesh.hexahedron import UNIT_CUBE
     >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
-    Spread(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
+    MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
     figures = measure(mesh.points, mesh.hexes) if figures is None else figures
     return {

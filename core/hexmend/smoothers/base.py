@@ -105,7 +105,7 @@ S = TypeVar("S", bound=type[Smoother])
 GROUP = "hexmend.smoothers"
 
 
-def add_third_parties() -> None:
+def load_plugins() -> None:
     """Load the smoothers of other distributions."""
     load_others(GROUP, "method", _take)
 
@@ -115,7 +115,7 @@ def _take(name: str, found: object) -> None:
         method(found)
 
 
-METHODS: Registry[type[Smoother]] = Registry("method", add_third_parties)
+METHODS: Registry[type[Smoother]] = Registry("method", load_plugins)
 
 
 def _check_texts(cls: type, *names: str) -> None:

@@ -54,7 +54,7 @@ def announce(monkeypatch, module, *found):
             take("any", one)
 
     monkeypatch.setattr(module, "load_others", load)
-    module.add_third_parties()
+    module.load_plugins()
 
 
 def test_what_is_no_metric_is_refused(monkeypatch):

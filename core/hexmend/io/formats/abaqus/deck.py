@@ -118,7 +118,7 @@ class Deck:
     def numbers(self, card: Card, what: str, dtype: type) -> np.ndarray:
         """Return all numbers of a card, (k,), line ends ignored."""
         self._cursor.pos = card.begin
-        return self._cursor.decimals_to(what, card.end, dtype)
+        return self._cursor.read_numbers_to(what, card.end, dtype)
 
     def _real(self, field: str) -> float:
         try:

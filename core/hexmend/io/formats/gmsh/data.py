@@ -32,10 +32,10 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
     sections : Sections
         The section is appended to its data.
     """
-    names = [source.line() for _ in range(_count(source, key))]
+    names = [source.next_line() for _ in range(_count(source, key))]
     for _ in range(_count(source, key)):
-        source.line()
-    integers = [source.whole(source.line(), f"a number of {key}") for _ in range(_count(source, key))]
+        source.next_line()
+    integers = [source.parse_count(source.next_line(), f"a number of {key}") for _ in range(_count(source, key))]
     if not names or len(integers) < 3 or not 1 <= integers[1] <= _MAX_WIDTH:
         raise source.error(f"{key} has not a name, a step, 1 to {_MAX_WIDTH} values a row, and a number of rows")
     name, (step, width, count) = names[0].strip('"'), integers[:3]
@@ -48,8 +48,8 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
             raise source.error(f"{key} holds tags that are no numbers")
         tags, values = rows[:, 0].astype(np.int64), rows[:, 1:].copy()
     end = f"$End{key[1:]}"
-    if source.line() != end:
-        raise source.error(f"{key} ends without {end} before {source.here}")
+    if source.next_line() != end:
+        raise source.error(f"{key} ends without {end} before {source.location}")
     of_nodes = key == "$NodeData"
     if any(other.name == name and other.of_nodes == of_nodes for other in sections.data):
         name = f"{name} ({step})"
@@ -58,7 +58,7 @@ def read_data(source: ByteCursor, order: str, key: str, sections: Sections) -> N
 
 def _count(source: ByteCursor, key: str) -> int:
     """Number of the tags that follow."""
-    count = source.whole(source.line(), f"a number of {key}")
+    count = source.parse_count(source.next_line(), f"a number of {key}")
     if count > _MAX_TAGS:
         raise source.error(f"{key} announces {count} words: expected a few")
     return count

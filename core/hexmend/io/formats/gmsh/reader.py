@@ -49,8 +49,8 @@ def read(path: Path) -> Mesh:
             raise FileError(path, "does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
     source = ByteCursor(path, path.read_bytes())
     version, order, sections, skipped = 0, "", Sections(), {}
-    while not source.ended:
-        key = source.line()
+    while not source.at_end:
+        key = source.next_line()
         if key == "$MeshFormat":
             version, order = _read_format(source)
         elif key in _READERS[version or 1]:  # the first version has no $MeshFormat
@@ -76,7 +76,7 @@ def read(path: Path) -> Mesh:
 
 def _read_format(source: ByteCursor) -> tuple[int, str]:
     """Version, 2 or 4, and byte order, "<" or ">", of a binary file or "" of a text."""
-    words = source.line().split()
+    words = source.next_line().split()
     if len(words) != 3:
         raise source.error("$MeshFormat has no version, file type and data size")
     version, file_type, size = words
@@ -90,7 +90,7 @@ def _read_format(source: ByteCursor) -> tuple[int, str]:
         )
     order = ""
     if file_type == "1":
-        one = source.take(4, "the number 1 that tells the order of bytes")
+        one = source.read_bytes(4, "the number 1 that tells the order of bytes")
         order = "<" if struct.unpack("<i", one) == (1,) else ">"
         if struct.unpack(f"{order}i", one) != (1,):
             raise source.error("the number 1 that tells the order of bytes is another")
@@ -102,8 +102,8 @@ def _read_format(source: ByteCursor) -> tuple[int, str]:
 
 def _read_physical_names(source: ByteCursor, sections: Sections) -> None:
     """Read the lines of $PhysicalNames."""
-    count = source.whole(source.line(), "the number of physical names")
-    while (line := source.line()) != "$EndPhysicalNames":
+    count = source.parse_count(source.next_line(), "the number of physical names")
+    while (line := source.next_line()) != "$EndPhysicalNames":
         if not line:
             raise source.error("$PhysicalNames ends without $EndPhysicalNames")
         sections.names.append(line)

@@ -17,7 +17,7 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
 
 def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $ELM: a count, then tag, type, physical group, entity, number of nodes and nodes of each element."""
-    values = source.decimals_until("$ELM", b"$ENDELM", np.int64)
+    values = source.read_numbers_until("$ELM", b"$ENDELM", np.int64)
     count = int(values[0]) if values.size else 0
     starts, at, view, widths = [], 1, memoryview(values), {}
     while at + 4 < values.size:

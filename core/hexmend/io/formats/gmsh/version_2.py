@@ -12,8 +12,8 @@ from hexmend.io.formats.gmsh.sections import ElementBlock, Sections
 def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
     """Read $Nodes: a count, then the tag and the coordinates of each node."""
     if order:
-        count = source.whole(source.line(), "the number of nodes")
-        rows = source.binary("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])[:, 0]
+        count = source.parse_count(source.next_line(), "the number of nodes")
+        rows = source.read_binary("$Nodes", count, 1, [("tag", f"{order}i4"), ("x", f"{order}f8", 3)])[:, 0]
         sections.tags, sections.points = rows["tag"].astype(np.int64), rows["x"].astype(np.float64)
         _expect(source, "$EndNodes")
         return
@@ -22,7 +22,7 @@ def read_nodes(source: ByteCursor, order: str, sections: Sections) -> None:
 
 def read_text_nodes(source: ByteCursor, name: str, end: bytes, sections: Sections) -> None:
     """Read nodes as text up to the keyword `end`: a count, then the tag and the coordinates of each."""
-    values = source.decimals_until(name, end, np.float64)
+    values = source.read_numbers_until(name, end, np.float64)
     count = int(values[0]) if values.size and np.isfinite(values[0]) else 0
     if values.size != 1 + 4 * count:
         raise source.error(f"{name} holds {values.size} numbers: expected {1 + 4 * count} for {count} nodes")
@@ -62,13 +62,13 @@ def read_elements(source: ByteCursor, order: str, sections: Sections) -> None:
 
 
 def _binary_elements(source: ByteCursor, order: str) -> list[ElementBlock]:
-    count = source.whole(source.line(), "the number of elements")
+    count = source.parse_count(source.next_line(), "the number of elements")
     blocks, seen = [], 0
     while seen < count:
-        type, follow, n_tags = source.binary("$Elements", 1, 3, f"{order}i4")[0].tolist()
+        type, follow, n_tags = source.read_binary("$Elements", 1, 3, f"{order}i4")[0].tolist()
         if follow < 1 or n_tags < 0 or n_tags > len(source.data):
-            raise source.error(f"$Elements announces {follow} elements with {n_tags} groups at {source.here}")
-        rows = source.binary("$Elements", follow, 1 + n_tags + nodes_per_element(source.path, type), f"{order}i4")
+            raise source.error(f"$Elements announces {follow} elements with {n_tags} groups at {source.location}")
+        rows = source.read_binary("$Elements", follow, 1 + n_tags + nodes_per_element(source.path, type), f"{order}i4")
         rows = rows.astype(np.int64)
         tags, nodes = rows[:, 1 : 1 + n_tags], rows[:, 1 + n_tags :]
         blocks.append(ElementBlock(type, rows[:, 0], nodes, *_group_and_partition(tags)))
@@ -99,5 +99,5 @@ def node_tags(source: ByteCursor, values: np.ndarray) -> np.ndarray:
 
 def _expect(source: ByteCursor, end: str) -> None:
     """Raise unless the next line is the keyword `end`."""
-    if source.line() != end:
-        raise source.error(f"a section ends without {end} before {source.here}")
+    if source.next_line() != end:
+        raise source.error(f"a section ends without {end} before {source.location}")
