@@ -31,7 +31,7 @@ def library():
 @pytest.fixture
 def joined(monkeypatch):
     """The reader joins, whatever the environment has been told of it."""
-    monkeypatch.setattr(files, "further", lambda: (FORMAT,))
+    monkeypatch.setattr(files, "plugin_formats", lambda: (FORMAT,))
 
 
 def write_adf(library, path, mesh):
@@ -110,7 +110,7 @@ def test_a_file_on_hdf5_is_not_taken_for_one_of_that_kind(joined, tmp_path):
 
 
 def test_without_the_app_it_is_said_what_reads_it(library, monkeypatch, tmp_path):
-    monkeypatch.setattr(files, "further", tuple)
+    monkeypatch.setattr(files, "plugin_formats", tuple)
     write_adf(library, tmp_path / "old.cgns", grid(1))
     with pytest.raises(FileError, match=r"pip install hexmend\[app\] reads it") as caught:
         io.read(tmp_path / "old.cgns")
