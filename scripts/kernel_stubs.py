@@ -14,7 +14,7 @@ from hexmend import kernels
 
 HERE = Path(__file__).resolve().parents[1] / "core/hexmend/kernels"
 
-FACE = '''"""Compiled kernels: arrays in, arrays out, no classes. Written by scripts/kernel_stubs.py."""
+FACE = '''"""Compiled kernels: functions of arrays and of views of arrays. Written by scripts/kernel_stubs.py."""
 
 {families}
 
@@ -36,7 +36,8 @@ def write(folder: Path) -> list[Path]:
         written = []
         for path in found:
             written.append(folder / path.name)
-            written[-1].write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
+            text = path.read_text(encoding="utf-8").replace(f"hexmend.kernels._{kernels.BUILD}", "hexmend.kernels")
+            written[-1].write_text(text, encoding="utf-8")
     lines = "\n".join(f"from hexmend.kernels import {path.stem} as {path.stem}" for path in found)
     written.append(folder / "__init__.pyi")
     written[-1].write_text(FACE.format(families=lines), encoding="utf-8")

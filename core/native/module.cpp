@@ -7,13 +7,13 @@
 
 namespace nb = nanobind;
 
-#define HEXMEND_FAMILIES(family)                                                                                 \
-    family(assembly) family(binning) family(closest_point) family(conjugate_gradients) family(corner_values)     \
-        family(sparsity) family(decimals) family(element_step) family(elements) family(faces) family(getme)      \
-            family(incidence) family(laplacian) family(patches) family(local) family(metrics) family(objective)  \
-                family(occlusion) family(ordering) family(scalar_reference) family(polygons) family(step_limits) \
-                    family(clip_planes) family(skin) family(sliding) family(structure) family(wavefronts)        \
-                        family(worst_first)
+#define HEXMEND_FAMILIES(family)                                                                                   \
+    family(hex_mesh) family(line_search) family(assembly) family(binning) family(closest_point)                    \
+        family(conjugate_gradients) family(corner_values) family(sparsity) family(decimals) family(element_step)   \
+            family(elements) family(faces) family(getme) family(incidence) family(laplacian) family(patches)       \
+                family(local) family(metrics) family(objective) family(occlusion) family(ordering)                 \
+                    family(scalar_reference) family(polygons) family(step_limits) family(clip_planes) family(skin) \
+                        family(sliding_surface) family(structure) family(wavefronts) family(worst_first)
 
 namespace hexmend {
 #define DECLARE(name) void bind_##name(nb::module_ &);
@@ -22,6 +22,7 @@ HEXMEND_FAMILIES(DECLARE)
 
 NB_MODULE(HEXMEND_MODULE, m) {
     using namespace nb::literals;
+    nb::set_leak_warnings(false);  // objects of meshes may live until the process ends
     m.attr("LANES") = hexmend::LANES;
     m.def("threads", &hexmend::threads, "Number of threads that run a loop of the calling thread.");
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");

@@ -23,11 +23,10 @@ void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points val
                                                                         left_out, shares);
 }
 
-void scalar::sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-                   int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts) {
-    NodeStepSettings settings{direction, delta, power, {first, shrink, c1, cuts}};
-    (delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, hexes, start, corners, groups, nodes,
-                                                                    settings);
+std::int64_t scalar::sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                           const NodeStepSettings &settings) {
+    return (settings.delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, mesh, groups, nodes,
+                                                                                    settings);
 }
 
 }  // namespace hexmend

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "energy/objective.hpp"
-#include "energy/objective_norm.hpp"
+#include "smoothers/local.hpp"
 
 namespace hexmend::scalar {
 
@@ -15,7 +15,7 @@ void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, Omi
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
                      OmittedCorners left_out, CornerVectors shares);
 
-void sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
-           int direction, double delta, ObjectiveNorm power, double first, double shrink, double c1, int cuts);
+std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                   const NodeStepSettings &settings);
 
 }  // namespace hexmend::scalar

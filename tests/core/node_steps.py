@@ -23,12 +23,8 @@ def after(mesh, smoother, steps=1):
 
 def swept(mesh, smoother, node):
     """The points after a sweep whose only node is this one."""
-    corners, points = mesh.topology.node_corners, mesh.points.copy()
-    local.sweep(
-        points, mesh.hexes, corners.start, corners.items, np.array([0, 1], np.int32), np.array([node], np.int32),
-        smoother.direction, smoother.delta_at(mesh, mesh.points), smoother.power, smoother.first_step, smoother.shrink,
-        smoother.c1, smoother.max_cuts,
-    )  # fmt: skip
+    points, settings = mesh.points.copy(), smoother.step_settings(smoother.delta_at(mesh, mesh.points))
+    local.sweep(points, mesh.topology.hex_mesh, np.array([0, 1], np.int32), np.array([node], np.int32), settings)
     return points
 
 

@@ -50,7 +50,7 @@ class ClosestPointTrees:
     order : (k,) int64
         Where each piece, as `ClosestPoints.pieces` counts them, was in `pieces`.
     points, pieces, boxes, links, roots
-        What `hexmend.kernels.closest_point` takes.
+        Arrays of `hexmend.kernels.closest_point`: points (n, 3), pieces (k, 3), boxes (b, 6), links (b, 2), roots (t,).
 
     Raises
     ------
@@ -69,8 +69,13 @@ class ClosestPointTrees:
         order = np.argsort(group, kind="stable")
         start = np.searchsorted(group[order], np.arange(group.max(initial=-1) + 2)).astype(np.int32)
         pieces = np.ascontiguousarray(pieces[order], dtype=np.int32)
-        within, self.boxes, self.links, self.roots = closest_point.trees(points, pieces, start)
+        within, self.boxes, self.links, self.roots = closest_point.build_trees(points, pieces, start)
         self.points, self.pieces, self.order = points, np.ascontiguousarray(pieces[within]), order[within]
+
+    @property
+    def box_trees(self) -> closest_point.BoxTrees:
+        """The trees as kernels take them; a view, cheap to make."""
+        return closest_point.BoxTrees(self.points, self.pieces, self.boxes, self.links)
 
     def with_points(self, points: np.ndarray) -> ClosestPointTrees:
         """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
@@ -99,10 +104,7 @@ class ClosestPointTrees:
         if len(group) != len(x):
             raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
         piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
-        roots = self.roots[group]
-        closest_point.closest(
-            self.points, self.pieces, self.boxes, self.links, x, roots, enough, piece, places, weights
-        )
+        closest_point.closest(self.box_trees, x, self.roots[group], enough, piece, places, weights)
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
             raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")

@@ -16,7 +16,7 @@ from hexmend.boundary.features import DEGREES, given_corners
 from hexmend.boundary.normals import unit, vertex_normals
 from hexmend.boundary.surface import Surface
 from hexmend.errors import MeshError
-from hexmend.kernels import sliding as kernels
+from hexmend.kernels import sliding_surface as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.mesh.validation import as_points, points_like
@@ -116,18 +116,16 @@ class SlidingBoundary(Band):
         return np.ascontiguousarray(self.bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
 
     @cached_property
-    def ground(self) -> tuple[np.ndarray, ...]:
-        """What `hexmend.kernels.sliding` takes: slots, roots, vertices, pieces, boxes, links, and the quads."""
+    def sliding_surface(self) -> kernels.SlidingSurface:
+        """The curves, patches and boundary quads as the kernels of methods take them."""
         trees, faces = self.surface.trees, self.boundary.faces
         slots = self._number.astype(np.int32)
         at = slots[faces.ravel()]
         order = np.argsort(at, kind="stable")
         quads_at = order[np.searchsorted(at[order], 0) :].astype(np.int32)
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
-        return (
-            slots, trees.roots[self._group], trees.points, trees.pieces, trees.boxes, trees.links,
-            start, quads_at, faces, self.outward,
-        )  # fmt: skip
+        quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
+        return kernels.SlidingSurface(slots, trees.roots[self._group], trees.box_trees, quads)
 
     @cached_property
     def outward(self) -> np.ndarray:
@@ -162,7 +160,7 @@ class SlidingBoundary(Band):
         """
         before, after = (points_like(points, self.mesh.points.shape) for points in (before, after))
         found = np.empty(len(self.boundary.faces), dtype=bool)
-        kernels.turned(before, after, self.boundary.faces, self.outward, found)
+        kernels.newly_inverted(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
     def unturned(self, before: np.ndarray, after: np.ndarray, may: np.ndarray | None = None) -> np.ndarray:

@@ -1,7 +1,7 @@
-"""Compiled kernels: arrays in, arrays out, no classes.
+"""Compiled kernels: functions of NumPy arrays.
 
 They are written in C++ (`core/native`, a file a family) and stand below `mesh` and `topology`, which are built with
-them. Every kernel releases the GIL, so that a window stays alive beside it. Results do not depend on the number of
+them. Every kernel releases the GIL, so that a window stays responsive. Results do not depend on the number of
 threads: parallel loops write disjoint rows, and sums are taken over those rows afterwards.
 
 There is a build for each generation of processors; the newest that this one can run is loaded. The variable
@@ -12,7 +12,8 @@ Loops are shared by as many threads as `HEXMEND_THREADS` says, else OpenMP's var
 number for the calling thread alone.
 
 Arrays are taken as they are, without a copy: points (n, 3) float64, hexes (m, 8) int32, all contiguous. Another type
-or shape is a TypeError.
+or shape is a TypeError. What goes together is a class: `hex_mesh.HexMesh`, `line_search.LineSearch`,
+`sliding_surface.SlidingSurface` and settings of steps; its objects view their arrays and keep them alive.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Compiled kernels: arrays in, arrays out, no classes. Written by scripts/kernel_stubs.py."""
+"""Compiled kernels: functions of arrays and of views of arrays. Written by scripts/kernel_stubs.py."""
 
 from hexmend.kernels import assembly as assembly
 from hexmend.kernels import binning as binning
@@ -11,8 +11,10 @@ from hexmend.kernels import element_step as element_step
 from hexmend.kernels import elements as elements
 from hexmend.kernels import faces as faces
 from hexmend.kernels import getme as getme
+from hexmend.kernels import hex_mesh as hex_mesh
 from hexmend.kernels import incidence as incidence
 from hexmend.kernels import laplacian as laplacian
+from hexmend.kernels import line_search as line_search
 from hexmend.kernels import local as local
 from hexmend.kernels import metrics as metrics
 from hexmend.kernels import objective as objective
@@ -22,7 +24,7 @@ from hexmend.kernels import patches as patches
 from hexmend.kernels import polygons as polygons
 from hexmend.kernels import scalar_reference as scalar_reference
 from hexmend.kernels import skin as skin
-from hexmend.kernels import sliding as sliding
+from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity
 from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure

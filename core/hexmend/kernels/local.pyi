@@ -8,6 +8,10 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+import hexmend.kernels.hex_mesh
+import hexmend.kernels.line_search
+import hexmend.kernels.sliding_surface
+
 
 STEEPEST_DESCENT: int = 0
 
@@ -23,20 +27,28 @@ FLAT: int = 2
 
 INFINITE: int = 3
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> int:
+class NodeStepSettings:
+    """Settings of a step at a node."""
+
+    def __init__(self, direction: int, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
+        """
+        direction is STEEPEST_DESCENT, NEWTON or MODIFIED_NEWTON; delta applies to the patch scaled to mean edge
+        length 1; norm is (p, offset) of the objective.
+        """
+
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], mesh: hexmend.kernels.hex_mesh.HexMesh, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings, surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None, tangents: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> int:
     """
     Move each of `nodes` once, in place: one pass of Algorithm 3.2.
 
-    points (n, 3) float64, changed; hexes (m, 8) int32; start, corners: `Topology.node_corners`. Group k is
-    nodes[groups[k]:groups[k + 1]]; nodes of one group share no hex, so that the result is that of a sequential
-    sweep for any number of threads. direction is one of the constants; delta applies to the patch scaled to
-    mean edge length 1; power is (p, offset) of the objective; first, shrink, c1 and cuts are the initial step,
-    the backtracking factor, the Armijo constant and the most backtracks of the line search, A.5.
+    points (n, 3) float64, changed. Group k is nodes[groups[k]:groups[k + 1]]; nodes of one group share no hex,
+    so that the result is that of a sequential sweep for any number of threads. With a surface, nodes that slide
+    step along it: T'g and T'HT are the derivatives, tangents (k, 6) float64 the two unit tangents T of each, the
+    second 0 on a curve, and the line search evaluates the energy at projected points.
 
     Returns the number of evaluations of a hex's energy in line searches.
     """
 
-def look(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, power: tuple[float, float]) -> tuple[float, float, list[float], list[float]]:
+def patch_energy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, norm: tuple[float, float]) -> tuple[float, float, list[float], list[float]]:
     """
     Energy of the patch of the node whose corners are star (k,) int32, 8 * hex + corner each.
 
@@ -44,7 +56,7 @@ def look(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='
     the patch has no extent; the value; its gradient (3,); its second derivatives xx xy xz yy yz zz.
     """
 
-def visit(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], direction: int, delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> tuple[int, list[float], float, bool, float, float, list[float], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+def recorded_step(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings) -> tuple[int, list[float], float, bool, float, float, list[float], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
     """
     The step that `sweep` takes at the node whose corners are star (k,) int32; moves nothing.
 
@@ -54,9 +66,9 @@ def visit(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order=
     has a point. The direction is in mean edge lengths of the patch.
     """
 
-def along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, power: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:
+def energy_along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, norm: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:
     """
     Energy of a patch along a direction (3,): writes the value at step length curve[:, 0] to curve[:, 1].
 
-    star and factor: as for `look`.
+    star and factor: those of `patch_energy`.
     """

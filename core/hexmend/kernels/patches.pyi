@@ -5,32 +5,48 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+import hexmend.kernels.hex_mesh
+import hexmend.kernels.line_search
 
-def grow(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], free: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], size: int, overlap: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 8))]]:
+
+class PatchStepSettings:
+    """Settings of a step of a patch."""
+
+    def __init__(self, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
+        """
+        delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.
+        """
+
+class PatchPartition:
+    """Patches, as `partition` makes them."""
+
+    def __init__(self, hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], node_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
+        """
+        hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are not
+        copied.
+        """
+
+def partition(mesh: hexmend.kernels.hex_mesh.HexMesh, free: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], size: int, overlap: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 8))]]:
     """
     Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the
     lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.
 
-    start, corners: `Topology.node_corners`. Returns node_start and nodes: the nodes of each patch, ascending;
-    hex_start and chosen: the hexes at them; slots (.., 8): the number of each corner of these hexes among the
-    patch's nodes, -1 if it is fixed; all int32.
+    Returns node_start and nodes: the nodes of each patch, ascending; hex_start and patch_hexes: the hexes at
+    them; slots (.., 8): the number of each corner of these hexes among the patch's nodes, -1 if it is fixed;
+    all int32.
     """
 
-def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
+def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patch_hexes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
     Groups of patches that share no hex, by greedy colouring: (start, patches), int32.
 
     hexes: the number of hexes of the mesh.
     """
 
-def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], node_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], delta: float, power: tuple[float, float], first: float, shrink: float, c1: float, cuts: int) -> tuple[int, int]:
+def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], partition: PatchPartition, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patches: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: PatchStepSettings) -> tuple[int, int]:
     """
     Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.
 
-    hexes and slots (.., 8) are those of the patches, patch after patch. Group k is
-    patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep for any number
-    of threads. delta applies to the patch scaled to mean edge length 1; power is (p, offset) of the objective;
-    first, shrink, c1 and cuts are the initial step, the backtracking factor, the Armijo constant and the most
-    backtracks of the line search, A.5. Returns the evaluations of a hex's energy in line searches, and of its
-    derivatives.
+    Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep for
+    any number of threads. Returns the evaluations of a hex's energy in line searches, and of its derivatives.
     """

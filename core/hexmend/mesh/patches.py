@@ -45,6 +45,11 @@ class Patches:
     slots: np.ndarray
     colours: CSR
 
+    @property
+    def kernel_partition(self) -> kernels.PatchPartition:
+        """The patches as `hexmend.kernels.patches.sweep` takes them; a view, cheap to make."""
+        return kernels.PatchPartition(self.hexes, self.slots, self.chosen.start, self.nodes.start, self.nodes.items)
+
 
 def partition_patches(mesh: Mesh, size: int, overlap: int) -> Patches:
     """Divide the free nodes of a mesh into patches.
@@ -59,9 +64,6 @@ def partition_patches(mesh: Mesh, size: int, overlap: int) -> Patches:
         Rings of free nodes around those, that a patch moves too.
     """
     size, overlap = (one.check(value) for one, value in zip(_SIZES, (size, overlap), strict=True))
-    corners = mesh.topology.node_corners
-    node_start, nodes, hex_start, chosen, slots = kernels.grow(
-        mesh.hexes, corners.start, corners.items, mesh.free, size, overlap
-    )
+    node_start, nodes, hex_start, chosen, slots = kernels.partition(mesh.topology.hex_mesh, mesh.free, size, overlap)
     colours = CSR(*kernels.colours(hex_start, chosen, mesh.n_hexes))
     return Patches(CSR(node_start, nodes), CSR(hex_start, chosen), mesh.hexes[chosen], slots, colours)

@@ -11,6 +11,7 @@ import numpy as np
 from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
+from hexmend.kernels.hex_mesh import HexMesh
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
@@ -77,6 +78,11 @@ class Topology:
     def node_corners(self) -> CSR:
         """Corners of hexes at each node: items are 8 * hex + corner."""
         return CSR(*incidence.node_corners(self.hexes, self.n))
+
+    @property
+    def hex_mesh(self) -> HexMesh:
+        """The hexes and `node_corners` as the kernels of methods take them; a view, cheap to make."""
+        return HexMesh(self.hexes, self.node_corners.start, self.node_corners.items)
 
     @cached_property
     def used(self) -> np.ndarray:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from hexmend.energy import MeshEnergy
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import Patch, reach_of
 from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.optimise.descent import descend
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.quality import measure
 from hexmend.smoothers.global_.base import GlobalDescent
 
@@ -20,27 +19,28 @@ from hexmend.smoothers.global_.base import GlobalDescent
 PLACES = 25
 
 
-@dataclass(frozen=True)
-class _Recorded(BackLineSearch):
-    """The line search, remembering its trials."""
+class _RecordedSearch(LineSearch):
+    """A line search that records its trials."""
 
-    trials: list[Trial] = field(default_factory=list)
+    def __init__(self, search: LineSearch):
+        super().__init__(search.initial_step, search.backtrack_factor, search.c1, search.max_backtracks)
+        self.trials: list[Trial] = []
 
-    def __call__(self, along: Callable[[float], float], value: float, slope: float) -> tuple[float, int]:
-        """As `BackLineSearch`."""
+    def __call__(self, energy_along: Callable[[float], float], value: float, slope: float) -> tuple[float, int]:
+        """Find a step that descends, with the parameters and the result of `LineSearch`."""
 
-        def remembered(alpha: float) -> float:
-            energy = along(alpha)
+        def recorded(alpha: float) -> float:
+            energy = energy_along(alpha)
             self.trials.append(Trial(alpha, energy, value + self.c1 * alpha * slope))
             return energy
 
-        return super().__call__(remembered, value, slope)
+        return super().__call__(recorded, value, slope)
 
 
 def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     """What the method's next step does to a node."""
     energy = MeshEnergy(mesh, smoother.power)
-    search = _Recorded(smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts)
+    search = _RecordedSearch(smoother.line_search)
     x, before = energy.to_edge_units(mesh.points), mesh.points[node].copy()
     delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
     patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)

@@ -22,11 +22,9 @@ def _(smoother: Laplacian, mesh: Mesh, node: int) -> NodeStep:
 @explained.register
 def _(smoother: SmartLaplacian, mesh: Mesh, node: int) -> NodeStep:
     target, pulls = _mean(mesh, node)
-    corners, ring, points = mesh.topology.node_corners, mesh.topology.rings, mesh.points.copy()
-    kernels.guarded(
-        points, mesh.hexes, corners.start, corners.items, ring.start, ring.items,
-        np.array([node], np.int32), smoother.guard == "quality",
-    )  # fmt: skip
+    ring, points, alone = mesh.topology.rings, mesh.points.copy(), np.array([node], np.int32)
+    keep = smoother.guard == "quality"
+    kernels.smart_sweep(points, mesh.topology.hex_mesh, ring.start, ring.items, alone, keep)
     return straight_step(smoother, mesh, node, points[node], target, pulls)
 
 

@@ -21,10 +21,9 @@ _VERDICTS = {
 def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int, delta: float) -> NodeStep:
     """What `local.sweep` does to a node of the mesh at points (n, 3), with the delta of the sweep."""
     patch, before = Patch(mesh, points, node, smoother.power, delta), points[node].copy()
-    verdict, way, slope, fallback, shift, alpha, place, trials = local.visit(
-        points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.power,
-        smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts,
-    )  # fmt: skip
+    verdict, way, slope, fallback, shift, alpha, place, trials = local.recorded_step(
+        points, mesh.hexes, mesh.topology.node_corners[node], smoother.step_settings(delta)
+    )
     moved, searched, direction = verdict == local.MOVED, len(trials) > 0, np.array(way)
     return NodeStep(
         smoother.name, node, patch.hexes, before, np.array(place) if moved else before, _VERDICTS[verdict], patch.unit,

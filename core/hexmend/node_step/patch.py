@@ -42,7 +42,7 @@ class Patch:
         star = mesh.topology.node_corners[node]
         self.hexes = star // 8
         self.power, self.delta = power, float(delta)
-        self._factor, self.energy, gradient, second = local.look(
+        self._factor, self.energy, gradient, second = local.patch_energy(
             points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.power
         )
         self._where = points, mesh.hexes, star, self._factor
@@ -55,13 +55,13 @@ class Patch:
         """The energy along a direction, in `unit`, from alpha = 0 to `reach`: alpha, energy, (PLACES, 2)."""
         answer = np.empty((PLACES, 2))
         answer[:, 0] = np.linspace(0, reach, PLACES)
-        local.along(*self._where, direction, self.delta, self.power, answer)
+        local.energy_along(*self._where, direction, self.delta, self.power, answer)
         return answer
 
     def value(self, direction: np.ndarray, alpha: float) -> float:
         """The energy at alpha of a direction (3,), in `unit`."""
         answer = np.array([[alpha, 0.0]])
-        local.along(*self._where, direction, self.delta, self.power, answer)
+        local.energy_along(*self._where, direction, self.delta, self.power, answer)
         return float(answer[0, 1])
 
 

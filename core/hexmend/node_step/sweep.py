@@ -85,11 +85,8 @@ class Sweep(Iterator[NodeStep]):
         """Visit all nodes that are left, at the kernel's speed; the step of the last, None where none was left."""
         if self.over:
             return None
-        corners, method, last = self.mesh.topology.node_corners, self.smoother, self.nodes.size - 1
+        last, settings = self.nodes.size - 1, self.smoother.step_settings(self.delta)
         groups = self.mesh.topology.wavefronts(self.nodes[self.done : last])
-        local.sweep(
-            self._points, self.mesh.hexes, corners.start, corners.items, groups.start, groups.items,
-            method.direction, self.delta, method.power, method.first_step, method.shrink, method.c1, method.max_cuts,
-        )  # fmt: skip
+        local.sweep(self._points, self.mesh.topology.hex_mesh, groups.start, groups.items, settings)
         self.done = last
         return next(self)

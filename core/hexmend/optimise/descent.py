@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.arrays import norm
 from hexmend.energy import MeshEnergy, energies
+from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.step_limits import shorten
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.search_direction import Direction, SearchDirection, steepest_descent
 
 
@@ -58,7 +58,7 @@ def descend(
     x: np.ndarray,
     delta: float,
     find: Direction,
-    search: BackLineSearch,
+    search: LineSearch,
     reach: float = np.inf,
 ) -> Descent | None:
     """Take one step from x (n, 3); None where the energy or its gradient is infinite.
@@ -103,7 +103,7 @@ def descend(
         if strayed is None:
             return Descent(there, value, slope, length, found, alpha, cuts)
         found.p[strayed[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
-        slope, search = energy.directional_derivative(x, delta, found.p, gradient), replace(search, first=alpha)
+        slope, search = energy.directional_derivative(x, delta, found.p, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
 
 

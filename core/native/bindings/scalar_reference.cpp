@@ -12,8 +12,8 @@ void bind_scalar_reference(nb::module_ &m) {
           ReleaseGil(), "As `objective.gradient`.");
     m.def("hessian_product", &scalar::hessian_product, "points"_a, "hexes"_a, "slots"_a, "values"_a, "delta"_a,
           "power"_a, "left_out"_a, "shares"_a, ReleaseGil(), "As `objective.hessian_product`.");
-    m.def("sweep", &scalar::sweep, "points"_a, "hexes"_a, "start"_a, "corners"_a, "groups"_a, "nodes"_a, "direction"_a,
-          "delta"_a, "power"_a, "first"_a, "shrink"_a, "c1"_a, "cuts"_a, ReleaseGil(), "As `local.sweep`.");
+    m.def("sweep", &scalar::sweep, "points"_a, "mesh"_a, "groups"_a, "nodes"_a, "settings"_a, ReleaseGil(),
+          "As `local.sweep`.");
 }
 
 }  // namespace hexmend

@@ -138,7 +138,7 @@ ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough)
 }
 
 std::tuple<OwnedArray<std::int32_t>, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, OwnedArray<std::int32_t>>
-trees(Points points, std::span<const Piece> pieces, Indices start) {
+build_trees(Points points, std::span<const Piece> pieces, Indices start) {
     TreeBuilder builder(points, pieces);
     std::vector<std::int32_t> roots;
     for (std::size_t t = 0; t + 1 < start.size(); ++t) {
@@ -171,16 +171,14 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLin
     }
 }
 
-void closest(Points points, std::span<const Piece> pieces, std::span<const Box> boxes, std::span<const TreeLink> links,
-             Points x, Indices roots, double enough, std::span<std::int32_t> piece, std::span<Point> places,
-             std::span<Barycentric> weights) {
+void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
+             std::span<Point> places, std::span<Barycentric> weights) {
     expect(
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
         "x, roots, piece, places and weights have different lengths: expected a row a point");
-    BoxTrees all{points, pieces, boxes, links};
     parallel_chunks(x.size(), POINTS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-            ClosestPoint found = all.closest(x[i], roots[i], enough * enough);
+            ClosestPoint found = trees.closest(x[i], roots[i], enough * enough);
             piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
         }
     });

@@ -19,6 +19,7 @@
 
 #include "energy/tetrahedron.hpp"
 #include "linear/symmetric.hpp"
+#include "mesh/hex_mesh.hpp"
 #include "simd/simd_hexes.hpp"
 
 namespace hexmend {
@@ -35,9 +36,6 @@ inline Hex rotated(const Hex &hex, int corner) {
 #endif
     return there;
 }
-
-// Corners of hexes at one node, 8 * hex + corner each.
-using Star = std::span<const std::int32_t>;
 
 // Value of a patch's energy and its gradient by the node.
 struct ValueAndGradient {

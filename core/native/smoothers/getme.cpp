@@ -4,14 +4,14 @@
 
 namespace hexmend {
 
-void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, Indices start, Indices corners,
-                    Indices nodes, std::span<Point> targets) {
+void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, const HexMesh &mesh, Indices nodes,
+                    std::span<Point> targets) {
     parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
         for (Node i : nodes.subspan(begin, end - begin)) {
             double total = 0;
             Point sum{};
-            for (auto s = start[i]; s < start[i + 1]; ++s) {
-                int h = corners[s] / 8, c = corners[s] % 8;
+            for (auto corner : mesh.star(i)) {
+                int h = corner / 8, c = corner % 8;
                 total += weights[h];
                 for (int k = 0; k < 3; ++k) sum[k] += weights[h] * places[h][3 * c + k];
             }
@@ -24,8 +24,9 @@ void weighted_means(std::span<const std::array<double, 24>> places, Numbers weig
 constexpr double STEP_FRACTIONS[] = {1, 0.5, 0.25, 0.125, 0};
 constexpr int MAX_HALVINGS = 4;
 
-std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, std::span<const bool> sound,
-                   Indices harmed, std::span<Point> moved) {
+std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> sound, Indices harmed,
+                   std::span<Point> moved) {
+    const Hexes hexes = mesh.hexes;
     std::vector<std::uint8_t> level(points.size());
     std::vector<std::int32_t> node_round(points.size()), hex_round(hexes.size());
     std::vector<Point> step(moved.begin(), moved.end());
@@ -44,8 +45,8 @@ std::int64_t relax(Points points, Hexes hexes, Indices start, Indices corners, s
             }
         queue.clear();
         for (Node i : changed)
-            for (auto s = start[i]; s < start[i + 1]; ++s) {
-                int h = corners[s] / 8;
+            for (auto corner : mesh.star(i)) {
+                int h = corner / 8;
                 if (hex_round[h] == round || !sound[h]) continue;
                 hex_round[h] = round;
                 if (!SingleHex(moved, hexes[h]).sound()) queue.push_back(h);

@@ -1,6 +1,5 @@
 #include "smoothers/laplacian.hpp"
 
-#include "mesh/csr.hpp"
 #include "mesh/quality.hpp"
 
 namespace hexmend {
@@ -28,14 +27,15 @@ template <bool by_quality> __attribute__((noinline)) Quality<double> evaluate_he
 }
 
 template <bool by_quality>
-std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                           Indices ring, Indices nodes, const SlidingSurface *surface) {
+std::int64_t smart_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring,
+                            Indices nodes, const SlidingSurface *surface) {
+    const Hexes hexes = mesh.hexes;
     // Quality of the hexes at their present positions, where `known`: an accepted move has evaluated them.
-    std::vector<Quality<double>> now(hexes.size()), after(widest(start));
+    std::vector<Quality<double>> now(hexes.size()), after(mesh.largest_star());
     std::vector<std::uint8_t> known(hexes.size());
     std::int64_t rejected = 0;
     for (Node i : nodes) {
-        auto attached = corners.subspan(start[i], start[i + 1] - start[i]);
+        Star attached = mesh.star(i);
         double least = INF;
         for (auto corner : attached) {
             int h = corner / 8;
@@ -62,13 +62,8 @@ std::int64_t guarded_sweep(std::span<Point> points, Hexes hexes, Indices start, 
 
 }  // namespace
 
-void in_place_on(const SlidingSurface *surface, std::span<Point> points, Indices ring_start, Indices ring,
-                 Indices nodes) {
+void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes, const SlidingSurface *surface) {
     for (Node i : nodes) points[i] = target(points, ring_start, ring, i, surface);
-}
-
-void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices nodes) {
-    in_place_on(nullptr, points, ring_start, ring, nodes);
 }
 
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
@@ -77,15 +72,10 @@ void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes
     });
 }
 
-std::int64_t guarded_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
-                        Indices corners, Indices ring_start, Indices ring, Indices nodes, bool keep_least_quality) {
-    return (keep_least_quality ? guarded_sweep<true> : guarded_sweep<false>)(points, hexes, start, corners, ring_start,
-                                                                             ring, nodes, surface);
-}
-
-std::int64_t guarded(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices ring_start,
-                     Indices ring, Indices nodes, bool keep_least_quality) {
-    return guarded_on(nullptr, points, hexes, start, corners, ring_start, ring, nodes, keep_least_quality);
+std::int64_t smart_sweep(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring, Indices nodes,
+                         bool keep_least_quality, const SlidingSurface *surface) {
+    return (keep_least_quality ? smart_sweep_of<true> : smart_sweep_of<false>)(points, mesh, ring_start, ring, nodes,
+                                                                               surface);
 }
 
 }  // namespace hexmend

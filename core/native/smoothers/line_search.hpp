@@ -1,6 +1,7 @@
 // Backtracking line search with the Armijo condition: Algorithm A.5.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace hexmend {
@@ -8,8 +9,7 @@ namespace hexmend {
 // A descent below this share of the value is indistinguishable from rounding; shorter steps descend even less.
 constexpr double ROUNDING = 4 * std::numeric_limits<double>::epsilon();
 
-// Parameters and loop of the search. All searches of the kernels use it, so that all follow one rounding rule, which is
-// also that of `hexmend.optimise.line_search`.
+// Parameters and loop of the search, for one node, a patch or all nodes of a mesh.
 struct LineSearch {
     double initial_step;      // the first step length alpha
     double backtrack_factor;  // lambda in (0, 1), by which a rejected step is shortened
@@ -27,7 +27,7 @@ struct LineSearch {
         for (int backtracks = 0; backtracks <= max_backtracks; ++backtracks, alpha *= backtrack_factor) {
             double bound = value + c1 * alpha * slope;
             if (try_step(alpha, bound) < bound) return alpha;
-            if (-alpha * slope < ROUNDING * value) return 0;
+            if (-alpha * slope < ROUNDING * std::abs(value)) return 0;
         }
         return 0;
     }

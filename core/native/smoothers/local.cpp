@@ -34,10 +34,10 @@ struct StepRecord {
 
 }  // namespace
 
-std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                    const NodeStepSettings &settings) {
-    return (settings.delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, hexes, start, corners, groups,
-                                                                                  nodes, settings);
+    return (settings.delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, mesh, groups, nodes,
+                                                                                  settings);
 }
 
 std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> patch_energy(Points points, Hexes hexes,

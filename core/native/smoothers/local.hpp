@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "energy/objective_norm.hpp"
-#include "mesh/array_views.hpp"
+#include "mesh/hex_mesh.hpp"
 #include "smoothers/line_search.hpp"
 
 namespace hexmend {
@@ -26,10 +26,9 @@ struct NodeStepSettings {
 
 // Move each of `nodes` once, in place: one pass of Algorithm 3.2.
 //
-// points (n, 3); hexes (m, 8); the corners 8 * hex + corner at node i are corners[start[i]] to corners[start[i + 1] -
-// 1]. Group k of nodes, nodes[groups[k]] to nodes[groups[k + 1] - 1], shares no hex, so that the result is that of a
-// sequential sweep for any number of threads. Returns the evaluations of a hex's energy in line searches.
-std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups, Indices nodes,
+// points (n, 3). Group k of nodes, nodes[groups[k]] to nodes[groups[k + 1] - 1], shares no hex, so that the result is
+// that of a sequential sweep for any number of threads. Returns the evaluations of a hex's energy in line searches.
+std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                    const NodeStepSettings &settings);
 
 // Energy of the patch of the node whose corners are `star`: the factor by which lengths are multiplied (0 where the

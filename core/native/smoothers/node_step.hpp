@@ -118,9 +118,9 @@ struct NodeMover {
 };
 
 // The largest number of hexes at one of `nodes`.
-inline std::int64_t largest_star(Indices start, Indices nodes) {
-    std::int32_t most = 0;
-    for (auto i : nodes) most = std::max(most, start[i + 1] - start[i]);
+inline std::int64_t largest_star(const HexMesh &mesh, Indices nodes) {
+    std::size_t most = 0;
+    for (Node i : nodes) most = std::max(most, mesh.star(i).size());
     return most;
 }
 
@@ -145,20 +145,18 @@ template <class Body> std::int64_t sum_over_groups(Indices groups, Indices nodes
 
 // A sweep of Algorithm 3.2, as `sweep` of local.hpp: returns the evaluations of a hex's energy in line searches.
 template <bool soft, class T>
-std::int64_t sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                      Indices nodes, const NodeStepSettings &settings) {
-    std::int64_t most = largest_star(start, nodes);
+std::int64_t sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                      const NodeStepSettings &settings) {
+    std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
         NodePatch<T> alone[1]{NodePatch<T>(most)}, several[INTERLEAVED]{NodePatch<T>(most), NodePatch<T>(most)};
-        auto star = [&](std::size_t k) {
-            return corners.subspan(start[chunk[k]], start[chunk[k] + 1] - start[chunk[k]]);
-        };
+        auto star = [&](std::size_t k) { return mesh.star(chunk[k]); };
         NodeMover mover{points};
         std::size_t k = 0;
         if constexpr (width<T> > 1)
             for (; k + INTERLEAVED <= chunk.size(); k += INTERLEAVED)
-                step_nodes<soft>(several, points, hexes, {star(k), star(k + 1)}, settings, mover);
-        for (; k < chunk.size(); ++k) step_nodes<soft>(alone, points, hexes, {star(k)}, settings, mover);
+                step_nodes<soft>(several, points, mesh.hexes, {star(k), star(k + 1)}, settings, mover);
+        for (; k < chunk.size(); ++k) step_nodes<soft>(alone, points, mesh.hexes, {star(k)}, settings, mover);
         return mover.evaluations;
     });
 }

@@ -101,17 +101,17 @@ void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star s
 }
 
 template <bool soft>
-std::int64_t sliding_sweep_of(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                              Indices nodes, const NodeStepSettings &settings, const SlidingSurface &surface,
+std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                              const NodeStepSettings &settings, const SlidingSurface &surface,
                               std::span<const Tangents> tangents) {
-    std::int64_t most = largest_star(start, nodes);
+    std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
         NodePatch<Lanes> patch[1]{NodePatch<Lanes>(most)};
         NodeMover mover{points};
         for (Node i : chunk) {
-            Star star = corners.subspan(start[i], start[i + 1] - start[i]);
-            if (surface.slides(i)) slide<soft>(patch[0], points, hexes, star, settings, surface, tangents, mover);
-            else step_nodes<soft>(patch, points, hexes, {star}, settings, mover);
+            Star star = mesh.star(i);
+            if (surface.slides(i)) slide<soft>(patch[0], points, mesh.hexes, star, settings, surface, tangents, mover);
+            else step_nodes<soft>(patch, points, mesh.hexes, {star}, settings, mover);
         }
         return mover.evaluations;
     });
@@ -119,12 +119,12 @@ std::int64_t sliding_sweep_of(std::span<Point> points, Hexes hexes, Indices star
 
 }  // namespace
 
-std::int64_t sliding_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, const NodeStepSettings &settings, const SlidingSurface &surface,
+std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                           const NodeStepSettings &settings, const SlidingSurface &surface,
                            std::span<const Tangents> tangents) {
-    return (settings.delta != 0 ? sliding_sweep_of<true> : sliding_sweep_of<false>)(points, hexes, start, corners,
-                                                                                    groups, nodes, settings, surface,
-                                                                                    tangents);
+    expect(tangents.size() == surface.roots.size(), "tangents: two for each sliding node are expected");
+    return (settings.delta != 0 ? sliding_sweep_of<true> : sliding_sweep_of<false>)(points, mesh, groups, nodes,
+                                                                                    settings, surface, tangents);
 }
 
 void newly_inverted(Points before, Points after, std::span<const Quad> quads, Points outward,

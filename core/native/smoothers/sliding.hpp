@@ -11,8 +11,8 @@ using Tangents = std::array<double, 6>;
 
 // `sweep` of local.hpp, in which the nodes that slide step along their tangents and every trial is projected onto the
 // surface. tangents (k, 6) are those of each sliding node, by its slot.
-std::int64_t sliding_sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, Indices groups,
-                           Indices nodes, const NodeStepSettings &settings, const SlidingSurface &surface,
+std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                           const NodeStepSettings &settings, const SlidingSurface &surface,
                            std::span<const Tangents> tangents);
 
 // Write for each of quads (f, 4) whether it is inverted after and was not before: inverted (f,). outward (f, 3) are the

@@ -1,6 +1,5 @@
 #include "smoothers/worst_first.hpp"
 
-#include "mesh/csr.hpp"
 #include "mesh/quality.hpp"
 #include "smoothers/element_step.hpp"
 
@@ -48,10 +47,11 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
     }
 }
 
-std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
-                      Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
-                      std::span<bool> sound, double s, double rho, double penalty, double setback) {
+std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free, Indices candidates,
+                   std::span<double> q, std::span<bool> sound, const WorstFirstSettings &settings,
+                   const SlidingSurface *surface) {
     if (candidates.empty()) return 0;  // an empty queue has no first element
+    const Hexes hexes = mesh.hexes;
     const std::size_t m = hexes.size();
     std::vector<double> key(q.begin(), q.end());
     for (std::size_t h = 0; h < m; ++h) key[h] -= !sound[h];  // inverted hexes come first
@@ -62,13 +62,13 @@ std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, He
     bool untangled = false;
 
     std::vector<std::int32_t> touched;
-    std::vector<Quality<double>> after(8 * widest(start));
+    std::vector<Quality<double>> after(8 * mesh.largest_star());
     std::vector<Move> moves;  // since the best state
     std::int64_t rejected = 0;
 
     for (std::size_t step = 0; step < candidates.size(); ++step) {
         const auto h = queue[1];
-        auto y = element_step(gather_corners<double>(points, hexes, h, 1), s, rho);
+        auto y = element_step(gather_corners<double>(points, hexes, h, 1), settings.scaling, settings.relaxation);
         const std::size_t moved_before = moves.size();
         touched.clear();
         for (int c = 0; c < 8; ++c) {
@@ -77,8 +77,8 @@ std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, He
             moves.push_back({i, points[i]});
             Point aim{y.at[c].x, y.at[c].y, y.at[c].z};
             points[i] = surface && surface->slides(i) ? surface->project_unless_inverting(points, i, aim) : aim;
-            for (auto r = start[i]; r < start[i + 1]; ++r) {
-                auto g = corners[r] / 8;
+            for (auto corner : mesh.star(i)) {
+                auto g = corner / 8;
                 if (touched_in[g] == static_cast<std::int32_t>(step)) continue;
                 touched_in[g] = step;
                 touched.push_back(g);
@@ -95,11 +95,11 @@ std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, He
         if (harm) {
             ++rejected;
             undo(moves, moved_before, points);
-            key[h] += setback;
+            key[h] += settings.rejection_penalty;
             replay(queue, key, leaf[h]);
             continue;
         }
-        key[h] += penalty;
+        key[h] += settings.penalty;
         for (std::size_t r = 0; r < touched.size(); ++r) {
             const auto g = touched[r];
             double rise = after[r].q - q[g];
@@ -121,12 +121,6 @@ std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, He
     }
     undo(moves, 0, points);
     return rejected;
-}
-
-std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
-                   Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
-                   double setback) {
-    return sweep_on(nullptr, points, hexes, start, corners, free, candidates, q, sound, s, rho, penalty, setback);
 }
 
 }  // namespace hexmend

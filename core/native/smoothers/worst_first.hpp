@@ -5,6 +5,7 @@
 #pragma once
 
 #include "boundary/sliding_surface.hpp"
+#include "mesh/hex_mesh.hpp"
 
 namespace hexmend {
 
@@ -14,20 +15,20 @@ OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes);
 // Update the tree after the key of the hex at a leaf, 0 to k - 1, has changed.
 void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf);
 
+// Scale and blend of the element step. After its step a hex ranks as better by `penalty` if the step was accepted and
+// by `rejection_penalty` if it was rejected, so that it is not chosen for ever.
+struct WorstFirstSettings {
+    double scaling, relaxation, penalty, rejection_penalty;
+};
+
 // Take as many element steps as there are candidates; returns the number of rejected steps, those that inverted a sound
 // hex.
 //
 // points (n, 3) end at the best state reached: fewest inverted hexes, then highest q_min, then highest q_mean. free
-// (n,); candidates (k,) are the hexes with a free node; q (m,) and sound (m,) are changed to those of the last state. s
-// and rho are the scale and blend of the element step. After its step a hex ranks as better by `penalty` if it was
-// accepted and by `setback` if it was rejected, so that it is not chosen for ever.
-std::int64_t sweep(std::span<Point> points, Hexes hexes, Indices start, Indices corners, std::span<const bool> free,
-                   Indices candidates, std::span<double> q, std::span<bool> sound, double s, double rho, double penalty,
-                   double setback);
-
-// The same with nodes that slide on a surface; nullptr for none.
-std::int64_t sweep_on(const SlidingSurface *surface, std::span<Point> points, Hexes hexes, Indices start,
-                      Indices corners, std::span<const bool> free, Indices candidates, std::span<double> q,
-                      std::span<bool> sound, double s, double rho, double penalty, double setback);
+// (n,); candidates (k,) are the hexes with a free node; q (m,) and sound (m,) are changed to those of the last state.
+// Nodes may slide on a surface; nullptr for none.
+std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free, Indices candidates,
+                   std::span<double> q, std::span<bool> sound, const WorstFirstSettings &settings,
+                   const SlidingSurface *surface);
 
 }  // namespace hexmend

@@ -13,12 +13,12 @@ from tests.core.grids import grid, scrambled
 def patch_of(mesh, node, delta, power=SQUARES):
     """Its hexes' corners at the node, the factor of its lengths, value, gradient, second derivatives."""
     star = mesh.topology.node_corners[node]
-    return star, *local.look(mesh.points, mesh.hexes, star, 0.0, delta, power)
+    return star, *local.patch_energy(mesh.points, mesh.hexes, star, 0.0, delta, power)
 
 
 def value(mesh, star, scale, y, delta, power):
     curve = np.array([[1.0, np.nan]])
-    local.along(mesh.points, mesh.hexes, star, scale, y, delta, power, curve)
+    local.energy_along(mesh.points, mesh.hexes, star, scale, y, delta, power, curve)
     return curve[0, 1]
 
 

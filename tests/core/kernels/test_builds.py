@@ -14,6 +14,7 @@ import sys, numpy as np
 from hexmend import kernels, gallery
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
 from hexmend.kernels import elements, local
+from hexmend.kernels.line_search import LineSearch
 from hexmend.quality import METRICS, measure
 assert kernels.BUILD == sys.argv[1]
 mesh = gallery.make("five-side", size=700, scramble=0.6)
@@ -22,12 +23,9 @@ x, v = energy.to_edge_units(mesh.points), np.random.default_rng(0).normal(size=(
 sigma = np.empty((mesh.n_hexes, 8))
 elements.corner_determinants(mesh.points, mesh.hexes, sigma)
 matrix = energy.hessian(x, 0.1).shifted(50.0).assembled(np.float64)
-corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
-swept = x.copy()
-local.sweep(
-    swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items, local.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), 1.0,
-    0.7, 1e-4, 60,
-)
+colours, swept = mesh.topology.colouring(mesh.free), x.copy()
+settings = local.NodeStepSettings(local.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), LineSearch(max_backtracks=60))
+local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
 figures = measure(mesh.points, mesh.hexes)
 np.savez(
     sys.argv[2], same_sigma=sigma, same_edges=mesh.topology.edges, same_slots=energy.couplings.target,

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.energy import SQUARES, BlockSparsity, MeshEnergy, ObjectiveNorm, energies
 from hexmend.kernels import LANES, element_step, local, objective, scalar_reference, step_limits
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
@@ -72,13 +73,11 @@ def test_the_product_is_that_of_the_plain_loop(count, case, p, offset, seed, sha
 @given(seed=st.integers(0, 2**32 - 1), case=cases["case"], p=cases["p"], offset=cases["offset"])
 def test_a_local_sweep_is_that_of_the_plain_loop(direction, seed, case, p, offset):
     mesh = scrambled(grid(4), *(case[0], seed))
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    colours, norm = mesh.topology.colouring(mesh.free), ObjectiveNorm(p, offset)
+    settings = local.NodeStepSettings(getattr(local, direction), case[1], norm, LineSearch(max_backtracks=60))
     moved, expected = mesh.points.copy(), mesh.points.copy()
     for sweep, points in ((local.sweep, moved), (scalar_reference.sweep, expected)):
-        sweep(
-            points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            getattr(local, direction), case[1], ObjectiveNorm(p, offset), 1.0, 0.7, 1e-4, 60,
-        )  # fmt: skip
+        sweep(points, mesh.topology.hex_mesh, colours.start, colours.items, settings)
     np.testing.assert_allclose(moved, expected, atol=1e-7 * mesh.mean_edge_length)
 
 
@@ -200,14 +199,10 @@ def test_a_node_beside_a_collapsed_corner_is_left_alone():
     tetrahedron = next(t for t in CORNER_TETRAHEDRA if nodes[t[0]] != node)
     points[nodes[tetrahedron]] = points[node] + 0.3  # a corner of no extent
     points[node] -= 0.3
-    _, value, gradient, _ = local.look(points, mesh.hexes, star, 0.0, 0.0, SQUARES)
+    _, value, gradient, _ = local.patch_energy(points, mesh.hexes, star, 0.0, 0.0, SQUARES)
     assert value == np.inf, gradient
-    corners, groups = mesh.topology.node_corners, np.array([0, 1], np.int32)
-    moved = points.copy()
-    local.sweep(
-        moved, mesh.hexes, corners.start, corners.items, groups, np.array([node], np.int32),
-        local.STEEPEST_DESCENT, 0.0, SQUARES, 1.0, 0.7, 1e-4, 60,
-    )  # fmt: skip
+    moved, settings = points.copy(), local.NodeStepSettings(local.STEEPEST_DESCENT, 0.0, SQUARES, LineSearch())
+    local.sweep(moved, mesh.topology.hex_mesh, np.array([0, 1], np.int32), np.array([node], np.int32), settings)
     np.testing.assert_array_equal(moved, points)
 
 
@@ -219,7 +214,7 @@ def test_arrays_that_do_not_fit_are_refused():
     with pytest.raises(TypeError):
         objective.energies(mesh.points.astype(np.float32), mesh.hexes, 0.0, 1.0, np.zeros(8, np.uint8), np.empty(8))
     with pytest.raises(ValueError, match="no patch"):
-        local.look(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, SQUARES)
+        local.patch_energy(mesh.points, mesh.hexes, np.empty(0, np.int32), 0.0, 0.0, SQUARES)
 
 
 def test_public_functions_take_any_whole_numbers_and_order():
@@ -238,18 +233,15 @@ def test_large_loops_have_the_same_bits_with_any_number_of_threads(parts):
     energy.couplings = BlockSparsity(mesh, parts)
     assert energy.couplings.bounds.size == 2 * parts
     x, most, answers = energy.to_edge_units(mesh.points), kernels.threads(), []
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
-    rings = mesh.topology.rings
+    colours, rings = mesh.topology.colouring(mesh.free), mesh.topology.rings
+    settings = local.NodeStepSettings(local.NEWTON, 0.1, SQUARES, LineSearch())
     try:
         for threads in (1, 2, 3, 5):
             kernels.set_threads(threads)
             matrix = energy.hessian(x, 0.1).assembled()
             solved = matrix.solve(-energy.gradient(x, 0.1).ravel(), 1e-6, 60)
             swept, places, step = x.copy(), np.empty((mesh.n_hexes, 8, 3)), solved.x.reshape(-1, 3).copy()
-            local.sweep(
-                swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-                local.NEWTON, 0.1, SQUARES, 1.0, 0.7, 1e-4, 60,
-            )  # fmt: skip
+            local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
             element_step.element_steps(x, mesh.hexes, 1.0, 0.5, places)
             step_limits.shorten(step, x, rings.start, rings.items, energy.nodes, 0.1)
             pattern = BlockSparsity(mesh, parts)

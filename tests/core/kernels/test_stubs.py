@@ -31,6 +31,9 @@ def test_every_kernel_says_what_it_does():
     for family in native:
         assert family.__doc__, family
         for name, kernel in vars(family).items():
+            if isinstance(kernel, type):
+                assert kernel.__doc__, (family, name)
+                kernel = kernel.__init__
             if callable(kernel):
                 assert ") -> " in kernel.__doc__, (family, name)
                 assert "\n" in kernel.__doc__.strip(), (family, name, "what does it do?")

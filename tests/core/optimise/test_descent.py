@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
+from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.descent import LONGEST, descend, perfect, shorten_to_range
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.search_direction import SearchDirection, steepest_descent
 from tests.core.grids import grid, scrambled
 
@@ -39,7 +39,7 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
             p[throws] *= 1e4  # two nodes are thrown far off
             return SearchDirection(p)
 
-        taken[most] = descend(energy, x, 0.0, find, BackLineSearch(), most)
+        taken[most] = descend(energy, x, 0.0, find, LineSearch(), most)
     moved = np.linalg.norm(taken[reach].x - x, axis=1)
     assert (moved <= reach * own_edges(mesh, x) * (1 + 1e-9)).all()
     assert np.abs(taken[reach].found.p).max() <= reach * own_edges(mesh, x).max() * (1 + 1e-9)
@@ -50,8 +50,8 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
 @pytest.mark.parametrize("reach", [0.5, np.inf])
 def test_a_direction_that_does_not_descend_gives_way_to_steepest_descent(factor, reach):
     _, energy, x = problem(3)
-    taken = descend(energy, x, 0.0, lambda value, g, hessian: SearchDirection(-factor * g), BackLineSearch(), reach)
-    steepest = descend(energy, x, 0.0, steepest_descent, BackLineSearch(), reach)
+    taken = descend(energy, x, 0.0, lambda value, g, hessian: SearchDirection(-factor * g), LineSearch(), reach)
+    steepest = descend(energy, x, 0.0, steepest_descent, LineSearch(), reach)
     assert taken.slope == pytest.approx(steepest.slope, rel=1e-9) or reach < np.inf
     assert taken.slope < 0
     assert taken.alpha > 0
@@ -62,7 +62,7 @@ def test_a_step_from_perfect_cubes_stays():
     mesh = grid(3)
     energy = MeshEnergy(mesh)
     x = energy.to_edge_units(mesh.points)
-    taken = descend(energy, x, 0.0, steepest_descent, BackLineSearch())
+    taken = descend(energy, x, 0.0, steepest_descent, LineSearch())
     assert taken.x is x
     assert (taken.alpha, taken.slope, taken.cuts) == (0.0, 0.0, 0)
 
@@ -70,7 +70,7 @@ def test_a_step_from_perfect_cubes_stays():
 def test_from_an_infinite_energy_there_is_no_step():
     _, energy, x = problem(1, 2.0)
     assert not np.isfinite(energy.value(x, 0.0))
-    assert descend(energy, x, 0.0, steepest_descent, BackLineSearch()) is None
+    assert descend(energy, x, 0.0, steepest_descent, LineSearch()) is None
 
 
 @pytest.mark.parametrize("delta", [0.0, 0.1])

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from hexmend.energy import AdaptiveDelta, FixedDelta, MeshEnergy
 from hexmend.gallery import make
+from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise import descent
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.linear_solvers import ConjugateGradients, Minres
 from hexmend.optimise.search_direction import (
     ModifiedNewton,
@@ -24,7 +24,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def test_the_line_search_takes_the_first_step_that_descends_enough():
-    search = BackLineSearch(first=1.0, shrink=0.5, c1=0.1, cuts=10)
+    search = LineSearch(initial_step=1.0, backtrack_factor=0.5, c1=0.1, max_backtracks=10)
     tried = []
 
     def along(alpha):
@@ -38,7 +38,7 @@ def test_the_line_search_takes_the_first_step_that_descends_enough():
 
 
 def test_the_line_search_ends_where_descent_is_less_than_rounding():
-    search = BackLineSearch(shrink=0.5, c1=0.1, cuts=100)
+    search = LineSearch(backtrack_factor=0.5, c1=0.1, max_backtracks=100)
     assert search(lambda alpha: 1.0, 1.0, -1e-16) == (0.0, 0)
     alpha, cuts = search(lambda alpha: 1.0, 1.0, -1e-12)
     assert alpha == 0
@@ -174,6 +174,6 @@ def test_a_line_search_takes_the_first_step_that_descends_enough():
         tried.append(alpha)
         return 1.0 - 0.02 * alpha if alpha > 0.3 else 1.0 - 0.5 * alpha
 
-    assert BackLineSearch(1.0, 0.5, 0.1)(along, 1.0, -1.0) == (0.25, 2)
+    assert LineSearch(1.0, 0.5, 0.1)(along, 1.0, -1.0) == (0.25, 2)
     assert tried == [1.0, 0.5, 0.25]
-    assert BackLineSearch(1.0, 0.5, 0.01)(along, 1.0, -1.0) == (1.0, 0)
+    assert LineSearch(1.0, 0.5, 0.01)(along, 1.0, -1.0) == (1.0, 0)

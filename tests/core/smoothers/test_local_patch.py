@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hexmend import kernels
 from hexmend.energy import MeshEnergy
 from hexmend.gallery import make
-from hexmend.kernels.patches import colours, sweep
+from hexmend.kernels.patches import PatchStepSettings, colours, sweep
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import partition_patches
 from hexmend.quality import measure
@@ -35,12 +35,8 @@ def hexes_at(mesh, nodes):
 
 def swept(mesh, patches, k, smoother, delta):
     """The points after the step of patch k alone, and how often its hexes were asked."""
-    points = mesh.points.copy()
-    asked = sweep(
-        points, patches.hexes, patches.slots, patches.chosen.start, patches.nodes.start, patches.nodes.items,
-        np.array([0, 1], np.int32), np.array([k], np.int32), delta, smoother.power, smoother.first_step, smoother.shrink,
-        smoother.c1, smoother.max_cuts,
-    )  # fmt: skip
+    points, step = mesh.points.copy(), PatchStepSettings(delta, smoother.power, smoother.line_search)
+    asked = sweep(points, patches.kernel_partition, np.array([0, 1], np.int32), np.array([k], np.int32), step)
     return points, asked
 
 

@@ -15,7 +15,7 @@ from hexmend.cli.main import main
 from hexmend.energy import SQUARES
 from hexmend.iteration import Outcome
 from hexmend.kernels import local
-from hexmend.kernels import sliding as on_surface
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import locked, measure
 from hexmend.report import record
@@ -166,14 +166,11 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
 @pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
 def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
     mesh = slid(ball(4), 0.2)
-    sliding, corners, colours = SlidingBoundary(mesh), mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
-    swept = []
-    for sweep, more in (local.sweep, ()), (on_surface.local, (sliding.tangents(mesh.points), *sliding.ground)):
+    sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
+    settings, swept = local.NodeStepSettings(direction, 0.01, SQUARES, LineSearch()), []
+    for surface in (), (sliding.sliding_surface, sliding.tangents(mesh.points)):
         points = mesh.points.copy()
-        sweep(
-            points, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            direction, 0.01, SQUARES, 1.0, 0.7, 1e-4, 100, *more,
-        )  # fmt: skip
+        local.sweep(points, mesh.topology.hex_mesh, colours.start, colours.items, settings, *surface)
         swept.append(points)
     np.testing.assert_allclose(swept[0], swept[1], atol=1e-9)
 

@@ -30,10 +30,8 @@ def one_by_one(mesh, smoother, nodes):
     """The points after one node after another was visited."""
     points, delta = mesh.points.copy(), smoother.delta_at(mesh, mesh.points)
     for node in nodes:
-        verdict, *_, place, _ = local.visit(
-            points, mesh.hexes, mesh.topology.node_corners[node], smoother.direction, delta, smoother.power,
-            smoother.first_step, smoother.shrink, smoother.c1, smoother.max_cuts,
-        )  # fmt: skip
+        star = mesh.topology.node_corners[node]
+        verdict, *_, place, _ = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta))
         if verdict == local.MOVED:
             points[node] = place
     return points

@@ -9,7 +9,6 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Outcome, Step
-from hexmend.kernels import sliding as on_surface
 from hexmend.kernels import worst_first as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
@@ -73,10 +72,8 @@ class SequentialGETMe(SlidingSmoother):
         stays: np.ndarray,
     ) -> int:
         """Move the points, those apart that have to stay; returns how many steps were taken back."""
-        attached, free = mesh.topology.node_corners, mesh.free & ~stays
-        sweep_of = (
-            moved, mesh.hexes, attached.start, attached.items, free,
-            np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32), figures.q.copy(), ~figures.inverted,
-            self.scaling, relaxation, self.penalty, self.rejection_penalty,
-        )  # fmt: skip
-        return kernels.sweep(*sweep_of) if sliding is None else on_surface.worst_first(*sweep_of, *sliding.ground)
+        free, surface = mesh.free & ~stays, None if sliding is None else sliding.sliding_surface
+        candidates = np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32)
+        q, sound = figures.q.copy(), ~figures.inverted
+        settings = kernels.WorstFirstSettings(self.scaling, relaxation, self.penalty, self.rejection_penalty)
+        return kernels.sweep(moved, mesh.topology.hex_mesh, free, candidates, q, sound, settings, surface)

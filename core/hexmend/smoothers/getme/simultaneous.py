@@ -46,7 +46,7 @@ class GETMe(SlidingSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
-        attached = mesh.topology.node_corners
+        hex_mesh = mesh.topology.hex_mesh
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         places = np.empty((mesh.n_hexes, 8, 3))
         points, figures = mesh.points, measure(mesh.points, mesh.hexes)
@@ -56,7 +56,7 @@ class GETMe(SlidingSmoother):
         while idle < self.patience:
             element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
-            kernels.weighted_means(places, self.weigh(figures.q), attached.start, attached.items, nodes, moved)
+            kernels.weighted_means(places, self.weigh(figures.q), hex_mesh, nodes, moved)
             if sliding is not None:
                 moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
             points, figures, relaxed = _without_harm(mesh, points, figures, moved, sliding)
@@ -88,8 +88,7 @@ def _without_harm(
     harmed = np.flatnonzero(after.inverted & ~figures.inverted).astype(np.int32)
     if not harmed.size and (sliding is None or not sliding.refused(points, moved).size):
         return moved, after, 0
-    attached = mesh.topology.node_corners
-    relaxed = kernels.relax(points, mesh.hexes, attached.start, attached.items, ~figures.inverted, harmed, moved)
+    relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~figures.inverted, harmed, moved)
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
     moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])

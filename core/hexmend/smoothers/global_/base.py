@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, SlidingEnergy
 from hexmend.iteration import Outcome, Step
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.search_direction import Direction
 from hexmend.parameters import parameter
 from hexmend.quality import measure
@@ -31,6 +31,11 @@ class GlobalDescent(Optimiser):
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
     max_cuts: int = parameter(100, low=1, high=500, help="Cuts of a step after which the method gives up.")
 
+    @property
+    def line_search(self) -> LineSearch:
+        """The line search with the method's parameters."""
+        return LineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
+
     @abstractmethod
     def direction(self) -> Direction:
         """The search direction: Algorithm A.2, A.3 or A.4."""
@@ -42,8 +47,7 @@ class GlobalDescent(Optimiser):
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
         energy = MeshEnergy(mesh, self.power) if sliding is None else SlidingEnergy(sliding, self.power)
-        search = BackLineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
-        find, policy = self.direction(), self.policy(energy)
+        find, policy, search = self.direction(), self.policy(energy), self.line_search
         points = energy.mesh.points
         x = energy.to_edge_units(points)
         yield Step(points)

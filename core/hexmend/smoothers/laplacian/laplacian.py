@@ -9,7 +9,6 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
-from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
@@ -42,8 +41,9 @@ class Laplacian(SlidingSmoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding, ring = self.sliding(mesh), mesh.topology.rings
+        surface = None
         if sliding is not None:
-            mesh, ring = sliding.mesh, sliding.rings
+            mesh, ring, surface = sliding.mesh, sliding.rings, sliding.sliding_surface
         sequence, sweeps = ORDERS[self.order](mesh), Sweeps(sliding, mesh.n_nodes)
         points, sweep = mesh.points, 0
         yield Step(points)
@@ -55,10 +55,7 @@ class Laplacian(SlidingSmoother):
 
                 def one_by_one(moved: np.ndarray, stays: np.ndarray, nodes: np.ndarray = nodes) -> None:
                     nodes = nodes[~stays[nodes]]
-                    if sliding is None:
-                        kernels.in_place(moved, ring.start, ring.items, nodes)
-                    else:
-                        on_surface.laplacian(moved, ring.start, ring.items, nodes, *sliding.ground)
+                    kernels.in_place(moved, ring.start, ring.items, nodes, surface)
 
                 points, _ = sweeps(points, one_by_one)
             yield Step(points)

@@ -8,7 +8,6 @@ import numpy as np
 
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
-from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, method
@@ -34,18 +33,16 @@ class SmartLaplacian(SlidingSmoother):
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding, ring = self.sliding(mesh), mesh.topology.rings
+        surface = None
         if sliding is not None:
-            mesh, ring = sliding.mesh, sliding.rings
-        corners = mesh.topology.node_corners
+            mesh, ring, surface = sliding.mesh, sliding.rings, sliding.sliding_surface
+        hex_mesh = mesh.topology.hex_mesh
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
-            sweep_of = (
-                moved, mesh.hexes, corners.start, corners.items, ring.start, ring.items, nodes[~stays[nodes]],
-                self.guard == "quality",
-            )  # fmt: skip
-            return kernels.guarded(*sweep_of) if sliding is None else on_surface.guarded(*sweep_of, *sliding.ground)
+            may_move, keep = nodes[~stays[nodes]], self.guard == "quality"
+            return kernels.smart_sweep(moved, hex_mesh, ring.start, ring.items, may_move, keep, surface)
 
         yield Step(points)
         while True:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import POLICIES
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
@@ -29,6 +30,11 @@ class LocalOptimiser(Optimiser):
     shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
     max_cuts: int = parameter(100, low=1, high=200, help="Cuts of a step after which the node is left where it is.")
+
+    @property
+    def line_search(self) -> LineSearch:
+        """The line search with the method's parameters."""
+        return LineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
 
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""

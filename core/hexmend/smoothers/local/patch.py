@@ -9,7 +9,6 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.kernels import local
 from hexmend.kernels import patches as kernels
-from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.patches import partition_patches
 from hexmend.parameters import parameter
@@ -42,39 +41,23 @@ class LocalPatch(LocalOptimiser):
     def steps(self, mesh: Mesh) -> Steps:
         sliding, patches = self.sliding(mesh), partition_patches(mesh, self.patch, self.overlap)
         if sliding is not None:
-            corners, alone = mesh.topology.node_corners, mesh.topology.colouring(~sliding.mesh.fixed & mesh.fixed)
-            derived = int(np.diff(corners.start)[sliding.nodes].sum())
+            alone = mesh.topology.colouring(~sliding.mesh.fixed & mesh.fixed)
+            derived = int(np.diff(mesh.topology.node_corners.start)[sliding.nodes].sum())
             mesh = sliding.mesh
-        points, sweeps = mesh.points, Sweeps(sliding, mesh.n_nodes)
+        points, sweeps, search = mesh.points, Sweeps(sliding, mesh.n_nodes), self.line_search
+        partition, colours = patches.kernel_partition, patches.colours
 
         def slide(moved: np.ndarray, stays: np.ndarray) -> int:
-            groups = alone.without(stays)
-            return on_surface.local(
-                moved, mesh.hexes, corners.start, corners.items, groups.start, groups.items, local.NEWTON,
-                delta, self.power, self.first_step, self.shrink, self.c1, self.max_cuts,
-                sliding.tangents(moved), *sliding.ground,
-            )  # fmt: skip
+            groups, settings = alone.without(stays), local.NodeStepSettings(local.NEWTON, delta, self.power, search)
+            surface, tangents = sliding.sliding_surface, sliding.tangents(moved)
+            return local.sweep(moved, mesh.topology.hex_mesh, groups.start, groups.items, settings, surface, tangents)
 
         yield Step(points)
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
-            energies, derivatives = kernels.sweep(
-                points,
-                patches.hexes,
-                patches.slots,
-                patches.chosen.start,
-                patches.nodes.start,
-                patches.nodes.items,
-                patches.colours.start,
-                patches.colours.items,
-                delta,
-                self.power,
-                self.first_step,
-                self.shrink,
-                self.c1,
-                self.max_cuts,
-            )
+            settings = kernels.PatchStepSettings(delta, self.power, search)
+            energies, derivatives = kernels.sweep(points, partition, colours.start, colours.items, settings)
             if sliding is not None:
                 points, more = sweeps(points, slide)
                 energies, derivatives = energies + more, derivatives + derived

@@ -11,7 +11,6 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.kernels import local
-from hexmend.kernels import sliding as on_surface
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
@@ -59,11 +58,10 @@ class LocalDescent(LocalOptimiser):
         stays: np.ndarray,
     ) -> int:
         """Move the points, those apart that have to stay; returns how often a hex was asked for its energy."""
-        corners, visited = mesh.topology.node_corners, groups.without(stays)
-        sweep_of = (
-            points, mesh.hexes, corners.start, corners.items, visited.start, visited.items, self.direction,
-            delta, self.power, self.first_step, self.shrink, self.c1, self.max_cuts,
-        )  # fmt: skip
-        if sliding is None:
-            return local.sweep(*sweep_of)
-        return on_surface.local(*sweep_of, sliding.tangents(points), *sliding.ground)
+        visited, settings = groups.without(stays), self.step_settings(delta)
+        surface = () if sliding is None else (sliding.sliding_surface, sliding.tangents(points))
+        return local.sweep(points, mesh.topology.hex_mesh, visited.start, visited.items, settings, *surface)
+
+    def step_settings(self, delta: float) -> local.NodeStepSettings:
+        """Settings of a node's step in a sweep with that delta."""
+        return local.NodeStepSettings(self.direction, delta, self.power, self.line_search)

@@ -7,6 +7,7 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.energy.hex_energy import corners_left_out
 from hexmend.kernels import local
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.validation import as_bools, points_like
 
 
@@ -46,11 +47,9 @@ def local_sweeps(
     near[mesh.hexes[around]] = True
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[left_out != 0]] = False
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
+    colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
+    settings = local.NodeStepSettings(local.MODIFIED_NEWTON, delta, energy.power, LineSearch(max_backtracks=60))
     swept = x.copy()
     for _ in range(sweeps):
-        local.sweep(
-            swept, mesh.hexes, corners.start, corners.items, colours.start, colours.items,
-            local.MODIFIED_NEWTON, delta, energy.power, 1.0, 0.7, 1e-4, 60,
-        )  # fmt: skip
+        local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
     return swept

@@ -10,9 +10,9 @@ import numpy as np
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy, energies
 from hexmend.iteration import Outcome, Step
+from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import Descent, descend
-from hexmend.optimise.line_search import BackLineSearch
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.optimise.search_direction import TruncatedNewton
 from hexmend.parameters import parameter
@@ -58,7 +58,7 @@ FEW, MANY_SWEEPS = 0.003, 50
 #: while hexes are left out, which only what comes after can mend, than such another.
 LATELY, SLOW, SLOW_BESIDE_OTHERS = 5, 2e-3, 2e-2
 
-SEARCH = BackLineSearch(shrink=0.5)
+SEARCH = LineSearch(backtrack_factor=0.5)
 
 
 @method

@@ -13,6 +13,7 @@ from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.gallery.gallery_mesh import scrambled
 from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads
+from hexmend.kernels.line_search import LineSearch
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.study.bench.section import BenchSection
 
@@ -38,13 +39,11 @@ def _kernels() -> dict[str, Any]:
     hessian, none = energy.hessian(x), energy.left_out
     gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
     matrix, right = hessian.assembled(), -gradient.ravel()
-    corners, colours = mesh.topology.node_corners, mesh.topology.colouring(mesh.free)
+    hex_mesh, colours = mesh.topology.hex_mesh, mesh.topology.colouring(mesh.free)
+    settings = local.NodeStepSettings(local.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), LineSearch(max_backtracks=60))
 
     def sweep(by: Callable[..., None]) -> None:
-        by(
-            x.copy(), hexes, corners.start, corners.items, colours.start, colours.items,
-            local.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), 1.0, 0.7, 1e-4, 60,
-        )  # fmt: skip
+        by(x.copy(), hex_mesh, colours.start, colours.items, settings)
 
     # Of a kernel: itself and the plain loop, and how often the call repeats it.
     rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [

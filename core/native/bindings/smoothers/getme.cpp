@@ -6,14 +6,11 @@ namespace hexmend {
 
 void bind_getme(nb::module_ &m) {
     m.doc() =
-        "Simultaneous GETMe: a node moves to the weighted mean of the targets that its hexes' element steps give it.\n"
-        "start, corners: `Topology.node_corners`.";
-    m.def("weighted_means", &weighted_means, "places"_a, "weights"_a, "start"_a, "corners"_a, "nodes"_a, "targets"_a,
-          ReleaseGil(),
+        "Simultaneous GETMe: a node moves to the weighted mean of the targets that its hexes' element steps give it.";
+    m.def("weighted_means", &weighted_means, "places"_a, "weights"_a, "mesh"_a, "nodes"_a, "targets"_a, ReleaseGil(),
           "Means of the targets, places (m, 8, 3), of each of `nodes` over its hexes, by their weights (m,); writes\n"
           "targets (n, 3).");
-    m.def("relax", &relax, "points"_a, "hexes"_a, "start"_a, "corners"_a, "sound"_a, "harmed"_a, "moved"_a,
-          ReleaseGil(),
+    m.def("relax", &relax, "points"_a, "mesh"_a, "sound"_a, "harmed"_a, "moved"_a, ReleaseGil(),
           "Shorten moves until no hex that was sound is inverted; returns the number of shortened moves.\n"
           "\n"
           "points (n, 3): before the move. sound (m,) bool: hexes that were sound there. harmed (k,) int32: those that "

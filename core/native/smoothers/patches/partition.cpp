@@ -8,18 +8,18 @@ namespace hexmend {
 
 std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>,
            OwnedArray<std::int32_t, 8>>
-partition_patches(Hexes hexes, Indices start, Indices corners, std::span<const bool> free, std::int64_t size,
-                  int overlap) {
+partition(const HexMesh &mesh, std::span<const bool> free, std::int64_t size, int overlap) {
+    const Hexes hexes = mesh.hexes;
     const std::int64_t n = free.size();
-    std::vector<std::int32_t> node_start(1), nodes, hex_start(1), chosen;
+    std::vector<std::int32_t> node_start(1), nodes, hex_start(1), patch_hexes;
     std::vector<std::int32_t> slots;
     std::vector<std::uint8_t> taken(n);  // by a patch, not counting overlaps
     std::vector<std::int32_t> slot(n, -1), used(hexes.size(), -1);
     std::vector<Node> patch;
 
     auto for_each_neighbour = [&](Node i, auto body) {  // body(j) for the free nodes j that share a hex with node i
-        for (auto s = start[i]; s < start[i + 1]; ++s)
-            for (Node j : hexes[corners[s] / 8])
+        for (auto corner : mesh.star(i))
+            for (Node j : hexes[corner / 8])
                 if (free[j]) body(j);
     };
     auto include = [&](Node i) {
@@ -44,25 +44,28 @@ partition_patches(Hexes hexes, Indices start, Indices corners, std::span<const b
         std::sort(patch.begin(), patch.end());
         for (std::size_t k = 0; k < patch.size(); ++k) slot[patch[k]] = k;
         for (Node i : patch)
-            for (auto s = start[i]; s < start[i + 1]; ++s) {
-                const auto h = corners[s] / 8;
+            for (auto corner : mesh.star(i)) {
+                const auto h = corner / 8;
                 if (used[h] == seed) continue;
                 used[h] = seed;
-                chosen.push_back(h);
+                patch_hexes.push_back(h);
                 for (Node j : hexes[h]) slots.push_back(slot[j]);
             }
         for (Node i : patch) slot[i] = -1;
         nodes.insert(nodes.end(), patch.begin(), patch.end());
         node_start.push_back(nodes.size());
-        hex_start.push_back(chosen.size());
+        hex_start.push_back(patch_hexes.size());
     }
-    return {
-        {std::move(node_start)}, {std::move(nodes)}, {std::move(hex_start)}, {std::move(chosen)}, {std::move(slots)}};
+    return {{std::move(node_start)},
+            {std::move(nodes)},
+            {std::move(hex_start)},
+            {std::move(patch_hexes)},
+            {std::move(slots)}};
 }
 
-CSR patch_colours(Indices hex_start, Indices chosen, std::int64_t hexes) {
+CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes) {
     auto each_hex = [&](std::int64_t k, const auto &body) {
-        for (auto s = hex_start[k]; s < hex_start[k + 1]; ++s) body(chosen[s]);
+        for (auto s = hex_start[k]; s < hex_start[k + 1]; ++s) body(patch_hexes[s]);
     };
     auto colour = greedy_colouring(hex_start.size() - 1, hexes, [](std::int64_t) { return true; }, each_hex);
     auto largest = std::max_element(colour.begin(), colour.end());

@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "mesh/hex_mesh.hpp"
 #include "mesh/incidence.hpp"
 
 namespace hexmend {
@@ -10,16 +11,14 @@ namespace hexmend {
 // Divide the free nodes (n,) into connected patches of at most `size` nodes, breadth first from the lowest remaining
 // node; then add to each patch the nodes within `overlap` steps between nodes of one hex.
 //
-// hexes (m, 8); start, corners: `node_corners`. Returns node_start and nodes: the nodes of each patch, ascending;
-// hex_start and chosen: the hexes at them; slots (k, 8): the number of each corner of these hexes among the patch's
-// nodes, -1 if it is fixed.
+// Returns node_start and nodes: the nodes of each patch, ascending; hex_start and patch_hexes: the hexes at them; slots
+// (k, 8): the number of each corner of these hexes among the patch's nodes, -1 if it is fixed.
 std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>,
            OwnedArray<std::int32_t, 8>>
-partition_patches(Hexes hexes, Indices start, Indices corners, std::span<const bool> free, std::int64_t size,
-                  int overlap);
+partition(const HexMesh &mesh, std::span<const bool> free, std::int64_t size, int overlap);
 
-// Groups of patches that share no hex, by greedy colouring: CSR rows of patch numbers. hex_start and chosen are those
-// of `partition_patches`, hexes the number of hexes of the mesh.
-CSR patch_colours(Indices hex_start, Indices chosen, std::int64_t hexes);
+// Groups of patches that share no hex, by greedy colouring: CSR rows of patch numbers. hex_start and patch_hexes are
+// those of `partition`, hexes the number of hexes of the mesh.
+CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes);
 
 }  // namespace hexmend

@@ -134,17 +134,17 @@ class MultiNodePatch {
 
 }  // namespace
 
-EvaluationCount patch_sweep(std::span<Point> points, Hexes hexes, Hexes slots, Indices hex_start, Indices node_start,
-                            Indices nodes, Indices groups, Indices patches, const PatchStepSettings &settings) {
-    expect(hexes.size() == slots.size(), "slots: one row for each of the hexes is expected");
+EvaluationCount sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
+                      const PatchStepSettings &settings) {
+    const Indices hex_start = partition.hex_start;
     std::vector<EvaluationCount> counts(patches.size());
     for (std::size_t g = 0; g + 1 < groups.size(); ++g)
         parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {
             const auto at = groups[g] + i;
             const auto k = patches[at];
-            const auto h = hex_start[k], count = hex_start[k + 1] - h;
-            MultiNodePatch patch(points, hexes.subspan(h, count), slots.subspan(h, count),
-                                 nodes.subspan(node_start[k], node_start[k + 1] - node_start[k]), settings);
+            const auto h = hex_start[k], count = hex_start[k + 1] - h, from = partition.node_start[k];
+            MultiNodePatch patch(points, partition.hexes.subspan(h, count), partition.slots.subspan(h, count),
+                                 partition.nodes.subspan(from, partition.node_start[k + 1] - from), settings);
             counts[at] = settings.delta != 0 ? patch.take_step<true>() : patch.take_step<false>();
         });
     EvaluationCount total;

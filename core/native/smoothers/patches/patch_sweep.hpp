@@ -21,13 +21,18 @@ struct EvaluationCount {
     std::int64_t energies = 0, derivatives = 0;
 };
 
+// Patches as `partition` makes them: the hexes and slots (k, 8) of patch p are the rows hex_start[p] to hex_start[p +
+// 1] - 1, its nodes are nodes[node_start[p]] to nodes[node_start[p + 1] - 1].
+struct PatchPartition {
+    Hexes hexes, slots;
+    Indices hex_start, node_start, nodes;
+};
+
 // Move the nodes of every patch by one Newton step together, in place.
 //
-// points (n, 3); hexes and slots (k, 8) are those of `partition_patches`, patch after patch, as hex_start says; the
-// nodes of patch p are nodes[node_start[p]] to nodes[node_start[p + 1] - 1]. Group g, patches[groups[g]] to
-// patches[groups[g + 1] - 1], shares no hex, so that the result is that of a sequential sweep for any number of
-// threads.
-EvaluationCount patch_sweep(std::span<Point> points, Hexes hexes, Hexes slots, Indices hex_start, Indices node_start,
-                            Indices nodes, Indices groups, Indices patches, const PatchStepSettings &settings);
+// points (n, 3). Group g, patches[groups[g]] to patches[groups[g + 1] - 1], shares no hex, so that the result is that
+// of a sequential sweep for any number of threads.
+EvaluationCount sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
+                      const PatchStepSettings &settings);
 
 }  // namespace hexmend

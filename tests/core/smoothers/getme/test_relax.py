@@ -14,9 +14,9 @@ def relaxed(moves):
     free = np.flatnonzero(mesh.free)
     moved = mesh.points.copy()
     moved[free] += moves
-    attached, sound = mesh.topology.node_corners, ~measure(mesh.points, mesh.hexes).inverted
+    sound = ~measure(mesh.points, mesh.hexes).inverted
     harmed = np.flatnonzero(sound & measure(moved, mesh.hexes).inverted).astype(np.int32)
-    count = getme.relax(mesh.points, mesh.hexes, attached.start, attached.items, sound, harmed, moved)
+    count = getme.relax(mesh.points, mesh.topology.hex_mesh, sound, harmed, moved)
     return moved[free] - mesh.points[free], count, measure(moved, mesh.hexes).n_inverted
 
 

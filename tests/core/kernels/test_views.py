@@ -1,0 +1,113 @@
+"""Objects that kernels take view arrays: they keep them alive, and refuse arrays that do not fit."""
+
+import gc
+import pickle
+import sys
+
+import numpy as np
+import pytest
+
+from hexmend.boundary import SlidingBoundary
+from hexmend.kernels import laplacian, local
+from hexmend.kernels.closest_point import BoxTrees
+from hexmend.kernels.hex_mesh import HexMesh
+from hexmend.kernels.line_search import LineSearch
+from hexmend.kernels.sliding_surface import BoundaryQuads, SlidingSurface
+from tests.core.grids import grid, scrambled
+
+
+def arrays(mesh):
+    """Copies of the connectivity that nothing else holds."""
+    corners = mesh.topology.node_corners
+    return mesh.hexes.copy(), corners.start.copy(), corners.items.copy()
+
+
+def test_an_object_keeps_its_arrays_alive_and_lets_them_go():
+    given = arrays(grid(3))
+    before = [sys.getrefcount(array) for array in given]
+    view = HexMesh(*given)
+    assert [sys.getrefcount(array) for array in given] == [count + 1 for count in before]
+    del view
+    gc.collect()
+    assert [sys.getrefcount(array) for array in given] == before
+
+
+def test_a_sweep_with_an_object_whose_arrays_nobody_else_holds():
+    mesh = scrambled(grid(4), 0.3)
+    colours, view = mesh.topology.colouring(mesh.free), HexMesh(*arrays(mesh))
+    gc.collect()
+    overwritten = [np.full(mesh.hexes.shape, 10**6, np.int32) for _ in range(20)]
+    settings, swept = local.NodeStepSettings(local.NEWTON, 0.1, (2.0, 1.0), LineSearch()), []
+    for hex_mesh in view, mesh.topology.hex_mesh:
+        swept.append(mesh.points.copy())
+        local.sweep(swept[-1], hex_mesh, colours.start, colours.items, settings)
+    np.testing.assert_array_equal(*swept)
+    assert len(overwritten) == 20
+
+
+def test_a_sliding_surface_keeps_the_arrays_of_its_parts():
+    mesh = scrambled(grid(3), 0.1)
+    sliding = SlidingBoundary(mesh)
+    expected, moved = mesh.points.copy(), mesh.points.copy()
+    ring, nodes, surface = sliding.rings, sliding.nodes.astype(np.int32), sliding.sliding_surface
+    laplacian.in_place(expected, ring.start, ring.items, nodes, surface)
+    del sliding
+    gc.collect()
+    laplacian.in_place(moved, ring.start, ring.items, nodes, surface)
+    np.testing.assert_array_equal(moved, expected)
+
+
+def test_arrays_of_another_type_or_shape_are_refused_by_name():
+    hexes, start, corners = arrays(grid(2))
+    for wrong in ((hexes.astype(np.int64), start, corners), (hexes[:, :4], start, corners), (hexes, None, corners)):
+        with pytest.raises(TypeError, match=r"hexes.*start.*corners"):
+            HexMesh(*wrong)
+    for wrong, name in (((hexes[1:], start, corners), "corners"), ((hexes, start[:-1], corners), "start")):
+        with pytest.raises(ValueError, match=f"^{name}: "):
+            HexMesh(*wrong)
+    points, none = np.zeros((4, 3)), np.zeros((0, 4), np.int32)
+    pieces, boxes, links = np.zeros((1, 3), np.int32), np.zeros((1, 6)), np.zeros((1, 2), np.int32)
+    with pytest.raises(ValueError, match=r"^links: "):
+        BoxTrees(points, pieces, boxes, links[1:])
+    with pytest.raises(ValueError, match=r"^outward: "):
+        BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points)
+    quads = BoundaryQuads(np.zeros(1, np.int32), np.zeros(0, np.int32), none, points[:0])
+    with pytest.raises(ValueError, match=r"^quads: "):
+        SlidingSurface(np.zeros(4, np.int32), np.zeros(1, np.int32), BoxTrees(points, pieces, boxes, links), quads)
+
+
+def test_a_surface_wants_tangents_and_tangents_a_surface():
+    mesh = grid(3)
+    sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
+    settings = local.NodeStepSettings(local.NEWTON, 0.1, (2.0, 1.0), LineSearch())
+    given = mesh.points.copy(), mesh.topology.hex_mesh, colours.start, colours.items, settings
+    with pytest.raises(ValueError, match="surface and tangents"):
+        local.sweep(*given, sliding.sliding_surface)
+    with pytest.raises(ValueError, match="surface and tangents"):
+        local.sweep(*given, tangents=sliding.tangents(mesh.points))
+    with pytest.raises(ValueError, match=r"^tangents: "):
+        local.sweep(*given, sliding.sliding_surface, sliding.tangents(mesh.points)[1:])
+
+
+def test_a_mesh_whose_topology_is_built_can_be_pickled():
+    mesh = grid(2)
+    assert mesh.topology.hex_mesh is not None
+    other = pickle.loads(pickle.dumps(mesh))
+    np.testing.assert_array_equal(other.hexes, mesh.hexes)
+
+
+def test_a_line_search_passes_on_the_exceptions_of_the_energy():
+    def fails(alpha):
+        raise ZeroDivisionError("no energy")
+
+    with pytest.raises(ZeroDivisionError, match="no energy"):
+        LineSearch()(fails, 1.0, -1.0)
+
+
+def test_the_rounding_of_a_negative_energy_ends_a_line_search():
+    assert LineSearch()(lambda alpha: 0.0, -1.0, -1e-16) == (0.0, 0)
+
+
+def test_a_line_search_with_another_initial_step_keeps_the_rest():
+    search = LineSearch(0.5, 0.25, 0.1, 7).with_initial_step(2.0)
+    assert (search.initial_step, search.backtrack_factor, search.c1, search.max_backtracks) == (2.0, 0.25, 0.1, 7)
