@@ -7,9 +7,10 @@ from enum import IntEnum
 
 import numpy as np
 
-from hexmend.boundary.edges import SurfaceEdges, chains, components
+from hexmend.boundary.edges import SurfaceEdges, chains
 from hexmend.boundary.features import DEGREES, WHISKER, feature_edges, given_corners, given_edges, turns
 from hexmend.errors import MeshError
+from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_faces, as_integers, as_points, check_node_numbers

@@ -6,6 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.mesh.components import components
+
 
 class SurfaceEdges:
     """The edges of faces, each once.
@@ -73,15 +75,6 @@ class SurfaceEdges:
         group = components(self.faces.size, np.concatenate([links[:, [0, 2]], links[:, [1, 3]], ring]))
         _, representative = np.unique(group, return_index=True)
         return np.bincount(self.faces.ravel()[representative], minlength=self.n)
-
-
-def components(count: int, links: np.ndarray) -> np.ndarray:
-    """The part of each of `count` things that links (l, 2) join, counted from 0 in their order; (count,) int32."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    joined = coo_matrix((np.ones(len(links), dtype=np.int8), (links[:, 0], links[:, 1])), (count, count))
-    return connected_components(joined.tocsr(), directed=False)[1].astype(np.int32)
 
 
 def chains(segments: np.ndarray, ends: np.ndarray) -> np.ndarray:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.edges import SurfaceEdges, chains, components
+from hexmend.boundary.edges import SurfaceEdges, chains
+from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
 #: Faces that meet at a larger angle, in degrees, meet in a feature edge.

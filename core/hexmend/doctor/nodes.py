@@ -6,6 +6,7 @@ import numpy as np
 
 from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
 from hexmend.doctor.removal import collapsed, used_by_anything, with_nodes
+from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
 #: Nodes are in one place if they are no further apart than this, in mean edge lengths.
@@ -120,8 +121,6 @@ def _merged(mesh: Mesh) -> np.ndarray:
 
     Nodes that a hex uses both stay apart: merging them would collapse it.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
     n = mesh.n_nodes
@@ -130,8 +129,7 @@ def _merged(mesh: Mesh) -> np.ndarray:
     target = np.arange(n)
     if not len(pairs):
         return target
-    graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), (n, n))
-    group = connected_components(graph, directed=False)[1]
+    group = components(n, pairs)
     first = np.full(group.max() + 1, n)
     np.minimum.at(first, group, np.arange(n))
     target = first[group]

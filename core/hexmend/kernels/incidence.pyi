@@ -23,9 +23,16 @@ def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8),
     mesh, and is counted once per hex.
     """
 
-def components(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], used: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> int:
+def join(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], items: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int) -> None:
     """
-    Number of components, connected by nodes, of the nodes with used (n,) bool.
+    Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.
+
+    Union-find: parent[i] is an item of i's component, at most i.
+    """
+
+def component_numbers(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> Annotated[NDArray[numpy.int32], dict(shape=(None,))]:
+    """
+    Component of each item, (n,) int32, numbered in the order of their lowest items.
     """
 
 def node_rings(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], most: int = 2147483647) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:

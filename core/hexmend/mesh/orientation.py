@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.kernels import elements
+from hexmend.mesh.components import components_of_cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 
@@ -80,12 +81,4 @@ def parts_of(mesh: Mesh, others: bool = False) -> np.ndarray:
     others : bool
         Cells of other kinds join parts too.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    rows = [mesh.hexes, *(cells.nodes for cells in mesh.cells if others)]
-    cells, width = sum(map(len, rows)), [one.shape[1] for one in rows]
-    first = np.repeat(np.arange(cells), np.repeat(width, [len(one) for one in rows]))
-    ends = first, np.concatenate([one.ravel() for one in rows]) + cells
-    graph = coo_array((np.ones(len(first), np.int8), ends), (cells + mesh.n_nodes,) * 2)
-    return np.unique(connected_components(graph, directed=False)[1][: mesh.n_hexes], return_inverse=True)[1]
+    return components_of_cells(mesh.n_nodes, mesh.hexes, *(cells.nodes for cells in mesh.cells if others))

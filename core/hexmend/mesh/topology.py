@@ -12,6 +12,7 @@ from hexmend.aliases import exports
 from hexmend.arrays import as_immutable
 from hexmend.kernels import incidence, structure, wavefronts
 from hexmend.kernels.hex_mesh import HexMesh
+from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
@@ -148,7 +149,7 @@ class Topology:
     @cached_property
     def parts(self) -> int:
         """Number of parts that hang together by nodes."""
-        return incidence.components(self.hexes, self.used)
+        return int(components(self.n, self.hexes).max(initial=-1)) + 1 - int(np.count_nonzero(~self.used))
 
     @cached_property
     def rings(self) -> CSR:

@@ -71,10 +71,15 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
     return ElementQuality(q, sigma, jacobian, eta)
 
 
-def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
-    """True for each inverted hex that has a corner tetrahedron with sigma <= 0 whose four nodes are all fixed.
+def fixed_tetrahedra(hexes: np.ndarray, fixed: np.ndarray) -> np.ndarray:
+    """True for each corner tetrahedron of hexes (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool."""
+    return fixed[hexes[:, CORNER_TETRAHEDRA]].all(axis=2)
 
-    No method that keeps the fixed nodes can mend such a hex: their number is the lower bound of any untangler.
+
+def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    """True for each corner tetrahedron with sigma <= 0 whose four nodes are all fixed.
+
+    No method that keeps the fixed nodes can mend the hex of such a corner.
 
     Parameters
     ----------
@@ -82,18 +87,28 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
     hexes : (m, 8) int32
     fixed : (n,) bool
     inverted : (m,) bool
+        The inverted hexes, as `measure` finds them.
 
     Returns
     -------
-    (m,) bool
+    (m, 8) bool
+
+    Raises
+    ------
+    MeshError
+        For an array of another shape or type.
     """
     points = as_points(points)
     hexes, fixed = as_hexes(hexes, len(points)), as_bools(fixed, "fixed", len(points))
     where = np.flatnonzero(as_bools(inverted, "inverted", len(hexes)))
-    held = fixed[hexes[where][:, CORNER_TETRAHEDRA]].all(axis=2)
-    answer = np.zeros(len(hexes), dtype=bool)
-    answer[where] = (held & ~(corner_determinants(points, hexes, where) > 0)).any(axis=1)
-    return answer
+    locked = np.zeros((len(hexes), 8), dtype=bool)
+    locked[where] = fixed_tetrahedra(hexes[where], fixed) & ~(corner_determinants(points, hexes, where) > 0)
+    return locked
+
+
+def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+    """True for each hex with a tetrahedron of `locked_tetrahedra`, (m,) bool; no untangler leaves fewer inverted."""
+    return locked_tetrahedra(points, hexes, fixed, inverted).any(axis=1)
 
 
 def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:

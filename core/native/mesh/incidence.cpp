@@ -84,26 +84,28 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
     return {{std::move(neighbours)}, std::reduce(non_manifold.begin(), non_manifold.end())};
 }
 
-std::int64_t components(Hexes hexes, std::span<const bool> used) {
-    std::vector<Node> parent(used.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    // Union-find with path halving: the representative of the component of node i.
-    auto root = [&](Node i) {
+void join(std::span<std::int32_t> parent, Indices items, int width) {
+    auto root = [&](std::int32_t i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
         return i;
     };
-    for (const Hex &hex : hexes) {
-        Node first = root(hex[0]);
-        for (Node i : hex) {
-            if (parent[i] == first) continue;
-            Node other = root(i);
+    for (std::size_t row = 0; row + width <= items.size(); row += width) {
+        auto first = root(items[row]);
+        for (int k = 1; k < width; ++k) {
+            if (parent[items[row + k]] == first) continue;
+            auto other = root(items[row + k]);
             parent[std::max(first, other)] = std::min(first, other);
             first = std::min(first, other);
         }
     }
-    std::int64_t count = 0;
-    for (std::size_t i = 0; i < used.size(); ++i) count += used[i] && parent[i] == static_cast<Node>(i);
-    return count;
+}
+
+OwnedArray<std::int32_t> component_numbers(Indices parent) {
+    std::vector<std::int32_t> number(parent.size());
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < parent.size(); ++i)  // a parent is never above its child
+        number[i] = parent[i] == static_cast<std::int32_t>(i) ? count++ : number[parent[i]];
+    return {std::move(number)};
 }
 
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {

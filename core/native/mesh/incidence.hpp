@@ -16,8 +16,12 @@ CSR node_corners(Hexes hexes, std::int64_t nodes);
 // counted once per hex: these have neighbour -1.
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
-// Number of components, connected by nodes, of the nodes with used[i].
-std::int64_t components(Hexes hexes, std::span<const bool> used);
+// Connected components by union-find with path halving: parent[i] is an item of i's component, at most i; in the
+// beginning every item is its own parent. Join the items of each row of `width` items.
+void join(std::span<std::int32_t> parent, Indices items, int width);
+
+// Component of each item, numbered in the order of their lowest items.
+OwnedArray<std::int32_t> component_numbers(Indices parent);
 
 // Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `most`.
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.mesh.components import components
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
+from hexmend.quality.measure import fixed_tetrahedra
 
 
 class MovableCorners:
@@ -37,7 +39,7 @@ class MovableCorners:
     def set_mesh(self, mesh: Mesh) -> None:
         """Take a mesh of which other nodes are fixed."""
         self.mesh = mesh
-        self._held = ~mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
+        self._held = fixed_tetrahedra(mesh.hexes, ~mesh.free)
 
     def raised(self) -> np.ndarray:
         """The values, +inf of corners that cannot be moved or are settled, (m, 8) float64."""
@@ -82,15 +84,11 @@ class MovableCorners:
 
         Corners of one group have free nodes in common, directly or by others of them: only those bear on each other.
         """
-        from scipy.sparse import coo_array
-        from scipy.sparse.csgraph import connected_components
-
         nodes, count = self.nodes_of(corners), len(corners)
         corner, end = np.nonzero(self.mesh.free[nodes])
         slot = np.unique(nodes, return_inverse=True)[1].reshape(nodes.shape)
-        ends = corner, count + slot[corner, end]
-        graph = coo_array((np.ones(corner.size, np.int8), ends), (count + nodes.size,) * 2)
-        return np.unique(connected_components(graph, directed=False)[1][:count], return_inverse=True)[1]
+        links = np.column_stack([corner, count + slot[corner, end]])
+        return components(count + nodes.size, links)[:count]
 
     def hexes_at(self, nodes: np.ndarray) -> np.ndarray:
         """Hexes that have one of some nodes, ascending, (k,) int."""

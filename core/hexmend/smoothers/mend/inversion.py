@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_values import shortest_edges
 from hexmend.quality import ElementQuality, corner_determinants, measure
+from hexmend.quality.measure import locked_tetrahedra
 
 #: From how many mean edge lengths of its shortest edge on an inner node is far away: it begins amid its neighbours.
 FAR = 10.0
@@ -41,8 +41,9 @@ def inverted_corners(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 
 def locked_corners(mesh: Mesh) -> np.ndarray:
     """A bit for each corner tetrahedron that fixed nodes lock in inversion, (m,) uint8."""
-    held = np.packbits(mesh.fixed[mesh.hexes[:, CORNER_TETRAHEDRA]].all(axis=2), axis=1, bitorder="little")[:, 0]
-    return inverted_corners(mesh.points, mesh.hexes) & held
+    inverted = measure(mesh.points, mesh.hexes).inverted
+    locked = locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, inverted)
+    return np.packbits(locked, axis=1, bitorder="little")[:, 0]
 
 
 def tangled_in(

@@ -17,8 +17,11 @@ void bind_incidence(nb::module_ &m) {
           "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect of "
           "the\n"
           "mesh, and is counted once per hex.");
-    m.def("components", &components, "hexes"_a, "used"_a, ReleaseGil(),
-          "Number of components, connected by nodes, of the nodes with used (n,) bool.");
+    m.def("join", &join, "parent"_a, "items"_a, "width"_a, ReleaseGil(),
+          "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
+          "Union-find: parent[i] is an item of i's component, at most i.");
+    m.def("component_numbers", &component_numbers, "parent"_a, ReleaseGil(),
+          "Component of each item, (n,) int32, numbered in the order of their lowest items.\n");
     m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, ReleaseGil(),
           "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
           "OverflowError where the rows have more than `most` items.");

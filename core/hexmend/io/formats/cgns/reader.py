@@ -13,6 +13,7 @@ from hexmend.io.formats.cgns.structured import structured
 from hexmend.io.formats.cgns.tree import CGNSNode
 from hexmend.io.formats.cgns.unstructured import unstructured
 from hexmend.io.formats.cgns.zone import Zone
+from hexmend.mesh.components import components
 
 #: How far apart nodes that are told to be one may lie, of the diagonal of the box around all of them.
 MEETING = 1e-5
@@ -84,9 +85,6 @@ def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
 
 def _merged(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
     """The node that each node of a zone is, the first of those that are one, and how many pairs were told."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     place = {zone.key: k for k, zone in enumerate(zones)}
     ends = []
     for k, zone in enumerate(zones):
@@ -104,8 +102,7 @@ def _merged(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tuple[n
         near = MEETING * float(np.linalg.norm(np.ptp(used, axis=0))) if len(used) else 0.0
         apart = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
     pairs = pairs[apart <= near]  # others are periodic
-    graph = coo_array((np.ones(len(pairs), np.int8), pairs.T), (len(points),) * 2)
-    label = connected_components(graph, directed=False)[1]
+    label = components(len(points), pairs)
     kept = np.unique(label, return_index=True)[1]
     order = np.argsort(kept)  # as they come in the file
     number = np.empty(len(kept), np.int64)

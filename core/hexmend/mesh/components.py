@@ -1,0 +1,56 @@
+"""Connected components."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.kernels import incidence
+
+
+def components(count: int, *groups: np.ndarray) -> np.ndarray:
+    """Number the connected components of some items.
+
+    Parameters
+    ----------
+    count : int
+        Number of items.
+    *groups : (k, w) int
+        Each row holds items that are connected, such as the two ends of an edge or the nodes of a cell.
+
+    Returns
+    -------
+    (count,) int32
+        Component of each item, numbered from 0 in the order of their lowest items.
+
+    Examples
+    --------
+    >>> components(5, np.array([[1, 3], [0, 4]]))
+    array([0, 1, 2, 1, 0], dtype=int32)
+    """
+    parent = np.arange(count, dtype=np.int32)
+    for group in groups:
+        incidence.join(parent, np.ascontiguousarray(group, np.int32).ravel(), group.shape[1])
+    return incidence.component_numbers(parent)
+
+
+def components_of_cells(count: int, cells: np.ndarray, *others: np.ndarray) -> np.ndarray:
+    """Number the components of cells that are connected by common nodes.
+
+    Parameters
+    ----------
+    count : int
+        Number of nodes.
+    cells : (m, w) int
+        Nodes of each cell.
+    *others : (k, w) int
+        Nodes of cells that connect these, without being numbered.
+
+    Returns
+    -------
+    (m,) int64
+        Component of each of `cells`, numbered from 0 in the order of their first cells.
+    """
+    _, first, component = np.unique(
+        components(count, cells, *others)[cells[:, 0]], return_index=True, return_inverse=True
+    )
+    return np.argsort(np.argsort(first))[component]
