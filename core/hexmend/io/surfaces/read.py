@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.files import check_readable
-from hexmend.io.surfaces.format import Polygons
+from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 from hexmend.mesh.components import components
 
 #: Corners nearer to each other than this, as a share of the diagonal, are one; and a surface whose area is no larger a
