@@ -101,7 +101,10 @@ PARAMETERS: dict[str, dict[str, str]] = {
 
 ATTRIBUTES: dict[str, dict[str, str]] = {
     "Format": {"cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches"},
+    "Iteration": {"figures": "quality", "notes": "diagnostics"},
     "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},
+    "Run": {"reached": "best"},
+    "Step": {"detour": "infeasible", "figures": "quality", "more": "intermediate", "notes": "diagnostics"},
 }
 
 KEYS: dict[str, dict[str, str]] = {}

@@ -116,3 +116,18 @@ def test_a_format_of_a_plugin_may_have_its_keywords_of_version_0_1():
         "a", "A", (".a",), (), str, capabilities=frozenset({Capability.FIXED_NODES}), stored_names=frozenset("b")
     )
     assert old == replace(new, limitations=len)
+
+
+def test_steps_iterations_and_runs_have_the_attributes_of_version_0_1():
+    mesh = hx.gallery.make("cube", size=8, scramble=0.2)
+    quality = hx.measure(mesh.points, mesh.hexes)
+    step = hx.Step(mesh.points, notes={"cuts": 2}, more=True, detour=True, figures=quality)
+    assert step.diagnostics is step.notes == {"cuts": 2}
+    assert (step.intermediate, step.infeasible, step.more, step.detour) == (True, True, True, True)
+    assert step.quality is step.figures is quality
+    run = hx.iterate(mesh, "laplacian", max_iterations=1)
+    iteration = next(run)
+    assert iteration.figures is iteration.quality
+    assert iteration.notes is iteration.diagnostics
+    assert run.reached is run.best
+    assert not hasattr(step, "mroe")

@@ -64,8 +64,8 @@ class Film:
         history.add(record, run.start)
         follow(run, lambda iteration: history.add(record, iteration))
         numbers = shown(history, record, most)
-        start = Moment(mesh.points, run.start.figures, "before the run")
-        movement = Displacement(mesh, start, mesh.points, run.start.figures) if args.arrows else None
+        start = Moment(mesh.points, run.start.quality, "before the run")
+        movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
         taken = shots(record, numbers, lambda number: history.state(Shown(record, number), mesh))
         frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)
         write_film(path, [*frames], rate)

@@ -81,7 +81,7 @@ class History:
 
         Nothing is kept of a run that has been removed: its thread may still make the iteration that it was at.
         """
-        numbers = {name: value for name, value in iteration.notes.items() if isinstance(value, (int, float, str))}
+        numbers = {name: value for name, value in iteration.diagnostics.items() if isinstance(value, (int, float, str))}
         row = numbers | iteration.row()
         offsets = record.compact(iteration.points) if iteration.number and places else None
         with self._lock:

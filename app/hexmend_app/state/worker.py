@@ -140,8 +140,8 @@ class Worker:
                     self._keep(iteration)
                     self._report(iteration, self._hit(before, iteration))
             run.close()
-            if run.reached is not run.last:
-                self._report(run.reached)
+            if run.best is not run.last:
+                self._report(run.best)
             result = run.result()
             self.advice = advise(result)
             return result
@@ -159,8 +159,8 @@ class Worker:
     def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
         moved = self._order[0].with_points(iteration.points)
         for metric in self.metrics:
-            values(metric, moved.points, moved.hexes, iteration.figures)
-        self.last = Frame(iteration, State(moved, iteration.figures, summarise(moved, iteration.figures)), hit)
+            values(metric, moved.points, moved.hexes, iteration.quality)
+        self.last = Frame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
         self.mailbox.put(self.last)
 
     def _may_go_on(self, run: Run) -> bool:

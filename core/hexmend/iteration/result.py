@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from hexmend.aliases import exports
+from hexmend.aliases import exports, reads_old_names
 from hexmend.boundary import SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.html_repr import html_of
@@ -57,6 +57,7 @@ class ActiveSet:
     locked: np.ndarray
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Step:
     """One step of a smoother.
@@ -65,15 +66,15 @@ class Step:
     ----------
     points : (n, 3) float64
         Never changed after it was yielded.
-    notes : mapping
+    diagnostics : mapping
         What the method wants to tell of the step: delta, moves taken back...
     decision : str
         A sentence, where the method has just decided how to go on; the run's message repeats it.
-    more : bool
+    intermediate : bool
         True while another stage is to come: however little this step moved, the run has not converged.
-    figures : ElementQuality, optional
+    quality : ElementQuality, optional
         `measure(points, hexes)`, where the method has needed it itself.
-    detour : bool
+    infeasible : bool
         True where nodes are further than the method may leave them: such an iterate is no result.
     limits : ActiveSet, optional
         What lets the method go no further, where it has found that out.
@@ -82,15 +83,16 @@ class Step:
     """
 
     points: np.ndarray
-    notes: Mapping[str, Any] = field(default_factory=dict)
+    diagnostics: Mapping[str, Any] = field(default_factory=dict)
     decision: str = ""
-    more: bool = False
-    figures: ElementQuality | None = None
-    detour: bool = False
+    intermediate: bool = False
+    quality: ElementQuality | None = None
+    infeasible: bool = False
     limits: ActiveSet | None = None
     power: ObjectiveNorm | None = None
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Iteration:
     """A step as the run recorded it.
@@ -101,13 +103,13 @@ class Iteration:
         0 is the mesh before the first step.
     points : (n, 3) float64
         Read-only.
-    figures : ElementQuality
+    quality : ElementQuality
         Of every hex at these points.
     seconds : float
         Spent in the smoother since its set-up ended.
     largest_move : float
         Of any node in this step, in mean edge lengths of the initial mesh: what Algorithm A.1 looks at.
-    notes : mapping
+    diagnostics : mapping
         From the step, and "stage" (the number of the recipe's, from 1) and "method" (the name of the one at work).
     power : ObjectiveNorm
         p and offset of the objective that is recorded: the one that the step was to lower, or, where the step names
@@ -116,10 +118,10 @@ class Iteration:
 
     number: int
     points: np.ndarray
-    figures: ElementQuality
+    quality: ElementQuality
     seconds: float
     largest_move: float
-    notes: Mapping[str, Any] = field(default_factory=dict)
+    diagnostics: Mapping[str, Any] = field(default_factory=dict)
     power: ObjectiveNorm = SQUARES
 
     @property
@@ -128,7 +130,7 @@ class Iteration:
 
         It rises where a step was not made to lower it: while mend raises the least scaled Jacobian, for example.
         """
-        return objective(self.figures, *self.power)
+        return objective(self.quality, *self.power)
 
     def row(self) -> dict[str, float | int | str | None]:
         """The row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
@@ -141,9 +143,9 @@ class Iteration:
             "seconds": self.seconds,
             "objective": self.objective,
             "objective_formula": self.power.formula,
-            "q_min": float(self.figures.q.min()),
-            "q_mean": float(self.figures.q.mean()),
-            "inverted": self.figures.n_inverted,
+            "q_min": float(self.quality.q.min()),
+            "q_mean": float(self.quality.q.mean()),
+            "inverted": self.quality.n_inverted,
             "largest_move": self.largest_move,
         }
 
@@ -202,7 +204,7 @@ class Result:
     outcome : Outcome
         Of the last stage.
     message : str
-        The outcome with its figures, in sentences.
+        The outcome with the figures it was reached with, in sentences.
     iterations : int
     kept : int
         Number of the iteration that is the result.

@@ -55,7 +55,7 @@ def explained(smoother: Smoother, mesh: Mesh, node: int) -> NodeStep:
     step = next(steps, None)
     steps.close()
     after = mesh.points[node].copy() if step is None else step.points[node].copy()
-    notes = {} if step is None else step.notes
+    notes = {} if step is None else step.diagnostics
     stays = StepStatus.FINISHED if step is None else StepStatus.STAYS
     return straight_step(smoother, mesh, node, after, stays=stays, notes=notes)
 

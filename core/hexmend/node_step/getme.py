@@ -26,7 +26,8 @@ def _(smoother: GETMe, mesh: Mesh, node: int) -> NodeStep:
     weights = weights / weights.sum()
     pulls = tuple(Pull("hex", *row) for row in zip(hexes.tolist(), places, weights.tolist(), strict=True))
     step = _next(smoother, mesh)
-    return straight_step(smoother, mesh, node, step.points[node].copy(), weights @ places, pulls, notes=step.notes)
+    after = step.points[node].copy()
+    return straight_step(smoother, mesh, node, after, weights @ places, pulls, notes=step.diagnostics)
 
 
 @explained.register
@@ -35,7 +36,7 @@ def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
     pulls = tuple(Pull("hex", h, place, None) for h, place in zip(hexes.tolist(), places, strict=True))
     step = _next(smoother, mesh)
     after = step.points[node].copy()
-    return straight_step(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.STAYS, notes=step.notes)
+    return straight_step(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.STAYS, notes=step.diagnostics)
 
 
 @explained.register

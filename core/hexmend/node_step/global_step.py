@@ -69,5 +69,5 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
         shift=taken.found.shift,
         trials=tuple(search.trials),
         curve=curve,
-        notes=taken.notes(delta),
+        notes=taken.diagnostics(delta),
     )

@@ -41,7 +41,7 @@ class Descent:
     alpha: float
     cuts: int
 
-    def notes(self, delta: float) -> dict[str, float | int]:
+    def diagnostics(self, delta: float) -> dict[str, float | int]:
         """What a `Step` tells of it."""
         return {
             "delta": delta,

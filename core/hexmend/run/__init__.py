@@ -57,7 +57,7 @@ def iterate(
     >>> import hexmend as hx
     >>> mesh = hx.gallery.make("cube", size=64, scramble=0.3)
     >>> for it in hx.iterate(mesh, hx.LocalSteepestDescent(), max_iterations=3):
-    ...     print(it.number, it.figures.n_inverted == 0)
+    ...     print(it.number, it.quality.n_inverted == 0)
     1 True
     2 True
     3 True

@@ -75,17 +75,17 @@ class Breakpoints:
     def _inverted(self, before: Iteration, now: Iteration) -> Hit | None:
         if not self.inverts:
             return None
-        hexes = np.flatnonzero(now.figures.inverted & ~before.figures.inverted)
+        hexes = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
         if not hexes.size:
             return None
         more = f" and {hexes.size - 1:,} more" if hexes.size > 1 else ""
         return Hit(f"Hex {hexes[0]}{more} inverted", tuple(int(h) for h in hexes))
 
     def _fell(self, before: Iteration, now: Iteration) -> Hit | None:
-        least, worst = before.figures.q.min(), int(now.figures.q.argmin())
-        if not (self.q_min_falls and now.figures.q[worst] < least):
+        least, worst = before.quality.q.min(), int(now.quality.q.argmin())
+        if not (self.q_min_falls and now.quality.q[worst] < least):
             return None
-        return Hit(f"q min fell from {least:.4f} to {now.figures.q[worst]:.4f}, at hex {worst}", (worst,))
+        return Hit(f"q min fell from {least:.4f} to {now.quality.q[worst]:.4f}, at hex {worst}", (worst,))
 
     def _moved(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
         if self.node is None:
@@ -98,13 +98,13 @@ class Breakpoints:
     def _changed(self, before: Iteration, now: Iteration) -> Hit | None:
         if self.hex is None:
             return None
-        was, is_now = float(before.figures.q[self.hex]), float(now.figures.q[self.hex])
+        was, is_now = float(before.quality.q[self.hex]), float(now.quality.q[self.hex])
         if not abs(is_now - was) > self.change:
             return None
         return Hit(f"q of hex {self.hex} went from {was:.4f} to {is_now:.4f}", (self.hex,))
 
     def _cut(self, now: Iteration) -> Hit | None:
-        cuts = now.notes.get("cuts", 0)
+        cuts = now.diagnostics.get("cuts", 0)
         if self.cuts is None or not cuts > self.cuts:
             return None
-        return Hit(f"The line search cut the step {cuts} times, to {now.notes.get('step_length', 0.0):.3g}")
+        return Hit(f"The line search cut the step {cuts} times, to {now.diagnostics.get('step_length', 0.0):.3g}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.boundary.features import DEGREES
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
@@ -16,6 +17,7 @@ from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
 
 
+@reads_old_names
 class Run(Iterator[Iteration]):
     """A smoother or a recipe at work on a mesh: an iterator of iterations that knows its record and its outcome.
 
@@ -37,7 +39,7 @@ class Run(Iterator[Iteration]):
         Number 0: the mesh as given.
     last : Iteration
         The newest.
-    reached : Iteration
+    best : Iteration
         The one that is the run's result: the best of the stage at hand by the rank of the method at work, of equals
         the last; the last in any case under `StoppingCriteria.keep_last`.
     history : list of dict
@@ -52,9 +54,9 @@ class Run(Iterator[Iteration]):
         self.mesh = mesh
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
-        notes = {"stage": 1, "method": self._stages[0].smoother.name}
-        figures = measure(mesh.points, mesh.hexes)
-        self.start = Iteration(0, mesh.points, figures, 0.0, 0.0, notes, self._stages[0].smoother.power)
+        diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
+        quality = measure(mesh.points, mesh.hexes)
+        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.power)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
@@ -124,9 +126,9 @@ class Run(Iterator[Iteration]):
         return self._leg.last
 
     @property
-    def reached(self) -> Iteration:
+    def best(self) -> Iteration:
         """See the class."""
-        return self._leg.reached
+        return self._leg.best
 
     @property
     def stage(self) -> Stage:
@@ -169,7 +171,7 @@ class Run(Iterator[Iteration]):
         return self._message(*self._summaries())
 
     def _message(self, before: Summary, after: Summary) -> str:
-        at, inverted = self.last, self.reached.figures.n_inverted
+        at, inverted = self.last, self.best.quality.n_inverted
         said = self.outcome.value if self.outcome is not None else "Running."
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
@@ -178,19 +180,19 @@ class Run(Iterator[Iteration]):
             decided = decided[:-1]  # it says how the last one is
         words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
-            words.append(kept(self.reached.number))
+            words.append(kept(self.best.number))
         instead = "" if inverted else self.stage.smoother.instead(regressions(before, after))
         return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
 
     @property
     def _kept_last(self) -> bool:
-        return self.reached is self.last
+        return self.best is self.last
 
     def result(self) -> Result:
         """The record of the run as far as it went."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
-        mesh = self.mesh.with_points(self.reached.points)
+        mesh = self.mesh.with_points(self.best.points)
         return Result(
             mesh=mesh,
             before=before,
@@ -200,7 +202,7 @@ class Run(Iterator[Iteration]):
             outcome=self.outcome or Outcome.STOPPED,
             message=self._message(before, after),
             iterations=self.last.number,
-            kept=self.reached.number,
+            kept=self.best.number,
             seconds=self.last.seconds,
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
@@ -216,8 +218,8 @@ class Run(Iterator[Iteration]):
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Of the mesh as given and of what was reached."""
-        mesh = self.mesh.with_points(self.reached.points)
-        return summarise(self.mesh, self.start.figures), summarise(mesh, self.reached.figures)
+        mesh = self.mesh.with_points(self.best.points)
+        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
 
     @property
     def _leg(self) -> StageRun:
@@ -228,11 +230,11 @@ class Run(Iterator[Iteration]):
         return self._stages[self._leg.number :]
 
     def _begin_the_next_stage(self) -> None:
-        done, last, reached = self._leg, self.last, self.reached
-        kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
+        done, last, best = self._leg, self.last, self.best
+        kept = f" Kept of it is iteration {best.number}." if best is not last else ""
         count = iterations(last.number - done.since.number)
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._legs.append(StageRun(self.mesh, self._to_come[0], done.number + 1, reached, last))
+        self._legs.append(StageRun(self.mesh, self._to_come[0], done.number + 1, best, last))
         self._settle()
 
     def _settle(self) -> None:

@@ -44,7 +44,7 @@ class StageRun:
     ----------
     at : Iteration
         Where the nodes are.
-    last, reached : Iteration
+    last, best : Iteration
         See `Run`.
     since : Iteration
         The run's newest as the stage began.
@@ -87,7 +87,7 @@ class StageRun:
         return self.stage.smoother
 
     @property
-    def reached(self) -> Iteration:
+    def best(self) -> Iteration:
         """See `Run`."""
         return self.at if self.stage.stop.keep_last else self._best
 
@@ -113,16 +113,18 @@ class StageRun:
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
             return None
-        figures = step.figures if step.figures is not None else measure(points, self._hexes)
-        notes = {**step.notes, "stage": self.number, "method": self.smoother.name}
+        quality = step.quality if step.quality is not None else measure(points, self._hexes)
+        diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
         now = self.last = self.at = Iteration(
-            self.last.number + 1, points, figures, seconds, move, notes, step.power or self.smoother.power
+            self.last.number + 1, points, quality, seconds, move, diagnostics, step.power or self.smoother.power
         )
         self.decision, self.limits = step.decision, step.limits or self.limits
-        if not step.detour:
+        if not step.infeasible:
             self._consider(now)
         if (
-            self._move(moves, move) < self.stage.stop.tolerance and not step.more and not self._falling(before, now)
+            self._move(moves, move) < self.stage.stop.tolerance
+            and not step.intermediate
+            and not self._falling(before, now)
         ):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
@@ -169,7 +171,7 @@ class StageRun:
         )
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
-        return self.smoother.rank(self._origin.figures, iteration.figures)
+        return self.smoother.rank(self._origin.quality, iteration.quality)
 
     def _consider(self, iteration: Iteration) -> None:
         """Take it for the best of the stage if none before it was better."""
@@ -182,10 +184,10 @@ class StageRun:
         if not self.smoother.optimises:
             return False
         power = now.power  # the step before may have had another objective
-        then, later = objective(before.figures, *power), now.objective
+        then, later = objective(before.quality, *power), now.objective
         if then is None or later is None:
             return False
-        least = power.least * now.figures.q.size
+        least = power.least * now.quality.q.size
         return then - later > max(_FALLING * (then - least), _WORTH * (power.of(1.0) - power.least))
 
     def _end_at_a_limit(self) -> None:

@@ -47,12 +47,12 @@ class General(SlidingSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         mesh = mesh.keeping_surface()
         points = yield from self._getme(mesh)
-        figures = measure(points, mesh.hexes)
-        if not figures.n_inverted and figures.q.min() >= self.q_target:
+        quality = measure(points, mesh.hexes)
+        if not quality.n_inverted and quality.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
         ratio = size_ratio(points, mesh.hexes)
         sizes = f"{'similar' if ratio <= self.max_size_ratio else 'different'} sizes (ratio {ratio:.2g})"
-        count = figures.n_inverted
+        count = quality.n_inverted
         inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
         chosen = METHODS["global-nr" if ratio <= self.max_size_ratio and not count else "local-sd"]
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
@@ -67,11 +67,11 @@ class General(SlidingSmoother):
         """GETMe to its end; returns the points."""
         points, unit = mesh.points, mesh.mean_edge_length or 1.0
         getme = METHODS["getme"](**self._sliding_values()).steps(mesh)
-        yield dataclasses.replace(next(getme), more=True)
+        yield dataclasses.replace(next(getme), intermediate=True)
         for _, step in zip(range(self.getme_iterations), getme, strict=False):
             move = float(np.sqrt(np.square(step.points - points).sum(axis=1).max())) / unit
             points = step.points
-            yield dataclasses.replace(step, more=True)
+            yield dataclasses.replace(step, intermediate=True)
             if move < self.getme_tolerance:
                 break
         return points

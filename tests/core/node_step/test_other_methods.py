@@ -31,9 +31,9 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
         step = explain(mesh, smoother, node)
         np.testing.assert_array_equal(step.after, step_of_all.points[node])
         assert step.whole
-        assert step.delta == step_of_all.notes["delta"]
-        assert (step.alpha, step.cuts) == (step_of_all.notes["step_length"], step_of_all.notes["cuts"])
-        assert step.shift == step_of_all.notes["shift"]
+        assert step.delta == step_of_all.diagnostics["delta"]
+        assert (step.alpha, step.cuts) == (step_of_all.diagnostics["step_length"], step_of_all.diagnostics["cuts"])
+        assert step.shift == step_of_all.diagnostics["shift"]
         row, x = int(np.flatnonzero(energy.nodes == node)[0]), energy.to_edge_units(mesh.points)
         assert step.energy == energy.value(x, step.delta)
         assert step.energy_after == pytest.approx(

@@ -15,8 +15,8 @@ from hexmend.run.breakpoints import Breakpoints
 MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
 
 
-def iteration(number, points, **notes):
-    return Iteration(number, points, measure(points, MESH.hexes), 0.0, 0.0, notes)
+def iteration(number, points, **diagnostics):
+    return Iteration(number, points, measure(points, MESH.hexes), 0.0, 0.0, diagnostics)
 
 
 @pytest.fixture(scope="module")
@@ -33,17 +33,17 @@ def test_nothing_is_asked_for_by_default(run):
 def test_an_element_that_inverts_is_named(run):
     for before, now in pairwise(run):
         hit = Breakpoints(inverts=True).hit(before, now, 1.0)
-        expected = np.flatnonzero(now.figures.inverted & ~before.figures.inverted)
+        expected = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
         assert (hit is not None) == bool(len(expected))
         if hit is not None:
             assert hit.hexes == tuple(expected)
-    assert run[-1].figures.n_inverted > 0
+    assert run[-1].quality.n_inverted > 0
 
 
 def test_q_min_falling_is_told_with_its_element(run):
-    before, now = run[0], next(one for one in run if one.figures.q.min() < run[0].figures.q.min())
+    before, now = run[0], next(one for one in run if one.quality.q.min() < run[0].quality.q.min())
     hit = Breakpoints(q_min_falls=True).hit(before, now, 1.0)
-    assert hit.hexes == (int(now.figures.q.argmin()),)
+    assert hit.hexes == (int(now.quality.q.argmin()),)
     assert Breakpoints(q_min_falls=True).hit(now, before, 1.0) is None
 
 
@@ -54,7 +54,7 @@ def test_moves_and_changes_are_measured_against_what_is_asked(run):
     unit = MESH.mean_edge_length
     assert Breakpoints(node=node, move=moves[node] / unit * 0.99).hit(before, now, unit).nodes == (node,)
     assert Breakpoints(node=node, move=moves[node] / unit * 1.01).hit(before, now, unit) is None
-    changes = np.abs(now.figures.q - before.figures.q)
+    changes = np.abs(now.quality.q - before.quality.q)
     hex = int(changes.argmax())
     assert Breakpoints(hex=hex, change=changes[hex] * 0.99).hit(before, now, unit).hexes == (hex,)
     assert Breakpoints(hex=hex, change=changes[hex] * 1.01).hit(before, now, unit) is None
@@ -78,8 +78,8 @@ def test_how_many_elements_inverted_is_said(run):
     def said(*hexes):
         sigma = np.ones(MESH.n_hexes)
         sigma[list(hexes)] = 0.0
-        figures = dataclasses.replace(run[0].figures, sigma=sigma)
-        return Breakpoints(inverts=True).hit(run[0], dataclasses.replace(run[1], figures=figures), 1.0).sentence
+        quality = dataclasses.replace(run[0].quality, sigma=sigma)
+        return Breakpoints(inverts=True).hit(run[0], dataclasses.replace(run[1], quality=quality), 1.0).sentence
 
     assert said(4) == "Hex 4 inverted"
     assert said(4, 9) == "Hex 4 and 1 more inverted"

@@ -21,7 +21,7 @@ class Shifts(Smoother):
     name = "shifts"
     title = help = source = "shifts"
     more_until: int = 0
-    detour_until: int = 0
+    infeasible_until: int = 0
 
     def steps(self, mesh):
         points = mesh.points
@@ -29,7 +29,7 @@ class Shifts(Smoother):
         for number in range(20):
             points = points.copy()
             points[MIDDLE] += np.array([3.0, 4.0, 0.0]) / 20 * 0.1**number * (-1) ** number
-            yield Step(points, more=number < self.more_until, detour=number < self.detour_until)
+            yield Step(points, intermediate=number < self.more_until, infeasible=number < self.infeasible_until)
 
 
 @pytest.mark.parametrize(("move", "tolerance", "iterations"), [
@@ -56,8 +56,8 @@ def test_a_run_has_not_converged_while_another_stage_is_to_come():
     assert len(smooth(grid(2), Shifts(more_until=3), StoppingCriteria(tolerance=1.0)).history) == 5
 
 
-def test_a_detour_is_no_result():
-    result = smooth(grid(2), Shifts(detour_until=20), StoppingCriteria(tolerance=1e-3))
+def test_a_infeasible_is_no_result():
+    result = smooth(grid(2), Shifts(infeasible_until=20), StoppingCriteria(tolerance=1e-3))
     np.testing.assert_array_equal(result.mesh.points, grid(2).points)
 
 

@@ -103,7 +103,7 @@ def test_the_last_is_kept_where_it_is_asked_for(name, mesh):
     run = iterate(mesh, name, LAST)
     for _ in run:
         pass
-    assert run.reached is run.last
+    assert run.best is run.last
     assert "Kept" not in run.message
     np.testing.assert_array_equal(run.result().mesh.points, run.last.points)
 
@@ -131,12 +131,12 @@ def test_what_was_best_before_the_method_was_changed_is_still_kept(bridge):
     run = iterate(bridge, "laplacian", LAST)
     for _ in range(4):
         next(run)
-    assert run.reached.number == 4
+    assert run.best.number == 4
     run.go_on_with("laplacian", SHORT)
-    assert run.reached.number == 3
+    assert run.best.number == 3
     run.go_on_with(METHODS["laplacian"](update="simultaneous"))
     list(run)
-    assert (run.reached.number, run.last.number) == (3, 12)
+    assert (run.best.number, run.last.number) == (3, 12)
 
 
 def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bridge):
@@ -148,7 +148,7 @@ def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bri
     expected = next(iterate(bridge.with_points(newest.points), "local-sd"))
     np.testing.assert_array_equal(taken_over.points, expected.points)
     list(run)
-    assert run.reached.number > 6
+    assert run.best.number > 6
     assert not {"inverted", "q_min"} & set(run.result().worse)
 
 
@@ -209,9 +209,9 @@ def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
     run = iterate(bridge, "laplacian", SHORT)
     for _ in range(12):
         newest = next(run)
-        if run.reached is not newest and newest.figures.q.min() > run.result().before.q_min:
+        if run.best is not newest and newest.quality.q.min() > run.result().before.q_min:
             break
-    kept = run.reached
+    kept = run.best
     assert kept.number < newest.number
     run.go_on_with("local-sd", StoppingCriteria(max_iterations=newest.number))
-    assert run.reached.number == newest.number
+    assert run.best.number == newest.number

@@ -39,7 +39,7 @@ def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name
     run = iterate(mesh, method, StoppingCriteria(max_iterations=25))
     values = []
     for it in run:
-        if it.figures.n_inverted == 0:
+        if it.quality.n_inverted == 0:
             assert it.objective == pytest.approx(of_points(mesh, it.points, power), rel=1e-12)
             values.append(run.history[-1]["objective"])
     assert len(values) > 2
@@ -129,9 +129,9 @@ def test_mend_records_each_p_as_it_is_raised_and_no_objective_rises(offset):
 def test_the_best_iterate_of_a_mend_that_raises_p_is_that_of_the_final_objective():
     mesh = make("five-side", size=500)
     run = iterate(mesh, METHODS["mend"](max_p=16.0), StoppingCriteria(max_iterations=8))
-    kept, values = 0, [objective(run.start.figures, 16.0)]
+    kept, values = 0, [objective(run.start.quality, 16.0)]
     for it in run:
-        values.append(objective(it.figures, 16.0))
+        values.append(objective(it.quality, 16.0))
         kept = it.number if values[-1] <= values[0] else kept
     assert run.history[-1]["objective_formula"] != "Σ η¹⁶"
     assert run.result().kept == kept

@@ -76,8 +76,8 @@ def test_iterations_are_read_only_and_carry_their_figures(mesh):
     for it in iterate(mesh, "laplacian", StoppingCriteria(max_iterations=2)):
         with pytest.raises(ValueError, match="read-only"):
             it.points[0] = 0
-        assert it.figures.q.shape == (mesh.n_hexes,)
-        assert it.row()["q_min"] == it.figures.q.min()
+        assert it.quality.q.shape == (mesh.n_hexes,)
+        assert it.row()["q_min"] == it.quality.q.min()
 
 
 def test_largest_move_is_in_mean_edge_lengths():

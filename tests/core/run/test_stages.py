@@ -41,8 +41,8 @@ def test_the_stages_are_what_the_methods_do_one_after_another(mesh):
 
 def test_numbers_seconds_and_history_go_on_and_every_iteration_names_its_stage(mesh):
     run = iterate(mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2)))
-    assert (run.start.notes["stage"], run.start.notes["method"]) == (1, "getme")
-    seen = [(it.number, it.notes["stage"], it.notes["method"]) for it in run]
+    assert (run.start.diagnostics["stage"], run.start.diagnostics["method"]) == (1, "getme")
+    seen = [(it.number, it.diagnostics["stage"], it.diagnostics["method"]) for it in run]
     assert seen == [(1, 1, "getme"), (2, 1, "getme"), (3, 1, "getme"), (4, 2, "local-sd"), (5, 2, "local-sd")]
     assert [row["iteration"] for row in run.history] == [0, 1, 2, 3, 4, 5]
     seconds = [row["seconds"] for row in run.history]
@@ -138,7 +138,7 @@ def test_the_rest_of_a_stage_is_done_by_another_method(mesh):
     at = [next(run), next(run)][-1]
     run.go_on_with("local-sd")
     rest = list(run)
-    assert [(it.number, it.notes["stage"], it.notes["method"]) for it in rest] == [
+    assert [(it.number, it.diagnostics["stage"], it.diagnostics["method"]) for it in rest] == [
         (3, 1, "local-sd"), (4, 1, "local-sd"), (5, 1, "local-sd"), (6, 2, "mend"),
     ]  # fmt: skip
     expected = next(iterate(mesh.with_points(at.points), "local-sd")).points
@@ -190,7 +190,7 @@ def test_a_stage_that_has_ended_goes_on_under_new_limits_and_the_next_one_follow
     next(run)
     next(run)
     run.go_on_with(METHODS["getme"](relaxation=0.5), StoppingCriteria(max_iterations=3, tolerance=0))
-    assert [it.notes["method"] for it in run] == ["getme", "local-sd"]
+    assert [it.diagnostics["method"] for it in run] == ["getme", "local-sd"]
 
 
 def test_limits_that_are_passed_already_end_the_stage(mesh):

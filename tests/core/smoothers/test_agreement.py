@@ -70,7 +70,7 @@ def test_no_accepted_step_inverts_a_valid_mesh_or_climbs(name, seed, amplitude, 
     for step in itertools.islice(smoother.steps(mesh), 6):
         figures = measure(step.points, mesh.hexes)
         assert figures.n_inverted == 0
-        if not step.more:
+        if not step.intermediate:
             values.append((figures.eta**exponent).sum())
     assert (np.diff(values) <= 1e-9 * values[0]).all()
 

@@ -74,4 +74,4 @@ def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, nam
 
 def test_every_step_of_getme_says_that_more_is_to_come():
     steps = list(itertools.islice(General(getme_iterations=3).steps(make("five-side", size=150)), 6))
-    assert [step.more for step in steps] == [True] * 4 + [False] * 2
+    assert [step.intermediate for step in steps] == [True] * 4 + [False] * 2

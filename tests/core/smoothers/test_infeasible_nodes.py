@@ -61,10 +61,10 @@ def test_where_nothing_slides_a_sweep_is_a_sweep():
 @pytest.mark.parametrize("name", ["local-patch", "local-sd"])
 def test_evaluations_of_nodes_that_slide_are_counted_too(name):
     mesh = slid(ball(3), 0.1, 1)
-    notes = []
+    diagnostics = []
     for boundary in ("fixed", "slide"):
         steps = METHODS[name](boundary=boundary).steps(mesh)
         next(steps)
-        notes.append(next(steps).notes)
-    assert notes[1]["derivatives"] > notes[0]["derivatives"] > 0
-    assert notes[1]["energies"] > notes[0]["energies"] > 0
+        diagnostics.append(next(steps).diagnostics)
+    assert diagnostics[1]["derivatives"] > diagnostics[0]["derivatives"] > 0
+    assert diagnostics[1]["energies"] > diagnostics[0]["energies"] > 0

@@ -93,7 +93,7 @@ def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
         # One and a half times Newton's step gains three eighths of what the slope promises.
         method = METHODS[name](c1=c1, first_step=1.5, boundary=boundary)
         run = iterate(mesh, method, StoppingCriteria(max_iterations=1, tolerance=0))
-        trials.append(sum(step.notes["energies" if "energies" in step.notes else "cuts"] for step in run))
+        trials.append(sum(step.diagnostics["energies" if "energies" in step.diagnostics else "cuts"] for step in run))
     assert trials[0] < trials[1]
 
 
@@ -105,7 +105,7 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
     first = 30.0 if direction == local.STEEPEST_DESCENT else 1.5  # far enough to gain too little
     for node in np.flatnonzero(mesh.free):
         star = corners[node]
-        _, value, _, _ = local.look(mesh.points, hexes, star, 0.0, 0.05, SQUARES)
+        _, value, _, _ = local.patch_energy(mesh.points, hexes, star, 0.0, 0.05, SQUARES)
         _, _, slope, _, _, alpha, _, trials = local.visit(
             mesh.points, hexes, star, direction, 0.05, SQUARES, first, 0.7, c1, 100
         )
@@ -121,5 +121,5 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
 @pytest.mark.parametrize("name", ["local-sd", "local-nr", "local-mnr"])
 def test_nodes_that_have_converged_cost_few_evaluations(name):
     run = iterate(make("five-side", size=150), METHODS[name](), StoppingCriteria(max_iterations=400, tolerance=0))
-    sweeps = [step.notes["energies"] / step.notes["derivatives"] for step in run]
+    sweeps = [step.diagnostics["energies"] / step.diagnostics["derivatives"] for step in run]
     assert max(sweeps[-50:]) < 3  # where rounding hides what a shorter step would gain, none is tried

@@ -98,7 +98,7 @@ def current_method(run: Run) -> str:
 
 def describe_iteration(run: Run) -> str:
     """Return the quality and the largest move of the newest iteration as text."""
-    quality = run.last.figures
+    quality = run.last.quality
     return (
         f"{quality.n_inverted:,} inverted, q min {quality.q.min():.4f}, q mean {quality.q.mean():.4f}, "
         f"move {run.last.largest_move:.2g}"

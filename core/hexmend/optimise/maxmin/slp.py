@@ -61,10 +61,10 @@ class MaxMinStep:
     corners: int
     radius: float
 
-    def step(self, detour: bool) -> Step:
-        """As a smoother yields it; see `Step.detour`."""
-        notes = {"least": self.least, "corners": self.corners, "radius": self.radius}
-        return Step(self.points, notes, more=True, detour=detour)
+    def step(self, infeasible: bool) -> Step:
+        """As a smoother yields it; see `Step.infeasible`."""
+        diagnostics = {"least": self.least, "corners": self.corners, "radius": self.radius}
+        return Step(self.points, diagnostics, intermediate=True, infeasible=infeasible)
 
 
 @dataclass(frozen=True, eq=False)

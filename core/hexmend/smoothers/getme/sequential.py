@@ -50,15 +50,15 @@ class SequentialGETMe(SlidingSmoother):
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
         sweeps = Sweeps(sliding, mesh.n_nodes)
-        points, figures = mesh.points, measure(mesh.points, mesh.hexes)
+        points, quality = mesh.points, measure(mesh.points, mesh.hexes)
         relaxation = self.relaxation
         yield Step(points)
         while relaxation >= self.relaxation / 2**HALVINGS:
-            points, taken_back = sweeps(points, partial(self._sweep, mesh, sliding, figures, relaxation))
-            before, figures = figures, measure(points, mesh.hexes)
+            points, taken_back = sweeps(points, partial(self._sweep, mesh, sliding, quality, relaxation))
+            before, quality = quality, measure(points, mesh.hexes)
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
-            yield Step(points, {"relaxation": relaxation, "taken_back": taken_back}, more=True, figures=figures)
-            if not np.any((standing(figures) - standing(before))[:2] > RISE):
+            yield Step(points, {"relaxation": relaxation, "taken_back": taken_back}, intermediate=True, quality=quality)
+            if not np.any((standing(quality) - standing(before))[:2] > RISE):
                 relaxation /= 2
         return Outcome.NO_IMPROVEMENT
 
@@ -66,7 +66,7 @@ class SequentialGETMe(SlidingSmoother):
         self,
         mesh: Mesh,
         sliding: SlidingBoundary | None,
-        figures: ElementQuality,
+        quality: ElementQuality,
         relaxation: float,
         moved: np.ndarray,
         stays: np.ndarray,
@@ -74,6 +74,6 @@ class SequentialGETMe(SlidingSmoother):
         """Move the points, those apart that have to stay; returns how many steps were taken back."""
         free, surface = mesh.free & ~stays, None if sliding is None else sliding.sliding_surface
         candidates = np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32)
-        q, sound = figures.q.copy(), ~figures.inverted
+        q, sound = quality.q.copy(), ~quality.inverted
         settings = kernels.WorstFirstSettings(self.scaling, relaxation, self.penalty, self.rejection_penalty)
         return kernels.sweep(moved, mesh.topology.hex_mesh, free, candidates, q, sound, settings, surface)

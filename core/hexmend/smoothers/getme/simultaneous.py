@@ -49,21 +49,21 @@ class GETMe(SlidingSmoother):
         hex_mesh = mesh.topology.hex_mesh
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         places = np.empty((mesh.n_hexes, 8, 3))
-        points, figures = mesh.points, measure(mesh.points, mesh.hexes)
-        best = standing(figures)
+        points, quality = mesh.points, measure(mesh.points, mesh.hexes)
+        best = standing(quality)
         idle = 0
         yield Step(points)
         while idle < self.patience:
             element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
-            kernels.weighted_means(places, self.weigh(figures.q), hex_mesh, nodes, moved)
+            kernels.weighted_means(places, self.weigh(quality.q), hex_mesh, nodes, moved)
             if sliding is not None:
                 moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
-            points, figures, relaxed = _without_harm(mesh, points, figures, moved, sliding)
-            now = standing(figures)
+            points, quality, relaxed = _without_harm(mesh, points, quality, moved, sliding)
+            now = standing(quality)
             idle = 0 if np.any(now > best + RISE) else idle + 1
             best = np.maximum(best, now)
-            yield Step(points, {"relaxed_nodes": relaxed}, figures=figures)
+            yield Step(points, {"relaxed_nodes": relaxed}, quality=quality)
         return Outcome.NO_IMPROVEMENT
 
     def weigh(self, q: np.ndarray) -> np.ndarray:
@@ -75,23 +75,23 @@ class GETMe(SlidingSmoother):
         return np.ones(len(q))
 
 
-def standing(figures: ElementQuality) -> np.ndarray:
+def standing(quality: ElementQuality) -> np.ndarray:
     """What a heuristic wants to raise: less inverted hexes, q_min, q_mean; (3,)."""
-    return np.array([-figures.n_inverted, figures.q.min(), figures.q.mean()])
+    return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])
 
 
 def _without_harm(
-    mesh: Mesh, points: np.ndarray, figures: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
+    mesh: Mesh, points: np.ndarray, quality: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
-    """The moved points, relaxed where a hex that was sound would be inverted; their figures; how many were relaxed."""
+    """The moved points, relaxed where a hex that was sound would be inverted; their quality; how many were relaxed."""
     after = measure(moved, mesh.hexes)
-    harmed = np.flatnonzero(after.inverted & ~figures.inverted).astype(np.int32)
+    harmed = np.flatnonzero(after.inverted & ~quality.inverted).astype(np.int32)
     if not harmed.size and (sliding is None or not sliding.refused(points, moved).size):
         return moved, after, 0
-    relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~figures.inverted, harmed, moved)
+    relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~quality.inverted, harmed, moved)
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
     moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
     # A relaxed step that is put back may harm again: then it is not taken at all.
-    moved = sliding.held(points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~figures.inverted])
+    moved = sliding.held(points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted])
     return moved, measure(moved, mesh.hexes), relaxed

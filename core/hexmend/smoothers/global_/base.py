@@ -60,4 +60,4 @@ class GlobalDescent(Optimiser):
                 return Outcome.NO_DESCENT
             x = taken.x
             points = energy.to_mesh_units(x)
-            yield Step(points, taken.notes(delta))
+            yield Step(points, taken.diagnostics(delta))

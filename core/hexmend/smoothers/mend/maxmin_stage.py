@@ -27,7 +27,7 @@ def raise_least(
     aim: float = np.inf,
     lifts: float = -np.inf,
     clusters: int = 1,
-    detour: bool = False,
+    infeasible: bool = False,
 ) -> Generator[Step, None, ActiveCorners]:
     """Raise the least scaled Jacobian.
 
@@ -40,8 +40,8 @@ def raise_least(
     aim, lifts : float
     clusters : int
         How many groups of corners that hold each other are left behind, at most.
-    detour : bool
-        See `Step.detour`.
+    infeasible : bool
+        See `Step.infeasible`.
 
     Returns
     -------
@@ -49,12 +49,12 @@ def raise_least(
         What held the least at first.
     """
     first = None
-    yield Step(raising.points, {"least": raising.corners.least}, more=True, detour=detour)
+    yield Step(raising.points, {"least": raising.corners.least}, intermediate=True, infeasible=infeasible)
     while True:
         for number, step in enumerate(raising.steps(aim)):
             limit = step if isinstance(step, ActiveCorners) else None
             if limit is None and number % TOGETHER == 0:
-                yield step.step(detour)
+                yield step.step(infeasible)
         if not limit.hexes.size or limit.least >= aim:
             break
         if limit.least < lifts and raising.lift(limit):
@@ -76,14 +76,14 @@ def lifted(
     """
     envelope, corners = raising.envelope, raising.corners
     envelope.room, envelope.turns = max(WIDE * raising.mesh.mean_edge_length, room), True
-    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, detour=True)
+    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, infeasible=True)
     for step in islice(raising.into(room), 0, None, TOGETHER):
-        yield step.step(detour=True)
+        yield step.step(infeasible=True)
     envelope.turns = False
     turned = envelope.sliding.turned(envelope.sliding.points, raising.points).size > 0
     far = envelope.largest_deviation(raising.points) > room * (1 + NEAR_ENOUGH)
     if turned or far or corners.lowest < other.corners.lowest:
-        yield Step(other.points, {"least": other.corners.lowest}, more=True)
+        yield Step(other.points, {"least": other.corners.lowest}, intermediate=True)
         return other, limit
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 

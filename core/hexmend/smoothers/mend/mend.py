@@ -138,7 +138,7 @@ class Mend(ObjectiveSmoother):
         if self.slides:
             words.append(what_sliding_freed(given, points))
         if any(words) or outcome is Outcome.NO_IMPROVEMENT:
-            yield Step(points, decision=" ".join(filter(None, words)), more=True, limits=limits)
+            yield Step(points, decision=" ".join(filter(None, words)), intermediate=True, limits=limits)
         return outcome
 
     def _shaped(self, mesh: Mesh, energy: MeshEnergy, more: bool) -> Generator[Step, None, tuple[np.ndarray, Outcome]]:
@@ -147,7 +147,7 @@ class Mend(ObjectiveSmoother):
         energy = energy.with_objective(energy.power, locked)
         points, left_out = yield from self._untangled(mesh, energy, locked)
         if left_out.any() and not self.slides:
-            yield Step(points, decision=what_is_left(left_out, locked), more=True, power=energy.power)
+            yield Step(points, decision=what_is_left(left_out, locked), intermediate=True, power=energy.power)
         return (yield from self._optimum(mesh, energy, points, left_out, more))
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -161,7 +161,7 @@ class Mend(ObjectiveSmoother):
         p, offset = self.power
         with np.errstate(over="ignore"):  # beside the barrier
             before, after = (
-                np.power(figures.eta[~figures.inverted] + (1 - offset), p).sum() for figures in (start, now)
+                np.power(quality.eta[~quality.inverted] + (1 - offset), p).sum() for quality in (start, now)
             )
         return now.n_inverted, harmed, after > before
 
@@ -180,13 +180,13 @@ class Mend(ObjectiveSmoother):
     ) -> Generator[Step, None, tuple[np.ndarray, np.ndarray]]:
         """Mend what can be mended; returns the points and the corners that are to be left out from there on."""
         points, e = mesh.points, self.initial_epsilon
-        figures = measure(points, mesh.hexes)
-        near = brought_near(mesh, figures)
+        quality = measure(points, mesh.hexes)
+        near = brought_near(mesh, quality)
         if near is not points:
-            points, figures = near, measure(near, mesh.hexes)
-            yield Step(points, more=True, figures=figures, power=energy.power)
+            points, quality = near, measure(near, mesh.hexes)
+            yield Step(points, intermediate=True, quality=quality, power=energy.power)
         x = energy.to_edge_units(points)
-        tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
+        tangled, worst = tangled_in(points, mesh.hexes, locked, quality)
         least, idle = tangled, 0
         patience = SLIDING_PATIENCE if energy.faceted else PATIENCE
         while tangled and idle < patience and e > LEAST:
@@ -199,18 +199,18 @@ class Mend(ObjectiveSmoother):
                 if taken is None or taken.alpha == 0:
                     break
                 x, points = taken.x, energy.to_mesh_units(taken.x)
-                figures = measure(points, mesh.hexes)
-                yield Step(points, taken.notes(delta), more=True, figures=figures, power=energy.power)
-                tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
+                quality = measure(points, mesh.hexes)
+                yield Step(points, taken.diagnostics(delta), intermediate=True, quality=quality, power=energy.power)
+                tangled, worst = tangled_in(points, mesh.hexes, locked, quality)
                 if not tangled:
                     break
             if tangled:
-                x = local_sweeps(energy, x, figures.inverted, locked, delta, sweeps)
+                x = local_sweeps(energy, x, quality.inverted, locked, delta, sweeps)
                 points = energy.to_mesh_units(x)
-                figures = measure(points, mesh.hexes)
-                notes = {"delta": delta, "sweeps": sweeps}
-                yield Step(points, notes, more=True, figures=figures, power=energy.power)
-                tangled, worst = tangled_in(points, mesh.hexes, locked, figures)
+                quality = measure(points, mesh.hexes)
+                diagnostics = {"delta": delta, "sweeps": sweeps}
+                yield Step(points, diagnostics, intermediate=True, quality=quality, power=energy.power)
+                tangled, worst = tangled_in(points, mesh.hexes, locked, quality)
             idle = 0 if tangled < least else idle + 1
             least = min(least, tangled)
             e *= FALL
@@ -240,7 +240,7 @@ class Mend(ObjectiveSmoother):
                     return points, Outcome.NO_IMPROVEMENT
                 move = float(np.sqrt(np.square(taken.x - energy.to_edge_units(points)).sum(axis=1).max()))
                 x, points, whole = taken.x, energy.to_mesh_units(taken.x), taken.cuts == 0
-                yield Step(points, taken.notes(0.0) | {"p": p}, more=rises or more, power=energy.power)
+                yield Step(points, taken.diagnostics(0.0) | {"p": p}, intermediate=rises or more, power=energy.power)
                 if rises and move < SETTLED:
                     break
             if not rises:

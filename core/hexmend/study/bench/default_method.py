@@ -106,7 +106,7 @@ from hexmend.run import StoppingCriteria, iterate
 from hexmend.study.bench.section import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
 run = iterate(mesh, "mend", StoppingCriteria(max_iterations=1000))
-inner = sum(it.notes.get("solver_iterations", 0) for it in run)
+inner = sum(it.diagnostics.get("solver_iterations", 0) for it in run)
 result = run.result()
 row = {
     "hexes": mesh.n_hexes, "inverted": result.before.inverted, "left": result.after.inverted,

@@ -188,7 +188,7 @@ class _Way:
     asked: int = 0
 
     def __call__(self, run: Run) -> Any:
-        counts = [run.last.notes.get(key) for key in ("energies", "derivatives")]
+        counts = [run.last.diagnostics.get(key) for key in ("energies", "derivatives")]
         evaluations = None
         if None not in counts:
             self.asked += sum(counts)

@@ -24,7 +24,7 @@ def test_where_something_has_risen_lately_it_goes_on():
     best, idle = standing(measure(steps[0].points, grid(3).hexes)), 0
     for step in steps[1:]:
         assert idle < 2
-        now = standing(step.figures)
+        now = standing(step.quality)
         idle = 0 if (now > best + 1e-6).any() else idle + 1
         best = np.maximum(best, now)
     assert idle == 2
@@ -46,15 +46,15 @@ def test_weights_are_their_formulas():
 
 def test_sequential_halves_its_share_after_each_sweep_without_a_rise_and_then_ends():
     steps = list(Sequential(relaxation=0.2).steps(grid(3)))[1:]
-    assert [step.notes["relaxation"] for step in steps] == [0.2 / 2**k for k in range(HALVINGS + 1)]
-    assert all(step.more for step in steps)
+    assert [step.diagnostics["relaxation"] for step in steps] == [0.2 / 2**k for k in range(HALVINGS + 1)]
+    assert all(step.intermediate for step in steps)
 
 
 def test_sequential_keeps_its_share_while_the_least_quality_rises():
     mesh = scrambled(grid(3), 0.3)
     steps = list(itertools.islice(Sequential().steps(mesh), 1, 15))
-    q = [measure(mesh.points, mesh.hexes).q.min(), *(step.figures.q.min() for step in steps)]
-    shares = [step.notes["relaxation"] for step in steps]
+    q = [measure(mesh.points, mesh.hexes).q.min(), *(step.quality.q.min() for step in steps)]
+    shares = [step.diagnostics["relaxation"] for step in steps]
     for k, (now, later) in enumerate(itertools.pairwise(shares)):
         assert later == (now if q[k + 1] - q[k] > 1e-4 else now / 2)
     assert shares[0] == shares[1] == 0.1

@@ -87,7 +87,7 @@ def test_figures_that_come_with_a_step_are_those_of_its_points(name, amplitude):
     mesh = scrambled(grid(4), amplitude)
     steps = list(itertools.islice(METHODS[name]().steps(mesh), 1, 6))
     for step in steps:
-        np.testing.assert_array_equal(step.figures.q, measure(step.points, mesh.hexes).q)
+        np.testing.assert_array_equal(step.quality.q, measure(step.points, mesh.hexes).q)
     assert steps
 
 
@@ -116,7 +116,7 @@ def test_weights_are_finite_and_grow_as_quality_falls():
 def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
     mesh = scrambled(grid(4), amplitude, seed)
     assume(measure(mesh.points, mesh.hexes).n_inverted == 0)
-    least = [step.figures.q.min() for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 12)]
+    least = [step.quality.q.min() for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 12)]
     least.insert(0, measure(mesh.points, mesh.hexes).q.min())
     assert (np.diff(least) >= 0).all()
     assert least[-1] > least[0]
@@ -126,7 +126,7 @@ def test_sequential_never_lowers_q_min_of_a_valid_mesh(seed, amplitude):
 @given(seed=st.integers(0, 2**32 - 1))
 def test_sequential_never_has_more_inverted_hexes_than_before(seed):
     mesh = scrambled(grid(4), 1.0, seed)
-    counts = [step.figures.n_inverted for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 10)]
+    counts = [step.quality.n_inverted for step in itertools.islice(METHODS["getme-sequential"]().steps(mesh), 1, 10)]
     counts.insert(0, measure(mesh.points, mesh.hexes).n_inverted)
     assert counts[0] > 0
     assert (np.diff(counts) <= 0).all()

@@ -90,8 +90,8 @@ def test_what_resists_is_given_up_after_so_many_deltas_that_mended_nothing(bound
     method = mend.Mend(boundary=boundary)
     energy = SlidingEnergy(method.sliding(mesh)) if method.slides else MeshEnergy(mesh)
     monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))
-    deltas = [step.notes["delta"] for step in method._untangled(mesh, energy, mend.locked_corners(mesh))  # noqa: SLF001
-              if "sweeps" in step.notes]  # fmt: skip
+    deltas = [step.diagnostics["delta"] for step in method._untangled(mesh, energy, mend.locked_corners(mesh))  # noqa: SLF001
+              if "sweeps" in step.diagnostics]  # fmt: skip
     assert len(deltas) == (mend.SLIDING_PATIENCE if energy.faceted else mend.PATIENCE)
     assert (np.diff(deltas) < 0).all()
 
@@ -110,10 +110,10 @@ def test_where_few_hexes_are_inverted_they_are_swept_longer_and_the_whole_mesh_s
     monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))  # nothing is ever mended
     monkeypatch.setattr(mend, "FEW", 6 / 27 if few else 5 / 27)
     walk = mend.Mend()._untangled(mesh, MeshEnergy(mesh), mend.locked_corners(mesh))  # noqa: SLF001
-    steps = [step.notes for step in walk]
-    swept = [notes["sweeps"] for notes in steps if "sweeps" in notes]
+    steps = [step.diagnostics for step in walk]
+    swept = [diagnostics["sweeps"] for diagnostics in steps if "sweeps" in diagnostics]
     assert swept == [mend.MANY_SWEEPS if few else mend.SWEEPS] * mend.PATIENCE
-    deltas = list(dict.fromkeys(notes["delta"] for notes in steps))
-    stepped = {deltas.index(notes["delta"]) for notes in steps if "sweeps" not in notes}
+    deltas = list(dict.fromkeys(diagnostics["delta"] for diagnostics in steps))
+    stepped = {deltas.index(diagnostics["delta"]) for diagnostics in steps if "sweeps" not in diagnostics}
     assert stepped <= set(range(2, mend.PATIENCE, 3) if few else range(mend.PATIENCE))
     assert stepped

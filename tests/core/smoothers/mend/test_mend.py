@@ -70,12 +70,12 @@ def test_local_sweeps_leave_the_nodes_of_hexes_that_are_left_out(seed):
     assert (locked & mesh.free).any()
     before, sweeps = mesh.points, 0
     for step in Mend().steps(mesh):
-        if "sweeps" in step.notes:
+        if "sweeps" in step.diagnostics:
             moved = (step.points != before).any(axis=1)
             assert not moved[locked].any()
             sweeps += moved.any()
         before = step.points
-        if step.notes.get("delta") == 0:
+        if step.diagnostics.get("delta") == 0:
             break
     assert sweeps
 
@@ -116,7 +116,7 @@ def test_what_fixed_nodes_lock_is_left_out_and_said_and_spoils_nothing_else(scra
 
 def test_steps_of_untangling_soften_the_barrier_less_and_less():
     mesh = make("cube", size=512, scramble=1.5, seed=2)
-    deltas = [it.notes["delta"] for it in iterate(mesh, "mend")]
+    deltas = [it.diagnostics["delta"] for it in iterate(mesh, "mend")]
     assert deltas[0] > 0.05
     assert deltas[-1] == 0
     hard = deltas.index(0)

@@ -40,8 +40,8 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     assert isinstance(limit, ActiveCorners)
     steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
     assert steps
-    assert all(step.more for step in steps)
-    assert not steps[-1].detour
+    assert all(step.intermediate for step in steps)
+    assert not steps[-1].infeasible
 
 
 def test_what_is_no_better_off_the_surface_is_given_up():
@@ -61,8 +61,8 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert best is other
     assert of is limit
     assert steps[-1].points is other.points
-    assert steps[-1].notes == {"least": other.corners.lowest}
-    assert all(step.more for step in steps)
+    assert steps[-1].diagnostics == {"least": other.corners.lowest}
+    assert all(step.intermediate for step in steps)
 
 
 @pytest.mark.slow
@@ -79,7 +79,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     )
     steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
     assert len(made) > TOGETHER
-    shown = [k for k, points in enumerate(made) if any(step.detour and step.points is points for step in steps)]
+    shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
     assert shown == list(range(0, len(made), TOGETHER))
 
 

@@ -53,7 +53,7 @@ def test_so_many_groups_are_left_behind_and_the_first_limit_is_returned(clusters
     assert len(raising.asked) == clusters
     assert raising.settled == [0.01 * k for k in range(1, clusters)]
     assert limit.least == 0.01
-    assert [step.notes for step in steps] == [{"least": -1.0}]
+    assert [step.diagnostics for step in steps] == [{"least": -1.0}]
 
 
 @pytest.mark.parametrize(("least", "settled"), [(0.09, [0.09, 0.09]), (0.1, []), (0.11, [])])
@@ -76,8 +76,8 @@ def test_nodes_are_lifted_below_a_value_as_often_as_there_are_any_before_a_group
     assert raising.settled == [0.09, 0.1]
 
 
-@pytest.mark.parametrize("detour", [False, True])
-def test_every_third_step_is_shown_and_says_that_more_is_to_come(detour):
-    steps, _ = walked(StandIn([limit_at(0.3)], steps=7), 0.5, detour=detour)
-    assert [step.notes["least"] for step in steps] == [-1.0, *map(float, range(0, 7, TOGETHER))]
-    assert all(step.more and step.detour == detour for step in steps)
+@pytest.mark.parametrize("infeasible", [False, True])
+def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
+    steps, _ = walked(StandIn([limit_at(0.3)], steps=7), 0.5, infeasible=infeasible)
+    assert [step.diagnostics["least"] for step in steps] == [-1.0, *map(float, range(0, 7, TOGETHER))]
+    assert all(step.intermediate and step.infeasible == infeasible for step in steps)
