@@ -26,52 +26,52 @@ class MovableCorners:
     mesh : Mesh
     values : (m, 8) float64
         The scaled Jacobian of each corner, those that cannot be moved too.
-    settled : (m, 8) bool
+    frozen : (m, 8) bool
         Corners that could be moved, but none of whose nodes moves any more.
     """
 
     def __init__(self, mesh: Mesh, points: np.ndarray):
         self.values = scaled_jacobians(points, mesh.hexes)
-        self.settled = np.zeros(self.values.shape, dtype=bool)
+        self.frozen = np.zeros(self.values.shape, dtype=bool)
         self._stays = np.zeros(mesh.n_nodes, dtype=bool)
         self.set_mesh(mesh)
 
     def set_mesh(self, mesh: Mesh) -> None:
         """Take a mesh of which other nodes are fixed."""
         self.mesh = mesh
-        self._held = fixed_tetrahedra(mesh.hexes, ~mesh.free)
+        self._locked = fixed_tetrahedra(mesh.hexes, ~mesh.free)
 
-    def raised(self) -> np.ndarray:
+    def active_values(self) -> np.ndarray:
         """The values, +inf of corners that cannot be moved or are settled, (m, 8) float64."""
-        return np.where(self._held | self.settled, np.inf, self.values)
+        return np.where(self._locked | self.frozen, np.inf, self.values)
 
     @property
     def least(self) -> float:
         """The least value of the corners that are raised; +inf where there is none."""
-        return float(self.raised().min(initial=np.inf))
+        return float(self.active_values().min(initial=np.inf))
 
     @property
-    def lowest(self) -> float:
+    def least_of_all(self) -> float:
         """The least value of all corners that can be moved, settled or not; +inf where there is none."""
-        return float(np.where(self._held, np.inf, self.values).min(initial=np.inf))
+        return float(np.where(self._locked, np.inf, self.values).min(initial=np.inf))
 
     def locked_below(self, value: float) -> np.ndarray:
         """Corners, 8 * hex + corner, lower than a value, all of whose nodes are fixed, the lowest first, (k,) int64."""
-        values = np.where(self._held, self.values, np.inf).ravel()
+        values = np.where(self._locked, self.values, np.inf).ravel()
         low = np.flatnonzero(values < value)
         return low[np.argsort(values[low], kind="stable")]
 
-    def settle(self, corners: np.ndarray) -> None:
+    def freeze(self, corners: np.ndarray) -> None:
         """Let corners, 8 * hex + corner, be, (k,), and their nodes stay; others with no node left are settled too."""
         self._stays[self.nodes_of(corners)] = True
         moves = self.mesh.free & ~self._stays
-        self.settled = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._held
+        self.frozen = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._locked
 
-    def unsettle(self) -> None:
+    def unfreeze(self) -> None:
         """Let everything be moved again that is free."""
-        self.settled[:] = self._stays[:] = False
+        self.frozen[:] = self._stays[:] = False
 
-    def moving(self, nodes: np.ndarray) -> np.ndarray:
+    def movable(self, nodes: np.ndarray) -> np.ndarray:
         """Those of some nodes that are free and need not stay, (k,) int."""
         return nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
 
@@ -94,6 +94,6 @@ class MovableCorners:
         """Hexes that have one of some nodes, ascending, (k,) int."""
         return np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
 
-    def measure(self, points: np.ndarray, hexes: np.ndarray) -> None:
+    def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
         """Take anew the values of some hexes, nodes being at points (n, 3)."""
         self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])

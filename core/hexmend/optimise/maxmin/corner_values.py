@@ -27,13 +27,13 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     values = np.empty((len(hexes), 8))
     for first in range(0, len(hexes), _HEXES):
         part = slice(first, first + _HEXES)
-        values[part] = of_corners(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
+        values[part] = corner_jacobians(points, hexes[part][:, CORNER_TETRAHEDRA].reshape(-1, 4)).reshape(-1, 8)
     return values
 
 
-def of_corners(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
+def corner_jacobians(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
     """The scaled Jacobian of corners (k, 4): the node at the apex, and the ends of its edges; (k,)."""
-    return _parts(points, corners)[0]
+    return _edge_terms(points, corners)[0]
 
 
 def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -46,7 +46,7 @@ def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.n
         With s = (u, v x w)/(|u| |v| |w|), ds/du = (v x w)/(|u| |v| |w|) - s u/|u|^2, and so on round; of the apex minus
         their sum. 0 where an edge has no length.
     """
-    values, edges, lengths, across = _parts(points, corners)
+    values, edges, lengths, across = _edge_terms(points, corners)
     size = lengths.prod(axis=1)[:, None, None]
     sound = size > 0
     by_edge = across / np.where(sound, size, 1.0)
@@ -65,7 +65,7 @@ def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     return size
 
 
-def _parts(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _edge_terms(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Values (k,), edges (k, 3, 3) by rows, their lengths (k, 3), and for each the product of the others (k, 3, 3)."""
     x = points[corners]
     edges = x[:, 1:] - x[:, :1]

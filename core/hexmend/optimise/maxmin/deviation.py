@@ -7,7 +7,7 @@ import copy
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.optimise.maxmin.linear_program import LinearConstraints, bounds_of
+from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_bounds
 
 
 class DeviationTracker:
@@ -23,29 +23,29 @@ class DeviationTracker:
 
     Attributes
     ----------
-    far : (s,)
+    distances : (s,)
         The distances: see `SlidingBoundary.behind`.
     """
 
     def __init__(self, sliding: SlidingBoundary, points: np.ndarray):
         self.sliding, self.points = sliding, points
         far, self._nodes, self._weights = sliding.behind_at_first
-        self.far, self._away = far.copy(), np.zeros((far.size, 3))
-        self._look(np.arange(far.size))
+        self.distances, self._away = far.copy(), np.zeros((far.size, 3))
+        self._update(np.arange(far.size))
 
-    def moved(self, points: np.ndarray, nodes: np.ndarray) -> DeviationTracker:
+    def after_move(self, points: np.ndarray, nodes: np.ndarray) -> DeviationTracker:
         """The same with nodes (k,) elsewhere, all others being where they were."""
         other = copy.copy(self)
         other.points = points
-        other.far, other._away = self.far.copy(), self._away.copy()
+        other.distances, other._away = self.distances.copy(), self._away.copy()
         touched = np.zeros(len(points), dtype=bool)
         touched[nodes] = True
-        other._look(np.flatnonzero(touched[self._nodes].any(axis=1)))
+        other._update(np.flatnonzero(touched[self._nodes].any(axis=1)))
         return other
 
-    def leaves(self, before: DeviationTracker, nodes: np.ndarray, room: float) -> bool:
+    def exceeds(self, before: DeviationTracker, nodes: np.ndarray, room: float) -> bool:
         """Whether boundary and surface are further apart than a room, and than they were before nodes (k,) moved."""
-        if (self.far > np.maximum(before.far, room)).any():
+        if (self.distances > np.maximum(before.distances, room)).any():
             return True
         off = self.sliding.off(self.points, self.sliding.middles_at(nodes), room)
         if not off.which.size:
@@ -60,18 +60,18 @@ class DeviationTracker:
         sliding = self.sliding
         which = sliding.middles_at(np.flatnonzero(moves))
         off = sliding.off(self.points, which, room - moves[sliding.middles[which]].max(axis=1, initial=0.0))
-        models = bounds_of(off.nodes, room - off.far, -off.weights[:, :, None] * off.away[:, None])
+        models = lower_bounds(off.nodes, room - off.far, -off.weights[:, :, None] * off.away[:, None])
         reach = moves[self._nodes].max(axis=1, initial=0.0)
-        near = np.flatnonzero((reach > 0) & (self.far > 0) & (self.far + reach > room))
+        near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > room))
         slopes = self._weights[near, :, None] * self._away[near, None]
-        return models.and_those(bounds_of(self._nodes[near], room - self.far[near], slopes))
+        return models.joined(lower_bounds(self._nodes[near], room - self.distances[near], slopes))
 
-    def _look(self, which: np.ndarray) -> None:
+    def _update(self, which: np.ndarray) -> None:
         """Find what is closest to some places of the surface; of the boundary as it was at first that is known."""
         at_first, nodes, weights = self.sliding.behind_at_first
         off = self.sliding.behind(self.points, which, room=-1.0)
         self._nodes, self._weights = self._nodes.copy(), self._weights.copy()
-        self.far[which], self._away[which] = at_first[which], 0.0
+        self.distances[which], self._away[which] = at_first[which], 0.0
         self._nodes[which], self._weights[which] = nodes[which], weights[which]
-        self.far[off.which], self._away[off.which] = off.far, off.away
+        self.distances[off.which], self._away[off.which] = off.far, off.away
         self._nodes[off.which], self._weights[off.which] = off.nodes, off.weights

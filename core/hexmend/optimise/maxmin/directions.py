@@ -18,20 +18,20 @@ class StepDirections:
 
     Parameters
     ----------
-    of : (w,)
+    owner : (w,)
         Whose, ascending.
-    aims : (w, 3)
+    displacements : (w, 3)
         The displacement that is asked for: along a tangent where the node slides.
-    leads : (w, 3)
+    effective : (w, 3)
         What it comes to once the node is put back: of a faceted surface that is another plane at every side.
     """
 
-    of: np.ndarray
-    aims: np.ndarray
-    leads: np.ndarray
+    owner: np.ndarray
+    displacements: np.ndarray
+    effective: np.ndarray
 
 
-def ways_of(
+def step_directions(
     x: np.ndarray,
     size: np.ndarray,
     radius: float,
@@ -50,7 +50,7 @@ def ways_of(
     radius : float
         How far each may go, in that length.
     nodes : (k,) int
-        Which they are; `StepDirections.of` counts within these.
+        Which they are; `StepDirections.owner` counts within these.
     slides : (k,) bool
         Which of them slide.
     sliding : SlidingBoundary or None

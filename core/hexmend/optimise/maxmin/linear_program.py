@@ -1,4 +1,4 @@
-"""The linear program of a step: nodes that go certain ways, and what depends on their places by linear models."""
+"""The linear program of a step: nodes that go certain directions, and what depends on their places by linear models."""
 
 from __future__ import annotations
 
@@ -42,20 +42,20 @@ class LinearConstraints:
     slopes: np.ndarray
     rises: np.ndarray
 
-    def and_those(self, other: LinearConstraints) -> LinearConstraints:
+    def joined(self, other: LinearConstraints) -> LinearConstraints:
         """These, and others behind them."""
         pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
         return LinearConstraints(*(np.concatenate(list(pair)) for pair in pairs))
 
 
-def bounds_of(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
+def lower_bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
     """Models of what is not to fall below its bound; arrays as of `LinearConstraints`."""
     return LinearConstraints(ends, above, slopes, np.zeros(len(above)))
 
 
-def no_bounds() -> LinearConstraints:
+def no_constraints() -> LinearConstraints:
     """None of them."""
-    return bounds_of(np.empty((0, 4), np.int32), np.empty(0), np.empty((0, 4, 3)))
+    return lower_bounds(np.empty((0, 4), np.int32), np.empty(0), np.empty((0, 4, 3)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +64,7 @@ class LPSolution:
 
     Parameters
     ----------
-    far : (w,)
+    lengths : (w,)
         How far to go each way.
     gain : float
         What the least rises by, as the models say.
@@ -72,13 +72,13 @@ class LPSolution:
         Of the models, not negative: those of the ones that rise have the sum 1 where the gain has no bound.
     """
 
-    far: np.ndarray
+    lengths: np.ndarray
     gain: float
     multipliers: np.ndarray
 
 
 def solve(
-    nodes: np.ndarray, ways: StepDirections, models: LinearConstraints, radius: float, falls: bool = False
+    nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool = False
 ) -> LPSolution | None:
     """Find how far nodes (k,) are to go for the least to rise most; None where the program has no solution.
 
@@ -88,7 +88,7 @@ def solve(
     Parameters
     ----------
     nodes : (k,) int
-    ways : StepDirections
+    directions : StepDirections
     models : LinearConstraints
     radius : float
         How far a node may go each way.
@@ -97,7 +97,7 @@ def solve(
     """
     from scipy.optimize import linprog
 
-    cost, matrix, limits, bounds = program(nodes, ways, models, radius, falls)
+    cost, matrix, limits, bounds = build_program(nodes, directions, models, radius, falls)
     taken = limits < NEAR * radius
     while True:
         rows = np.flatnonzero(taken)
@@ -112,13 +112,13 @@ def solve(
         taken |= below
 
 
-def program(
-    nodes: np.ndarray, ways: StepDirections, models: LinearConstraints, radius: float, falls: bool
+def build_program(
+    nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool
 ) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
     """The linear program of a step: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
 
-    Unknowns are how far nodes (k,) go each of their ways, up to a radius, and what the least rises by. Those nodes stay
-    that need not move: a small price is on each way.
+    Unknowns are how far nodes (k,) go in each of their directions, up to a radius, and what the least rises by. A small
+    price on each direction keeps nodes that need not move.
     """
     from scipy.sparse import coo_array
 
@@ -128,12 +128,12 @@ def program(
     slots = slot[ends]
     row, end = np.nonzero(slots >= 0)
     own = slots[row, end]
-    start = np.searchsorted(ways.of, np.arange(nodes.size + 1))
+    start = np.searchsorted(directions.owner, np.arange(nodes.size + 1))
     count = start[own + 1] - start[own]
     pair = np.repeat(np.arange(own.size), count)
     column = np.arange(pair.size) + np.repeat(start[own] - np.cumsum(count) + count, count)
-    slopes = np.einsum("ki,ki->k", models.slopes[row[pair], end[pair]], ways.leads[column])
-    unknowns, rows = ways.of.size + 1, len(ends)
+    slopes = np.einsum("ki,ki->k", models.slopes[row[pair], end[pair]], directions.effective[column])
+    unknowns, rows = directions.owner.size + 1, len(ends)
     entries = np.concatenate([-slopes, models.rises])
     at = np.concatenate([row[pair], np.arange(rows)]), np.concatenate([column, np.full(rows, unknowns - 1)])
     cost = np.full(unknowns, IDLE / max(nodes.size, 1))

@@ -18,7 +18,7 @@ from hexmend.iteration.result import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import gradients, shortest_edges
-from hexmend.optimise.maxmin.directions import ways_of
+from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
 
@@ -119,7 +119,7 @@ class MaxMinOptimiser:
         self._begin()
         gains = [np.inf] * LATELY
         while self._radius > SMALLEST and self.corners.least < aim:
-            values, least, radius = self.corners.raised().ravel(), self.corners.least, self._radius
+            values, least, radius = self.corners.active_values().ravel(), self.corners.least, self._radius
             band = float(np.clip(BAND * radius, NARROWEST, WIDEST))
             low = np.flatnonzero(values < least + band)
             whole = low.size <= self._most
@@ -137,34 +137,34 @@ class MaxMinOptimiser:
                 gains.append(np.inf)
         yield self._limit()
 
-    def into(self, room: float) -> Iterator[MaxMinStep]:
+    def return_to_band(self, room: float) -> Iterator[MaxMinStep]:
         """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must.
 
         What is settled is no more: everything may be moved.
         """
         self._begin()
-        self.corners.unsettle()
+        self.corners.unfreeze()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
         while self._radius > SMALLEST and (far := envelope.largest_deviation(self.points)) > room * (1 + EXACT):
             radius = self._radius
             envelope.room = max(room, far - NEARER * radius * edge)
-            low = np.flatnonzero(corners.raised().ravel() < corners.least + NARROWEST)[: self._most]
+            low = np.flatnonzero(corners.active_values().ravel() < corners.least + NARROWEST)[: self._most]
             strayed = envelope.infeasible_nodes(self.points)
             _, points, moved = self._step(low, NARROWEST, strayed[self.mesh.free[strayed]])
             if envelope.largest_deviation(points) > far - BRINGS * (far - envelope.room):
                 self._radius *= SHRINK
                 continue
-            corners.measure(points, corners.hexes_at(moved))
+            corners.update(points, corners.hexes_at(moved))
             envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(GROW * self._radius, LARGEST)
             yield MaxMinStep(points, corners.least, low.size, radius)
         envelope.room = room
 
-    def settle(self, limit: ActiveCorners) -> None:
+    def freeze(self, limit: ActiveCorners) -> None:
         """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
-        self.corners.settle(8 * limit.hexes + limit.corners)
+        self.corners.freeze(8 * limit.hexes + limit.corners)
 
-    def lift(self, limit: ActiveCorners) -> bool:
+    def release(self, limit: ActiveCorners) -> bool:
         """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
         envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
         if sliding is None or not envelope.room > 0:
@@ -176,7 +176,7 @@ class MaxMinOptimiser:
             fixed = mesh.fixed.copy()
             fixed[nodes] = False
             self.corners.set_mesh(mesh.with_fixed(fixed))
-        envelope.lifted[nodes] = True
+        envelope.released[nodes] = True
         return nodes.size > 0
 
     def _begin(self) -> None:
@@ -191,12 +191,12 @@ class MaxMinOptimiser:
         Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
         """
         corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.least
-        nodes = corners.moving(np.unique(corners.nodes_of(low)))
+        nodes = corners.movable(np.unique(corners.nodes_of(low)))
         if strayed is not None:
             nodes = np.union1d(nodes, strayed)
         around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        near = near[corners.raised().ravel()[near] - least < band + FALL * radius]
+        near = near[corners.active_values().ravel()[near] - least < band + FALL * radius]
         ends = corners.nodes_of(near)
         values, derivatives = gradients(self.points, ends)
         size = shortest_edges(self.points, self.mesh.hexes[around])
@@ -206,13 +206,14 @@ class MaxMinOptimiser:
         bounds = envelope.bounds(self.points, moves)
         if strayed is None:
             np.maximum(bounds.above, 0.0, out=bounds.above)
-        ways = ways_of(self.points[nodes], size[nodes], radius, nodes, envelope.slides(nodes), envelope.sliding)
-        solved = solve(nodes, ways, models.and_those(bounds), radius, falls=strayed is not None)
+        x, slides = self.points[nodes], envelope.slides(nodes)
+        directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
+        solved = solve(nodes, directions, models.joined(bounds), radius, falls=strayed is not None)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
-        np.add.at(points, nodes[ways.of], solved.far[:, None] * ways.aims)
+        np.add.at(points, nodes[directions.owner], solved.lengths[:, None] * directions.displacements)
         return solved.gain, envelope.project(self.points, points, nodes), nodes
 
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
@@ -220,9 +221,9 @@ class MaxMinOptimiser:
         corners = self.corners
         hexes = corners.hexes_at(moved)
         before = corners.values[hexes]
-        corners.measure(points, hexes)
+        corners.update(points, hexes)
         gain = corners.least - least
-        if gain > BRINGS * promised and self.envelope.leaves(self.points, points, moved):
+        if gain > BRINGS * promised and self.envelope.leaves_band(self.points, points, moved):
             gain = -np.inf
         share = gain / promised
         if share > GOOD:

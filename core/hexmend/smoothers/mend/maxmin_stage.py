@@ -57,13 +57,13 @@ def raise_least(
                 yield step.step(infeasible)
         if not limit.hexes.size or limit.least >= aim:
             break
-        if limit.least < lifts and raising.lift(limit):
+        if limit.least < lifts and raising.release(limit):
             continue
         first = first or limit
         clusters -= 1
         if limit.least >= AIM or not clusters:
             break
-        raising.settle(limit)
+        raising.freeze(limit)
     return first or limit
 
 
@@ -75,15 +75,15 @@ def lifted(
     Returns what is better, that or the other, with its limit.
     """
     envelope, corners = raising.envelope, raising.corners
-    envelope.room, envelope.turns = max(WIDE * raising.mesh.mean_edge_length, room), True
+    envelope.room, envelope.flips_allowed = max(WIDE * raising.mesh.mean_edge_length, room), True
     yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, infeasible=True)
-    for step in islice(raising.into(room), 0, None, TOGETHER):
+    for step in islice(raising.return_to_band(room), 0, None, TOGETHER):
         yield step.step(infeasible=True)
-    envelope.turns = False
+    envelope.flips_allowed = False
     turned = envelope.sliding.turned(envelope.sliding.points, raising.points).size > 0
     far = envelope.largest_deviation(raising.points) > room * (1 + NEAR_ENOUGH)
-    if turned or far or corners.lowest < other.corners.lowest:
-        yield Step(other.points, {"least": other.corners.lowest}, intermediate=True)
+    if turned or far or corners.least_of_all < other.corners.least_of_all:
+        yield Step(other.points, {"least": other.corners.least_of_all}, intermediate=True)
         return other, limit
     return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
 

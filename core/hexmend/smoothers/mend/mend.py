@@ -129,7 +129,7 @@ class Mend(ObjectiveSmoother):
                 outcome = Outcome.NO_IMPROVEMENT
                 limit = yield from raise_least(raising, np.inf if raises else SOUND, clusters=CLUSTERS)
                 may_leave = self.slides and 0 < room < np.inf
-                if may_leave and raising.corners.lowest < (AIM if raises else SOUND):
+                if may_leave and raising.corners.least_of_all < (AIM if raises else SOUND):
                     raising, limit = yield from lifted(MaxMinOptimiser(at, places[1], sliding), room, raising, limit)
                 points = raising.points
                 if raises:

@@ -16,8 +16,8 @@ def test_fixed_corners_are_not_raised():
     mesh = scrambled(grid(3), 0.4, 1)
     corners = MovableCorners(mesh, mesh.points)
     values = scaled_jacobians(mesh.points, mesh.hexes)
-    np.testing.assert_array_equal(np.isfinite(corners.raised()), movable(mesh))
-    assert corners.least == corners.lowest == values[movable(mesh)].min()
+    np.testing.assert_array_equal(np.isfinite(corners.active_values()), movable(mesh))
+    assert corners.least == corners.least_of_all == values[movable(mesh)].min()
     locked = corners.locked_below(np.inf)
     assert sorted(locked) == sorted(np.flatnonzero(~movable(mesh)))
     assert (np.diff(values.ravel()[locked]) >= 0).all()
@@ -28,14 +28,14 @@ def test_settled_corners_take_along_those_that_have_no_other_node():
     corners = MovableCorners(mesh, mesh.points)
     (one, *_) = np.flatnonzero(movable(mesh))
     nodes = np.flatnonzero(mesh.free)
-    np.testing.assert_array_equal(corners.moving(np.arange(mesh.n_nodes)), nodes)
-    corners.settle(np.array([one]))
-    np.testing.assert_array_equal(corners.settled, movable(mesh))
-    assert corners.least == np.inf > corners.lowest
-    assert corners.moving(nodes).size == 0
-    corners.unsettle()
-    assert not corners.settled.any()
-    np.testing.assert_array_equal(corners.moving(nodes), nodes)
+    np.testing.assert_array_equal(corners.movable(np.arange(mesh.n_nodes)), nodes)
+    corners.freeze(np.array([one]))
+    np.testing.assert_array_equal(corners.frozen, movable(mesh))
+    assert corners.least == np.inf > corners.least_of_all
+    assert corners.movable(nodes).size == 0
+    corners.unfreeze()
+    assert not corners.frozen.any()
+    np.testing.assert_array_equal(corners.movable(nodes), nodes)
 
 
 def test_values_follow_the_hexes_at_nodes_that_moved():
@@ -46,7 +46,7 @@ def test_values_follow_the_hexes_at_nodes_that_moved():
     points[node] += 0.1
     hexes = corners.hexes_at(np.array([node]))
     np.testing.assert_array_equal(hexes, np.flatnonzero((mesh.hexes == node).any(axis=1)))
-    corners.measure(points, hexes)
+    corners.update(points, hexes)
     np.testing.assert_array_equal(corners.values, scaled_jacobians(points, mesh.hexes))
     ends = corners.nodes_of(8 * hexes)
     np.testing.assert_array_equal(ends, mesh.hexes[hexes][:, CORNER_TETRAHEDRA[0]])
@@ -58,7 +58,7 @@ def test_a_node_that_is_freed_makes_its_corners_movable():
     freed = mesh.with_fixed(np.zeros(mesh.n_nodes, dtype=bool))
     corners.set_mesh(freed)
     assert corners.mesh is freed
-    assert np.isfinite(corners.raised()).all()
+    assert np.isfinite(corners.active_values()).all()
 
 
 def test_corners_are_of_one_group_where_they_share_free_nodes():

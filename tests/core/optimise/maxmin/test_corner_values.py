@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
-from hexmend.optimise.maxmin.corner_values import gradients, of_corners, scaled_jacobians, shortest_edges
+from hexmend.optimise.maxmin.corner_values import corner_jacobians, gradients, scaled_jacobians, shortest_edges
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 
@@ -54,9 +54,9 @@ def test_derivatives_are_those_of_differences(seed, amplitude):
     mesh = scrambled(grid(2), amplitude, seed)
     corners, way = corners_of(mesh), np.random.default_rng(seed).uniform(-1, 1, mesh.points.shape)
     values, derivatives = gradients(mesh.points, corners)
-    np.testing.assert_array_equal(values, of_corners(mesh.points, corners))
+    np.testing.assert_array_equal(values, corner_jacobians(mesh.points, corners))
     t = 1e-6 * shortest_edges(mesh.points, mesh.hexes).min()
-    rise = of_corners(mesh.points + t * way, corners) - of_corners(mesh.points - t * way, corners)
+    rise = corner_jacobians(mesh.points + t * way, corners) - corner_jacobians(mesh.points - t * way, corners)
     slope = np.einsum("kij,kij->k", derivatives, way[corners])
     np.testing.assert_allclose(rise / (2 * t), slope, rtol=1e-5, atol=1e-5 * (1 + np.abs(slope).max()))
 

@@ -1,4 +1,4 @@
-"""Where a sliding boundary and its surface are apart, as nodes move step by step."""
+"""Where a sliding boundary and its surface are tracker, as nodes move step by step."""
 
 import numpy as np
 from hypothesis import given, settings
@@ -26,15 +26,15 @@ def wandering(mesh, nodes, seed, steps=4):
 def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
     mesh = slid(ball(3), 0.2, seed)
     sliding = SlidingBoundary(mesh)
-    apart = DeviationTracker(sliding, mesh.points)
-    assert apart.far.max() < 1e-9 * mesh.mean_edge_length
+    tracker = DeviationTracker(sliding, mesh.points)
+    assert tracker.distances.max() < 1e-9 * mesh.mean_edge_length
     for step, (points, moved) in enumerate(wandering(mesh, sliding.nodes, seed)):
-        apart = apart.moved(points, moved)
+        tracker = tracker.after_move(points, moved)
         anew = DeviationTracker(sliding, points)
-        assert (apart.far >= anew.far - 1e-12).all()
+        assert (tracker.distances >= anew.distances - 1e-12).all()
         if not step:  # what is closest to a place at first is that place
             went = np.isin(sliding.middles, moved).any(axis=1)
-            np.testing.assert_allclose(apart.far[went], anew.far[went], atol=1e-12)
+            np.testing.assert_allclose(tracker.distances[went], anew.distances[went], atol=1e-12)
 
 
 @settings(max_examples=15)
@@ -43,13 +43,13 @@ def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed,
     mesh = slid(ball(3), 0.2, seed)
     sliding, room = SlidingBoundary(mesh), share * mesh.mean_edge_length
     before = DeviationTracker(sliding, mesh.points)
-    assert not before.moved(mesh.points, sliding.nodes).leaves(before, sliding.nodes, room)
+    assert not before.after_move(mesh.points, sliding.nodes).exceeds(before, sliding.nodes, room)
     for points, moved in wandering(mesh, sliding.nodes, seed):
-        after = before.moved(points, moved)
+        after = before.after_move(points, moved)
         furthest = max(off.far.max(initial=0.0) for off in both_ways(sliding, points))
         was = max(off.far.max(initial=0.0) for off in both_ways(sliding, before.points))
         if was <= room:
-            assert after.leaves(before, moved, room) == (furthest > room)
+            assert after.exceeds(before, moved, room) == (furthest > room)
         before = after
 
 
@@ -64,10 +64,10 @@ def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
     sliding, room = SlidingBoundary(mesh), 0.3 * mesh.mean_edge_length
     bounded = 0
     for points, moved in wandering(mesh, sliding.nodes, seed):
-        apart = DeviationTracker(sliding, mesh.points).moved(points, moved)
+        tracker = DeviationTracker(sliding, mesh.points).after_move(points, moved)
         moves = np.zeros(mesh.n_nodes)
-        assert len(apart.bounds(moves, room).above) == 0
+        assert len(tracker.bounds(moves, room).above) == 0
         moves[moved] = reach
-        assert (apart.bounds(moves, room).above < reach).all()
-        bounded += len(apart.bounds(moves + 2 * room, room).above)
+        assert (tracker.bounds(moves, room).above < reach).all()
+        bounded += len(tracker.bounds(moves + 2 * room, room).above)
     assert bounded

@@ -31,14 +31,14 @@ def test_without_sliding_nothing_is_bounded():
     assert not envelope.slides(nodes).any()
     assert envelope.project(mesh.points, points, nodes) is points
     assert envelope.bounds(points, np.ones(mesh.n_nodes)).above.size == 0
-    assert not envelope.leaves(mesh.points, points, nodes)
+    assert not envelope.leaves_band(mesh.points, points, nodes)
     assert envelope.largest_deviation(points) == 0
 
 
 def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
     envelope, nodes = Envelope(sliding.mesh.n_nodes, sliding), sliding.nodes
     lifted = nodes[:1]
-    envelope.lifted[lifted] = True
+    envelope.released[lifted] = True
     assert (envelope.slides(nodes) == ~np.isin(nodes, lifted)).all()
     outside = pushed(sliding, nodes, 0.05)
     points = envelope.project(sliding.mesh.points, outside.copy(), nodes)
@@ -52,14 +52,14 @@ def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
     mesh, node = sliding.mesh, sliding.nodes[:1]
     envelope, edge = Envelope(mesh.n_nodes, sliding), mesh.mean_edge_length
     points = pushed(sliding, node, 0.3)
-    assert not envelope.leaves(mesh.points, points, node)  # where there is no end of room
+    assert not envelope.leaves_band(mesh.points, points, node)  # where there is no end of room
     far = envelope.largest_deviation(points)
     assert 0.2 * edge < far <= 0.3 * edge * (1 + 1e-9)
     envelope.room = 0.99 * far
-    assert envelope.leaves(mesh.points, points, node)
+    assert envelope.leaves_band(mesh.points, points, node)
     assert node[0] in envelope.infeasible_nodes(points)
     envelope.room = 1.01 * far
-    assert not envelope.leaves(mesh.points, points, node)
+    assert not envelope.leaves_band(mesh.points, points, node)
     assert envelope.infeasible_nodes(points).size == 0
 
 
@@ -89,9 +89,9 @@ def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, 
     envelope.room = sliding.mesh.mean_edge_length
     before, nodes = sliding.mesh.points, sliding.nodes[:3]
     after = pushed(sliding, nodes, 0.1)
-    assert not envelope.leaves(before, after, nodes)
+    assert not envelope.leaves_band(before, after, nodes)
     envelope.bounds(after, np.full(len(after), 0.1))
     assert len(looked) == 1
-    assert envelope.leaves(after, pushed(sliding, nodes, 1.5), nodes)
+    assert envelope.leaves_band(after, pushed(sliding, nodes, 1.5), nodes)
     envelope.bounds(after, np.full(len(after), 0.1))  # what was refused is not where it is
     assert len(looked) == 1

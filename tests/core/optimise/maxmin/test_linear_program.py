@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from hexmend.optimise.maxmin.directions import StepDirections
-from hexmend.optimise.maxmin.linear_program import IDLE, LinearConstraints, bounds_of, no_bounds, program, solve
+from hexmend.optimise.maxmin.linear_program import (
+    IDLE,
+    LinearConstraints,
+    build_program,
+    lower_bounds,
+    no_constraints,
+    solve,
+)
 
 ENDS = np.array([[3, 5, 7, 9]], np.int32)
 
@@ -22,49 +29,49 @@ def slope_of(end, value):
 
 
 def test_a_corner_rises_as_far_as_its_node_can_go():
-    nodes, ways = along_x(5)
-    found = solve(nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(1, -2.0), np.ones(1)), 0.1)
-    np.testing.assert_allclose(found.far, [0, 0.1], atol=1e-12)
+    nodes, directions = along_x(5)
+    found = solve(nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(1, -2.0), np.ones(1)), 0.1)
+    np.testing.assert_allclose(found.lengths, [0, 0.1], atol=1e-12)
     assert found.gain == pytest.approx(0.2)
     np.testing.assert_allclose(found.multipliers, [1.0])
 
 
 def test_nodes_that_need_not_move_stay():
-    nodes, ways = along_x(5, 7)
-    found = solve(nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1)
-    np.testing.assert_allclose(found.far, [0, 0, 0.1, 0], atol=1e-12)
-    cost, _, _, bounds = program(
-        nodes, ways, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False
+    nodes, directions = along_x(5, 7)
+    found = solve(nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1)
+    np.testing.assert_allclose(found.lengths, [0, 0, 0.1, 0], atol=1e-12)
+    cost, _, _, bounds = build_program(
+        nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False
     )
     np.testing.assert_allclose(cost, [IDLE / 2] * 4 + [-1])
     np.testing.assert_allclose(bounds, [[0, 0.1]] * 4 + [[0, 2]])
 
 
 def test_two_corners_hold_each_other_where_they_want_opposite_ways():
-    nodes, ways = along_x(5)
-    both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).and_those(
+    nodes, directions = along_x(5)
+    both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).joined(
         LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
     )
-    found = solve(nodes, ways, both, 0.1)
+    found = solve(nodes, directions, both, 0.1)
     assert found.gain == pytest.approx(0, abs=1e-12)
     np.testing.assert_allclose(found.multipliers, [0.5, 0.5], atol=IDLE)
 
 
 def test_a_bound_limits_how_far_a_node_goes_whether_it_is_near_at_first_or_turns_out_to_bind():
-    nodes, ways = along_x(5)
+    nodes, directions = along_x(5)
     corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1))
     for room, slope in ((0.02, -1.0), (0.2, -4.0)):  # at a radius of 0.1 all that is nearer than 0.03 is taken at once
-        found = solve(nodes, ways, corner.and_those(bounds_of(ENDS, np.array([room]), slope_of(1, slope))), 0.1)
-        np.testing.assert_allclose(found.far, [room / -slope, 0], atol=1e-9)
+        found = solve(nodes, directions, corner.joined(lower_bounds(ENDS, np.array([room]), slope_of(1, slope))), 0.1)
+        np.testing.assert_allclose(found.lengths, [room / -slope, 0], atol=1e-9)
         assert found.gain == pytest.approx(room / -slope)
-    assert len(corner.and_those(no_bounds()).ends) == 1
+    assert len(corner.joined(no_constraints()).ends) == 1
 
 
 def test_the_least_falls_only_where_it_may():
-    nodes, ways = along_x(5)
+    nodes, directions = along_x(5)
     corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
-    beyond = corner.and_those(bounds_of(ENDS, np.array([-0.05]), slope_of(1, 1.0)))
-    assert solve(nodes, ways, beyond, 0.1) is None
-    found = solve(nodes, ways, beyond, 0.1, falls=True)
-    np.testing.assert_allclose(found.far, [0.05, 0], atol=1e-9)
+    beyond = corner.joined(lower_bounds(ENDS, np.array([-0.05]), slope_of(1, 1.0)))
+    assert solve(nodes, directions, beyond, 0.1) is None
+    found = solve(nodes, directions, beyond, 0.1, falls=True)
+    np.testing.assert_allclose(found.lengths, [0.05, 0], atol=1e-9)
     assert found.gain == pytest.approx(-0.05)

@@ -116,15 +116,15 @@ def test_settled_corners_do_not_fall_while_others_rise(seed):
     _, first = raised(raising)
     at = first.hexes, first.corners
     held = raising.corners.values[at]
-    raising.settle(first)
-    assert raising.corners.settled[at].all()
+    raising.freeze(first)
+    assert raising.corners.frozen[at].all()
     assert raising.corners.least >= first.least
     _, second = raised(raising)
     assert second.least >= first.least
     np.testing.assert_array_equal(raising.corners.values[at], held)
-    assert raising.corners.lowest >= first.least
+    assert raising.corners.least_of_all >= first.least
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
-    assert raising.corners.lowest == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
+    assert raising.corners.least_of_all == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
 
 
 def test_where_nothing_is_free_nothing_is_done():

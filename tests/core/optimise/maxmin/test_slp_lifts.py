@@ -19,7 +19,7 @@ def lifted(sliding, points, wide, times):
     raising.envelope.room = wide
     for _ in range(times):
         _, limit = raised(raising, aim=0.5)
-        if not raising.lift(limit):
+        if not raising.release(limit):
             break
     return raising
 
@@ -29,11 +29,11 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
     edge = mesh.mean_edge_length
     sliding = SlidingBoundary(mesh)
     raising = lifted(sliding, mesh.points, edge, 4)
-    assert raising.envelope.lifted.any()
-    assert sliding.slides(np.flatnonzero(raising.envelope.lifted)).all()
+    assert raising.envelope.released.any()
+    assert sliding.slides(np.flatnonzero(raising.envelope.released)).all()
     far = raising.envelope.largest_deviation(raising.points)
     assert 0.1 * edge < far <= edge * (1 + 1e-9)
-    for step in raising.into(0.1 * edge):
+    for step in raising.return_to_band(0.1 * edge):
         assert np.isfinite(step.points).all()
     assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
     assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
@@ -50,10 +50,10 @@ def test_nothing_is_lifted_off_a_surface_without_room():
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
     raising.envelope.room = 0.0
-    assert not raising.lift(limit)
-    assert not raising.envelope.lifted.any()
+    assert not raising.release(limit)
+    assert not raising.envelope.released.any()
     fixed = MaxMinOptimiser(mesh, mesh.points)
-    assert not fixed.lift(raised(fixed)[1])
+    assert not fixed.release(raised(fixed)[1])
 
 
 def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
@@ -65,10 +65,10 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     for _ in range(5):
         for step in itertools.islice(raising.steps(0.0), 10):
             limit = step
-        if not isinstance(limit, ActiveCorners) or not raising.lift(limit):
+        if not isinstance(limit, ActiveCorners) or not raising.release(limit):
             break
     assert raising.envelope.largest_deviation(raising.points) > room
-    for _ in raising.into(room):
+    for _ in raising.return_to_band(room):
         pass
     assert raising.envelope.largest_deviation(raising.points) <= room * (1 + 1e-5)
     change = surface_change(mesh, mesh.with_points(raising.points))
@@ -86,14 +86,14 @@ def test_while_a_boundary_is_brought_into_its_room_its_distances_are_followed(mo
     mesh = slid(ball(3), 0.3, 1)
     raising = lifted(SlidingBoundary(mesh), mesh.points, mesh.mean_edge_length, 4)
     monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
-    assert len(list(raising.into(0.1 * mesh.mean_edge_length))) > 2
+    assert len(list(raising.return_to_band(0.1 * mesh.mean_edge_length))) > 2
     assert len(looked) <= 1
 
 
 def test_while_a_boundary_is_brought_into_its_room_the_lowest_corners_are_moved_too():
     mesh = slid(ball(3), 0.3, 1)
     raising = lifted(SlidingBoundary(mesh), mesh.points, mesh.mean_edge_length, 4)
-    steps = list(raising.into(0.1 * mesh.mean_edge_length))
+    steps = list(raising.return_to_band(0.1 * mesh.mean_edge_length))
     assert steps
     assert all(step.corners > 0 for step in steps)
 
@@ -104,6 +104,6 @@ def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_e
     for least, yields in ((-0.1, True), (0.0, True), (0.1, False)):
         sliding = SlidingBoundary(mesh, room=0.5)
         raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-        raising.envelope.lifted[sliding.nodes] = True  # those of the edges and faces have left already
-        assert raising.lift(ActiveCorners(least, np.array([0]), np.array([0]))) == yields
-        assert raising.mesh.free[0] == raising.envelope.lifted[0] == yields
+        raising.envelope.released[sliding.nodes] = True  # those of the edges and faces have left already
+        assert raising.release(ActiveCorners(least, np.array([0]), np.array([0]))) == yields
+        assert raising.mesh.free[0] == raising.envelope.released[0] == yields

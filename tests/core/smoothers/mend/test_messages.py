@@ -61,7 +61,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert best is other
     assert of is limit
     assert steps[-1].points is other.points
-    assert steps[-1].diagnostics == {"least": other.corners.lowest}
+    assert steps[-1].diagnostics == {"least": other.corners.least_of_all}
     assert all(step.intermediate for step in steps)
 
 
@@ -73,9 +73,9 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     monkeypatch.setattr(maxmin_stage, "AIM", 0.7)
-    made, into = [], MaxMinOptimiser.into
+    made, into = [], MaxMinOptimiser.return_to_band
     monkeypatch.setattr(
-        MaxMinOptimiser, "into", lambda *given: (made.append(step.points) or step for step in into(*given))
+        MaxMinOptimiser, "return_to_band", lambda *given: (made.append(step.points) or step for step in into(*given))
     )
     steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
     assert len(made) > TOGETHER
@@ -99,6 +99,6 @@ def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatc
             break
     assert best is off
     assert of is not limit
-    assert off.corners.lowest > other.corners.lowest
+    assert off.corners.least_of_all > other.corners.least_of_all
     assert 0.5 * room < off.envelope.largest_deviation(off.points) <= room * (1 + 1e-5)
-    assert not off.envelope.turns
+    assert not off.envelope.flips_allowed

@@ -29,10 +29,10 @@ class StandIn:
             yield MaxMinStep(self.points, float(number), 5, 0.1)
         yield next(self._limits)
 
-    def settle(self, limit):
+    def freeze(self, limit):
         self.settled.append(limit.least)
 
-    def lift(self, limit):
+    def release(self, limit):
         self.lifted.append(limit.least)
         return len(self.lifted) <= self._lifts
 
