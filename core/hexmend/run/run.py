@@ -181,8 +181,8 @@ class Run(Iterator[Iteration]):
         words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept(self.best.number))
-        instead = "" if inverted else self.stage.smoother.instead(regressions(before, after))
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
+        hint = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
+        return " ".join(filter(None, [*words, describe_regressions(before, after), hint]))
 
     @property
     def _kept_last(self) -> bool:

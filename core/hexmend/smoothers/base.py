@@ -88,8 +88,8 @@ class Smoother(Parametrised, ABC):
         least = float(now.q.min())
         return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
 
-    def instead(self, worse: tuple[str, ...]) -> str:
-        """What to ask the method for where figures of `quality.REGRESSION_KEYS` have become worse; "" for nothing."""
+    def regression_hint(self, worse: tuple[str, ...]) -> str:
+        """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""
         return ""
 
     @classmethod

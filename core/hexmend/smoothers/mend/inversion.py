@@ -1,4 +1,4 @@
-"""What of a mesh is tangled, what of that fixed nodes lock, and nodes that are far away."""
+"""Inverted corner tetrahedra of a mesh, those that fixed nodes lock, and nodes that are far away."""
 
 from __future__ import annotations
 
@@ -6,19 +6,30 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_values import shortest_edges
-from hexmend.quality import ElementQuality, corner_determinants, measure
+from hexmend.quality import ElementQuality, corner_determinants
 from hexmend.quality.measure import locked_tetrahedra
 
-#: From how many mean edge lengths of its shortest edge on an inner node is far away: it begins amid its neighbours.
+#: An inner node is far away if the shortest edge of its inverted hexes is longer than this, in mean edge lengths.
 FAR = 10.0
 
 
-def brought_near(mesh: Mesh, figures: ElementQuality) -> np.ndarray:
-    """The points of a mesh, those nodes of its inverted hexes amid their neighbours that are far from them all, (n, 3).
+def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Move inner nodes of inverted hexes that are far from all their neighbours to the mean of these.
 
     From far away such a node would draw the others after it for as long as delta is large.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    quality : ElementQuality
+        Of its hexes.
+
+    Returns
+    -------
+    (n, 3) float64
+        All points; the mesh's own array where no node is far away.
     """
-    size = shortest_edges(mesh.points, mesh.hexes[figures.inverted])
+    size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
     far = np.isfinite(size) & (size > FAR * mesh.mean_edge_length)
     points = mesh.points
     for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
@@ -30,43 +41,56 @@ def brought_near(mesh: Mesh, figures: ElementQuality) -> np.ndarray:
     return points
 
 
-def inverted_corners(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """A bit for each corner tetrahedron with sigma <= 0, (m,) uint8."""
-    bits = np.zeros(len(hexes), np.uint8)
-    where = np.flatnonzero(measure(points, hexes).inverted)
-    inverted = ~(corner_determinants(points, hexes, where) > 0)
-    bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
-    return bits
-
-
-def locked_corners(mesh: Mesh) -> np.ndarray:
-    """A bit for each corner tetrahedron that fixed nodes lock in inversion, (m,) uint8."""
-    inverted = measure(mesh.points, mesh.hexes).inverted
-    locked = locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, inverted)
-    return np.packbits(locked, axis=1, bitorder="little")[:, 0]
-
-
-def tangled_in(
-    points: np.ndarray, hexes: np.ndarray, left_out: np.ndarray, figures: ElementQuality
-) -> tuple[int, float]:
-    """How many hexes have an inverted corner that is not left out, and the least determinant of those corners.
+def inverted_corners(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
+    """Mark the corner tetrahedra with sigma <= 0.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
-    left_out : (m,) uint8
-        A bit for each corner, as of `inverted_corners`.
-    figures : ElementQuality
-        Of these hexes.
+    quality : ElementQuality
+        Of these hexes at these points.
 
     Returns
     -------
-    int, float
-        The determinant in the cube of the points' unit of length; 0 where no such corner is inverted.
+    (m,) uint8
+        Bit t set: corner tetrahedron t of the hex is inverted.
     """
-    where = np.flatnonzero(figures.inverted)
-    counts = np.unpackbits(left_out[where, None], axis=1, bitorder="little") == 0
+    bits = np.zeros(len(hexes), np.uint8)
+    where = np.flatnonzero(quality.inverted)
+    inverted = ~(corner_determinants(points, hexes, where) > 0)
+    bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
+    return bits
+
+
+def locked_corners(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+    """Mark the corner tetrahedra that fixed nodes lock in inversion, (m,) uint8, bits as in `inverted_corners`."""
+    locked = locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
+    return np.packbits(locked, axis=1, bitorder="little")[:, 0]
+
+
+def count_inverted(
+    points: np.ndarray, hexes: np.ndarray, omitted: np.ndarray, quality: ElementQuality
+) -> tuple[int, float]:
+    """Count the hexes that have an inverted corner, and find the least determinant of these corners.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    omitted : (m,) uint8
+        Corners that do not count, bits as in `inverted_corners`.
+    quality : ElementQuality
+        Of these hexes at these points.
+
+    Returns
+    -------
+    count : int
+    least : float
+        In the cube of the points' unit of length; 0 where no corner is inverted.
+    """
+    where = np.flatnonzero(quality.inverted)
+    counts = np.unpackbits(omitted[where, None], axis=1, bitorder="little") == 0
     sigma = np.where(counts, corner_determinants(points, hexes, where), np.inf)
     inverted = ~(sigma > 0)
     return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))

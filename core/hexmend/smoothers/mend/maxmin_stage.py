@@ -1,129 +1,117 @@
-"""How mend raises the least scaled Jacobian: one group of corners after another, and off the surface where it must."""
+"""Third stage of mend: the least scaled Jacobian is raised, one group of corners after another.
+
+`MaxMinOptimiser` ends where some corners let the least rise no further. They are frozen, and the corners above them are
+raised in turn.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Generator
-from itertools import islice
+from dataclasses import dataclass
 
 import numpy as np
 
 from hexmend.iteration import ActiveSet, Step
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 
-#: Least scaled Jacobian from which on a hex is sound enough for the energy's barrier, and below which one is so bad
-#: that nodes of the boundary leave the surface for it.
-SOUND, AIM = 0.02, 0.2
-#: What share of its room the boundary may use where that is enough; how far it may go at first where it is not, in
-#: mean edge lengths, until the least is so many times `AIM`.
-SPARED, WIDE, ENOUGH, NEAR_ENOUGH = 1 / 3, 1.5, 1.2, 1e-5
-#: How many linear programs an iteration has.
-TOGETHER = 3
-#: How many groups of corners that hold each other below `AIM` are left behind; and while nodes leave the surface.
-CLUSTERS, MANY_CLUSTERS = 10, 30
 
-
-def raise_least(
-    raising: MaxMinOptimiser,
-    aim: float = np.inf,
-    lifts: float = -np.inf,
-    clusters: int = 1,
-    infeasible: bool = False,
-) -> Generator[Step, None, ActiveCorners]:
-    """Raise the least scaled Jacobian.
-
-    Where corners hold each other below `aim`, those that are above them are raised further. Below `lifts`, nodes of the
-    boundary leave the surface for that.
+@dataclass(frozen=True)
+class MaxMinConfig:
+    """Settings of the stage and of the return to the surface; scaled Jacobians are in [-1, 1].
 
     Parameters
     ----------
-    raising : MaxMinOptimiser
-    aim, lifts : float
-    clusters : int
-        How many groups of corners that hold each other are left behind, at most.
+    barrier_safe : float
+        Least scaled Jacobian from which on a hex is sound enough for the energy's barrier.
+    acceptable : float
+        Least scaled Jacobian below which nodes of the boundary leave the surface, and groups are frozen.
+    programs : int
+        Linear programs that make an iteration of the run.
+    groups, groups_off_surface : int
+        Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
+    surface_share : float
+        Share of the surface tolerance that the boundary uses while nodes slide.
+    wide : float
+        Distance from the surface that nodes which leave it may have at first, in mean edge lengths.
+    off_surface_factor : float
+        Multiple of `acceptable` at which the raise off the surface ends: the way back costs some of it.
+    band_rounding : float
+        Share of the surface tolerance by which a boundary may exceed it.
+    """
+
+    barrier_safe: float = 0.02
+    acceptable: float = 0.2
+    programs: int = 3
+    groups: int = 10
+    groups_off_surface: int = 30
+    surface_share: float = 1 / 3
+    wide: float = 1.5
+    off_surface_factor: float = 1.2
+    band_rounding: float = 1e-5
+
+
+MAXMIN = MaxMinConfig()
+
+
+def raise_least(
+    optimiser: MaxMinOptimiser,
+    target: float = np.inf,
+    release_below: float = -np.inf,
+    groups: int = 1,
+    infeasible: bool = False,
+    config: MaxMinConfig = MAXMIN,
+) -> Generator[Step, None, ActiveCorners]:
+    """Raise the least scaled Jacobian of the corners that can be moved.
+
+    Parameters
+    ----------
+    optimiser : MaxMinOptimiser
+    target : float
+        Ends where the least has reached it; groups below it are frozen, and the corners above them raised further.
+    release_below : float
+        Where a group is stuck below it, nodes of the boundary leave the surface, if any can, before it is frozen.
+    groups : int
+        Groups that are raised, at most.
     infeasible : bool
-        See `Step.infeasible`.
+        Of the steps: see `Step`.
+    config : MaxMinConfig
+
+    Yields
+    ------
+    Step
+        The points at first, then after every `config.programs` linear programs.
 
     Returns
     -------
     ActiveCorners
-        What held the least at first.
+        The first group that was stuck: it limits the least of all.
     """
     first = None
-    yield Step(raising.points, {"least": raising.corners.least}, intermediate=True, infeasible=infeasible)
+    yield Step(optimiser.points, {"least": optimiser.corners.least}, intermediate=True, infeasible=infeasible)
     while True:
-        for number, step in enumerate(raising.steps(aim)):
-            limit = step if isinstance(step, ActiveCorners) else None
-            if limit is None and number % TOGETHER == 0:
+        for number, step in enumerate(optimiser.steps(target)):
+            active = step if isinstance(step, ActiveCorners) else None
+            if active is None and number % config.programs == 0:
                 yield step.step(infeasible)
-        if not limit.hexes.size or limit.least >= aim:
+        if not active.hexes.size or active.least >= target:
             break
-        if limit.least < lifts and raising.release(limit):
+        if active.least < release_below and optimiser.release(active):
             continue
-        first = first or limit
-        clusters -= 1
-        if limit.least >= AIM or not clusters:
+        first = first or active
+        groups -= 1
+        if active.least >= config.acceptable or not groups:
             break
-        raising.freeze(limit)
-    return first or limit
+        optimiser.freeze(active)
+    return first or active
 
 
-def lifted(
-    raising: MaxMinOptimiser, room: float, other: MaxMinOptimiser, limit: ActiveCorners
-) -> Generator[Step, None, tuple[MaxMinOptimiser, ActiveCorners]]:
-    """Where sliding is not enough: let nodes leave the surface as they must, then bring them into the room.
-
-    Returns what is better, that or the other, with its limit.
-    """
-    envelope, corners = raising.envelope, raising.corners
-    envelope.room, envelope.flips_allowed = max(WIDE * raising.mesh.mean_edge_length, room), True
-    yield from raise_least(raising, ENOUGH * AIM, AIM, MANY_CLUSTERS, infeasible=True)
-    for step in islice(raising.return_to_band(room), 0, None, TOGETHER):
-        yield step.step(infeasible=True)
-    envelope.flips_allowed = False
-    turned = envelope.sliding.turned(envelope.sliding.points, raising.points).size > 0
-    far = envelope.largest_deviation(raising.points) > room * (1 + NEAR_ENOUGH)
-    if turned or far or corners.least_of_all < other.corners.least_of_all:
-        yield Step(other.points, {"least": other.corners.least_of_all}, intermediate=True)
-        return other, limit
-    return raising, (yield from raise_least(raising, lifts=AIM, clusters=CLUSTERS))
+def active_set(optimiser: MaxMinOptimiser, active: ActiveCorners) -> ActiveSet:
+    """Corners that let the least rise no further, and hexes with corners that are locked below them."""
+    nodes = optimiser.mesh.hexes[active.hexes, active.corners].astype(np.int64)
+    locked = locked_below(optimiser, active) // 8
+    return ActiveSet(active.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
 
 
-def limits_of(raising: MaxMinOptimiser, limit: ActiveCorners) -> ActiveSet:
-    """Which corners let the least rise no further, and which are locked below them."""
-    nodes = raising.mesh.hexes[limit.hexes, limit.corners].astype(np.int64)
-    locked = _locked(raising, limit) // 8
-    return ActiveSet(limit.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
-
-
-def what_limits(raising: MaxMinOptimiser, limit: ActiveCorners) -> str:
-    """What lets the least rise no further, and what is locked below that, in sentences; "" where nothing does.
-
-    Corners of places apart are at the limit together, but hold each other within their own place alone.
-    """
-    count = len(limit.hexes)
-    if not count:
-        return ""
-    places = raising.corners.groups(8 * limit.hexes + limit.corners).max() + 1
-    if count == 1:
-        who = "it can go no further, in hex"
-    elif places == 1:
-        who = f"{count} of them hold each other there, in the hexes"
-    else:
-        who = f"{count} of them can go no further there, in {places} places apart, in the hexes"
-    found = f"The least scaled Jacobian of the corners that can be moved is {limit.least:.4f}"
-    said = f"{found}: {who} {_named(limit.hexes)}."
-    locked = _locked(raising, limit)
-    if not locked.size:
-        return said
-    which = "One corner is locked below that" if locked.size == 1 else f"{locked.size:,} corners are locked below that"
-    lowest = raising.corners.values.ravel()[locked[0]]
-    return f"{said} {which}: {lowest:.4f} at the lowest, in hex {_named(locked[:1] // 8)}."
-
-
-def _locked(raising: MaxMinOptimiser, limit: ActiveCorners) -> np.ndarray:
-    return raising.corners.locked_below(limit.least if limit.hexes.size else -np.inf)
-
-
-def _named(hexes: np.ndarray) -> str:
-    """The first few of some hexes, each once."""
-    return ", ".join(f"{number:,}" for number in dict.fromkeys(hexes[:8].tolist()))
+def locked_below(optimiser: MaxMinOptimiser, active: ActiveCorners) -> np.ndarray:
+    """Corners, 8 * hex + corner, that fixed nodes lock below the least, the lowest first; none without active ones."""
+    return optimiser.corners.locked_below(active.least if active.hexes.size else -np.inf)

@@ -1,36 +1,72 @@
-"""What mend says of its result, in sentences."""
+"""Sentences in which mend reports its result."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.mesh import Mesh
-from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.smoothers.mend.maxmin_stage import locked_below
 
 
-def what_is_left(left_out: np.ndarray, locked: np.ndarray) -> str:
-    """Which hexes the energy leaves corners of out, by the bits of these corners: all, and the locked; (m,) uint8."""
-    held, rest = int(np.count_nonzero(locked)), int(np.count_nonzero(left_out & ~locked))
-    said = f"{held:,} hex{'es have' if held != 1 else ' has'} corners that fixed nodes lock in inversion"
-    more = f"{rest:,} more resist{'s' * (rest == 1)}"
-    return f"Left out of the energy: {'; '.join(filter(None, [said * bool(held), more * bool(rest)]))}."
-
-
-def what_sliding_freed(mesh: Mesh, points: np.ndarray) -> str:
-    """What has become of the hexes that a mesh's fixed nodes locked, its boundary having slid; "" where there was none.
+def omission_message(omitted: np.ndarray, locked: np.ndarray) -> str:
+    """Tell how many hexes have corners that the energy omits.
 
     Parameters
     ----------
-    mesh : Mesh
-        As given.
-    points : (n, 3) float64
-        Where the nodes are now.
+    omitted, locked : (m,) uint8
+        A bit for each corner that is omitted, and that fixed nodes lock.
     """
-    locked = locked_corners(mesh)
+    by_fixed, others = int(np.count_nonzero(locked)), int(np.count_nonzero(omitted & ~locked))
+    fixed = f"{by_fixed:,} hex{'es have' if by_fixed != 1 else ' has'} corners that fixed nodes lock in inversion"
+    resisting = f"{others:,} more resist{'s' * (others == 1)}"
+    clauses = [fixed] * bool(by_fixed) + [resisting] * bool(others)
+    return f"Left out of the energy: {'; '.join(clauses)}."
+
+
+def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
+    """Tell how many hexes that fixed nodes locked are free now that the boundary has slid; "" where there was none.
+
+    Parameters
+    ----------
+    locked : (m,) uint8
+        A bit for each corner that fixed nodes locked in inversion before the run.
+    inverted : (m,) uint8
+        A bit for each corner that is inverted now.
+    """
     count = np.count_nonzero(locked)
     if not count:
         return ""
-    left = np.count_nonzero(locked & inverted_corners(points, mesh.hexes))
+    left = np.count_nonzero(locked & inverted)
     rest = "none is left" if not left else f"{left:,} {'is' if left == 1 else 'are'} left"
-    held = f"{count:,} hex{'es had' if count != 1 else ' had'} corners that fixed nodes lock in inversion"
-    return f"{held}: sliding freed {count - left:,}, {rest}."
+    had = f"{count:,} hex{'es had' if count != 1 else ' had'} corners that fixed nodes lock in inversion"
+    return f"{had}: sliding freed {count - left:,}, {rest}."
+
+
+def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
+    """Tell which corners limit the least scaled Jacobian, and which are locked below it; "" where none limits it.
+
+    Corners of several places reach the limit together, but hold each other within their own place alone.
+    """
+    count = len(active.hexes)
+    if not count:
+        return ""
+    places = optimiser.corners.groups(8 * active.hexes + active.corners).max() + 1
+    if count == 1:
+        who = "it can go no further, in hex"
+    elif places == 1:
+        who = f"{count} of them hold each other there, in the hexes"
+    else:
+        who = f"{count} of them can go no further there, in {places} places apart, in the hexes"
+    least = f"The least scaled Jacobian of the corners that can be moved is {active.least:.4f}"
+    sentence = f"{least}: {who} {_first_hexes(active.hexes)}."
+    locked = locked_below(optimiser, active)
+    if not locked.size:
+        return sentence
+    which = "One corner is locked below that" if locked.size == 1 else f"{locked.size:,} corners are locked below that"
+    lowest = optimiser.corners.values.ravel()[locked[0]]
+    return f"{sentence} {which}: {lowest:.4f} at the lowest, in hex {_first_hexes(locked[:1] // 8)}."
+
+
+def _first_hexes(hexes: np.ndarray) -> str:
+    """List the numbers of the first eight, each once."""
+    return ", ".join(f"{number:,}" for number in dict.fromkeys(hexes[:8].tolist()))

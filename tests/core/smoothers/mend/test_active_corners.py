@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend.optimise.maxmin.slp import ActiveCorners
-from hexmend.smoothers.mend.maxmin_stage import limits_of, what_limits
+from hexmend.smoothers.mend.maxmin_stage import active_set
+from hexmend.smoothers.mend.messages import limit_message
 from tests.core.grids import grid
 
 BEGIN = "The least scaled Jacobian of the corners that can be moved is 0.2500: "
@@ -30,7 +31,7 @@ def limit_of(*hexes):
 
 
 def test_nothing_is_said_where_nothing_limits():
-    assert what_limits(stand_in(), limit_of()) == ""
+    assert limit_message(stand_in(), limit_of()) == ""
 
 
 @pytest.mark.parametrize(
@@ -45,7 +46,7 @@ def test_nothing_is_said_where_nothing_limits():
     ],
 )  # fmt: skip
 def test_corners_of_a_limit_are_said_by_place(hexes, places, said):
-    assert what_limits(stand_in(list(places)), limit_of(*hexes)) == BEGIN + said
+    assert limit_message(stand_in(list(places)), limit_of(*hexes)) == BEGIN + said
 
 
 @pytest.mark.parametrize(
@@ -56,15 +57,15 @@ def test_corners_of_a_limit_are_said_by_place(hexes, places, said):
     ],
 )
 def test_corners_that_are_locked_below_it_are_counted(locked, said):
-    assert what_limits(stand_in([0], locked), limit_of(7)).endswith("in hex 7." + said)
+    assert limit_message(stand_in([0], locked), limit_of(7)).endswith("in hex 7." + said)
 
 
 def test_the_limits_name_hexes_nodes_and_each_locked_hex_once():
     raising = stand_in([0, 0], [40, 19, 41])
-    limits = limits_of(raising, limit_of(3, 9))
+    limits = active_set(raising, limit_of(3, 9))
     assert limits.hexes.tolist() == [3, 9]
     assert limits.nodes.tolist() == [raising.mesh.hexes[3, 0], raising.mesh.hexes[9, 1]]
     assert limits.locked.tolist() == [5, 2]
     assert raising.asked == [0.25]
-    limits_of(raising, limit_of())
+    active_set(raising, limit_of())
     assert raising.asked[-1] == -np.inf

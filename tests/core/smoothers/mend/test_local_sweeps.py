@@ -8,10 +8,16 @@ import pytest
 from hexmend.energy import MeshEnergy, SlidingEnergy
 from hexmend.kernels import local
 from hexmend.quality import measure
-from hexmend.smoothers.mend import mend
+from hexmend.smoothers import METHODS
+from hexmend.smoothers.mend import untangling
+from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
+from hexmend.smoothers.mend.newton import NewtonConfig
+from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled
+
+DEFAULT = UntanglingConfig()
 
 
 @pytest.fixture
@@ -34,6 +40,18 @@ def swept(monkeypatch):
         return set(np.flatnonzero((there != x).any(axis=1)).tolist())
 
     return mesh, around
+
+
+def untangled(mesh, energy, config=DEFAULT):
+    """Untangle a mesh: the steps, and the result."""
+    quality = measure(mesh.points, mesh.hexes)
+    locked = locked_corners(mesh, quality)
+    walk, steps = untangle(mesh, energy, quality, locked, config, NewtonConfig()), []
+    while True:
+        try:
+            steps.append(next(walk))
+        except StopIteration as end:
+            return steps, end.value
 
 
 def nodes_of(mesh, hexes):
@@ -70,16 +88,12 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     points = mesh.points.copy()
     points[points[:, 0] == 2, 0] = -1.0
     mesh = mesh.with_points(points)
-    energy, locked = MeshEnergy(mesh), mend.locked_corners(mesh)
-    walk = mend.Mend()._untangled(mesh, energy.with_objective(energy.power, locked), locked)  # noqa: SLF001
-    while True:
-        try:
-            next(walk)
-        except StopIteration as end:
-            points, left_out = end.value
-            break
-    inverted = mend.inverted_corners(points, mesh.hexes)
-    np.testing.assert_array_equal(left_out, inverted | locked)
+    locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
+    _, result = untangled(mesh, MeshEnergy(mesh, left_out=locked))
+    quality = measure(result.points, mesh.hexes)
+    np.testing.assert_array_equal(result.quality.q, quality.q)
+    inverted = inverted_corners(result.points, mesh.hexes, quality)
+    np.testing.assert_array_equal(result.omitted, inverted | locked)
     assert (inverted & ~locked).any()
 
 
@@ -87,17 +101,18 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
 def test_what_resists_is_given_up_after_so_many_deltas_that_mended_nothing(boundary, monkeypatch):
     """Nothing is ever mended here: each delta has one round of sweeps."""
     mesh = scrambled(grid(3), 1.5, 1)
-    method = mend.Mend(boundary=boundary)
-    energy = SlidingEnergy(method.sliding(mesh)) if method.slides else MeshEnergy(mesh)
-    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))
-    deltas = [step.diagnostics["delta"] for step in method._untangled(mesh, energy, mend.locked_corners(mesh))  # noqa: SLF001
-              if "sweeps" in step.diagnostics]  # fmt: skip
-    assert len(deltas) == (mend.SLIDING_PATIENCE if energy.faceted else mend.PATIENCE)
+    energy = (
+        SlidingEnergy(METHODS["mend"](boundary=boundary).sliding(mesh)) if boundary == "slide" else MeshEnergy(mesh)
+    )
+    monkeypatch.setattr(untangling, "count_inverted", lambda *_: (5, -0.1))
+    steps, _ = untangled(mesh, energy)
+    deltas = [step.diagnostics["delta"] for step in steps if "sweeps" in step.diagnostics]
+    assert len(deltas) == (DEFAULT.faceted_patience if energy.faceted else DEFAULT.patience)
     assert (np.diff(deltas) < 0).all()
 
 
 def test_a_run_at_its_optimum_has_no_iteration_that_only_repeats_the_last():
-    steps = list(itertools.islice(mend.Mend().steps(wavy(grid(3), 0.2)), 300))
+    steps = list(itertools.islice(METHODS["mend"]().steps(wavy(grid(3), 0.2)), 300))
     assert 2 < len(steps) < 300
     assert all((one.points != other.points).any() for one, other in itertools.pairwise(steps))
 
@@ -107,13 +122,12 @@ def test_where_few_hexes_are_inverted_they_are_swept_longer_and_the_whole_mesh_s
     few, monkeypatch
 ):
     mesh = scrambled(grid(3), 1.5, 1)
-    monkeypatch.setattr(mend, "tangled_in", lambda *_: (5, -0.1))  # nothing is ever mended
-    monkeypatch.setattr(mend, "FEW", 6 / 27 if few else 5 / 27)
-    walk = mend.Mend()._untangled(mesh, MeshEnergy(mesh), mend.locked_corners(mesh))  # noqa: SLF001
-    steps = [step.diagnostics for step in walk]
+    monkeypatch.setattr(untangling, "count_inverted", lambda *_: (5, -0.1))  # nothing is ever repaired
+    config = UntanglingConfig(few=6 / 27 if few else 5 / 27)
+    steps = [step.diagnostics for step in untangled(mesh, MeshEnergy(mesh), config)[0]]
     swept = [diagnostics["sweeps"] for diagnostics in steps if "sweeps" in diagnostics]
-    assert swept == [mend.MANY_SWEEPS if few else mend.SWEEPS] * mend.PATIENCE
+    assert swept == [config.few_sweeps if few else config.sweeps] * config.patience
     deltas = list(dict.fromkeys(diagnostics["delta"] for diagnostics in steps))
     stepped = {deltas.index(diagnostics["delta"]) for diagnostics in steps if "sweeps" not in diagnostics}
-    assert stepped <= set(range(2, mend.PATIENCE, 3) if few else range(mend.PATIENCE))
+    assert stepped <= set(range(2, config.patience, 3) if few else range(config.patience))
     assert stepped

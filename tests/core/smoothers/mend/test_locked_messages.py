@@ -1,9 +1,10 @@
-"""What mend says of what fixed nodes lock."""
+"""Messages of mend about hexes that fixed nodes lock."""
 
 import numpy as np
 
-from hexmend.smoothers.mend.inversion import locked_corners
-from hexmend.smoothers.mend.messages import what_is_left, what_sliding_freed
+from hexmend.quality import measure
+from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
+from hexmend.smoothers.mend.messages import freed_message, omission_message
 from tests.core.grids import grid
 
 
@@ -17,20 +18,26 @@ def with_two_locked_corners():
     return sound.with_points(points), sound.points, ends
 
 
+def message_after(mesh, points):
+    """The message where the boundary has slid from where a mesh has it to other points."""
+    inverted = inverted_corners(points, mesh.hexes, measure(points, mesh.hexes))
+    return freed_message(locked_corners(mesh, measure(mesh.points, mesh.hexes)), inverted)
+
+
 def test_what_sliding_has_freed_and_what_is_left_is_said():
     mesh, sound, (one, _) = with_two_locked_corners()
-    assert np.count_nonzero(locked_corners(mesh)) == 2
+    assert np.count_nonzero(locked_corners(mesh, measure(mesh.points, mesh.hexes))) == 2
     had = "2 hexes had corners that fixed nodes lock in inversion: sliding freed "
-    assert what_sliding_freed(mesh, sound) == had + "2, none is left."
-    assert what_sliding_freed(mesh, mesh.points) == had + "0, 2 are left."
+    assert message_after(mesh, sound) == had + "2, none is left."
+    assert message_after(mesh, mesh.points) == had + "0, 2 are left."
     half = mesh.points.copy()
     half[one] = sound[one]
-    assert what_sliding_freed(mesh, half) == had + "1, 1 is left."
-    assert what_sliding_freed(mesh.with_points(sound), mesh.points) == ""
+    assert message_after(mesh, half) == had + "1, 1 is left."
+    assert message_after(mesh.with_points(sound), mesh.points) == ""
 
 
 def test_what_resists_is_told_apart_from_what_is_locked():
     locked, resisting = np.array([1, 0, 0], np.uint8), np.array([0, 2, 6], np.uint8)
-    assert what_is_left(locked, locked).endswith("1 hex has corners that fixed nodes lock in inversion.")
-    assert what_is_left(resisting, 0 * locked) == "Left out of the energy: 2 more resist."
-    assert what_is_left(locked | resisting, locked).endswith("in inversion; 2 more resist.")
+    assert omission_message(locked, locked).endswith("1 hex has corners that fixed nodes lock in inversion.")
+    assert omission_message(resisting, 0 * locked) == "Left out of the energy: 2 more resist."
+    assert omission_message(locked | resisting, locked).endswith("in inversion; 2 more resist.")

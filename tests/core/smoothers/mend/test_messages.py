@@ -1,6 +1,7 @@
 """What methods advise where something got worse, and what mend's steps say while another stage is to come."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,8 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend import maxmin_stage
-from hexmend.smoothers.mend.maxmin_stage import TOGETHER, lifted
+from hexmend.smoothers.mend.maxmin_stage import MAXMIN
+from hexmend.smoothers.mend.surface_return import MaxMinResult, release_from_surface
 from tests.core.boundary.solids import ball, slid
 
 #: Every set of figures that can be worse.
@@ -19,16 +20,16 @@ WORSE = [words for count in range(len(REGRESSION_KEYS) + 1) for words in itertoo
 
 @pytest.mark.parametrize("name", METHODS)
 def test_what_is_advised_is_a_text_whatever_got_worse(name):
-    assert all(isinstance(METHODS[name]().instead(words), str) for words in WORSE)
+    assert all(isinstance(METHODS[name]().regression_hint(words), str) for words in WORSE)
 
 
 def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
     mend = METHODS["mend"]
     for words in WORSE:
-        advice = mend().instead(words)
+        advice = mend().regression_hint(words)
         assert ("goal=scaled-jacobian" in advice) == ("scaled_jacobian" in words and "inverted" not in words)
         assert ("guard=true" in advice) == (bool(words) and "inverted" not in words)
-        assert mend(goal="scaled-jacobian").instead(words) == ""
+        assert mend(goal="scaled-jacobian").regression_hint(words) == ""
 
 
 def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
@@ -38,7 +39,9 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     assert isinstance(limit, ActiveCorners)
-    steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
+    steps = list(
+        release_from_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, MaxMinResult(other, limit))
+    )
     assert steps
     assert all(step.intermediate for step in steps)
     assert not steps[-1].infeasible
@@ -50,16 +53,16 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
-    walk = lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), 1e-9, other, limit)
+    walk = release_from_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), 1e-9, MaxMinResult(other, limit))
     steps = []
     while True:
         try:
             steps.append(next(walk))
         except StopIteration as end:
-            best, of = end.value
+            result = end.value
             break
-    assert best is other
-    assert of is limit
+    assert result.optimiser is other
+    assert result.active is limit
     assert steps[-1].points is other.points
     assert steps[-1].diagnostics == {"least": other.corners.least_of_all}
     assert all(step.intermediate for step in steps)
@@ -72,33 +75,33 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     sliding = SlidingBoundary(mesh, room=room)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
-    monkeypatch.setattr(maxmin_stage, "AIM", 0.7)
+    config = replace(MAXMIN, acceptable=0.7)
     made, into = [], MaxMinOptimiser.return_to_band
     monkeypatch.setattr(
         MaxMinOptimiser, "return_to_band", lambda *given: (made.append(step.points) or step for step in into(*given))
     )
-    steps = list(lifted(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, other, limit))
-    assert len(made) > TOGETHER
+    optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
+    steps = list(release_from_surface(optimiser, room, MaxMinResult(other, limit), config))
+    assert len(made) > MAXMIN.programs
     shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
-    assert shown == list(range(0, len(made), TOGETHER))
+    assert shown == list(range(0, len(made), MAXMIN.programs))
 
 
-def test_what_is_better_off_the_surface_and_back_in_its_room_is_taken(monkeypatch):
+def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
     sliding = SlidingBoundary(mesh, room=room)
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = ActiveCorners(other.corners.least, np.array([0]), np.array([0]))
-    monkeypatch.setattr(maxmin_stage, "AIM", 0.3)
-    walk = lifted(off, room, other, limit)
+    walk = release_from_surface(off, room, MaxMinResult(other, limit), replace(MAXMIN, acceptable=0.3))
     while True:
         try:
             next(walk)
         except StopIteration as end:
-            best, of = end.value
+            result = end.value
             break
-    assert best is off
-    assert of is not limit
+    assert result.optimiser is off
+    assert result.active is not limit
     assert off.corners.least_of_all > other.corners.least_of_all
     assert 0.5 * room < off.envelope.largest_deviation(off.points) <= room * (1 + 1e-5)
     assert not off.envelope.flips_allowed

@@ -1,0 +1,38 @@
+"""Newton steps of all free nodes at once, of which untangling and the optimum of shape are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.kernels.line_search import LineSearch
+from hexmend.optimise.descent import Descent, descend
+from hexmend.optimise.search_direction import TruncatedNewton
+
+SEARCH = LineSearch(backtrack_factor=0.5)
+
+
+@dataclass(frozen=True)
+class NewtonConfig:
+    """Settings of the Newton steps.
+
+    Parameters
+    ----------
+    solver_iterations : int
+        Most iterations of conjugate gradients for a direction.
+    reach : float
+        How far a step may take a node, in mean lengths of the node's edges.
+    """
+
+    solver_iterations: int = 200
+    reach: float = 1.5
+
+    def direction(self) -> TruncatedNewton:
+        """A finder of directions for one sequence of steps: it adapts from step to step."""
+        return TruncatedNewton(iterations=self.solver_iterations)
+
+    def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, find: TruncatedNewton) -> Descent | None:
+        """Take a step from x (n, 3), in mean edge lengths; None where the energy is infinite there."""
+        return descend(energy, x, delta, find, SEARCH, self.reach)

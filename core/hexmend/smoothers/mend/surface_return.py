@@ -1,0 +1,61 @@
+"""Fourth stage of mend: nodes leave the surface where sliding along it is not enough, and return to its band."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from itertools import islice
+
+from hexmend.iteration import Step
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.smoothers.mend.maxmin_stage import MAXMIN, MaxMinConfig, raise_least
+
+
+@dataclass(frozen=True, eq=False)
+class MaxMinResult:
+    """Result of raising the least scaled Jacobian: the optimiser at its end, and the corners that limit it."""
+
+    optimiser: MaxMinOptimiser
+    active: ActiveCorners
+
+
+def release_from_surface(
+    optimiser: MaxMinOptimiser, tolerance: float, on_surface: MaxMinResult, config: MaxMinConfig = MAXMIN
+) -> Generator[Step, None, MaxMinResult]:
+    """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
+
+    Parameters
+    ----------
+    optimiser : MaxMinOptimiser
+        Where this begins.
+    tolerance : float
+        Half the width of the band around the surface, in the mesh's unit of length.
+    on_surface : MaxMinResult
+        The result without leaving the surface.
+    config : MaxMinConfig
+
+    Yields
+    ------
+    Step
+        Infeasible ones while nodes may be outside the band.
+
+    Returns
+    -------
+    MaxMinResult
+        The better one: this, if it is back in the band, or `on_surface`.
+    """
+    envelope, corners = optimiser.envelope, optimiser.corners
+    envelope.room, envelope.flips_allowed = max(config.wide * optimiser.mesh.mean_edge_length, tolerance), True
+    target, groups = config.off_surface_factor * config.acceptable, config.groups_off_surface
+    yield from raise_least(optimiser, target, config.acceptable, groups, infeasible=True, config=config)
+    for step in islice(optimiser.return_to_band(tolerance), 0, None, config.programs):
+        yield step.step(infeasible=True)
+    envelope.flips_allowed = False
+    flipped = envelope.sliding.turned(envelope.sliding.points, optimiser.points).size > 0
+    outside = envelope.largest_deviation(optimiser.points) > tolerance * (1 + config.band_rounding)
+    least_on_surface = on_surface.optimiser.corners.least_of_all
+    if flipped or outside or corners.least_of_all < least_on_surface:
+        yield Step(on_surface.optimiser.points, {"least": least_on_surface}, intermediate=True)
+        return on_surface
+    active = yield from raise_least(optimiser, release_below=config.acceptable, groups=config.groups, config=config)
+    return MaxMinResult(optimiser, active)

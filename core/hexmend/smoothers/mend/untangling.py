@@ -1,0 +1,169 @@
+"""First stage of mend: untangling by a barrier that hardens step by step (Wilson 5.2.2).
+
+Inverted hexes have a finite energy while delta > 0 (3.2). A falling epsilon gives delta^2 = epsilon (epsilon - worst),
+worst being the least determinant of the mesh. At each delta a few Newton steps of all nodes lower the energy; sweeps of
+local Newton steps then work around the hexes that are still inverted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.energy import MeshEnergy
+from hexmend.iteration import Step
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure
+from hexmend.smoothers.mend.inversion import count_inverted, inverted_corners, recentre_far_nodes
+from hexmend.smoothers.mend.local_sweeps import local_sweeps
+from hexmend.smoothers.mend.newton import NewtonConfig
+
+
+@dataclass(frozen=True)
+class UntanglingConfig:
+    """Settings of the stage.
+
+    Parameters
+    ----------
+    initial_epsilon, min_epsilon : float
+        The first epsilon, and the one at which the stage ends, in cubes of the mean edge length.
+    reduction : float
+        Factor from one epsilon to the next.
+    max_delta : float
+        In cubes of the mean edge length; beyond it the energy of a flat hex is that of a cube.
+    newton_steps : int
+        Most steps of all nodes at one delta: before delta is small the energy is not worth minimising.
+    sweeps : int
+        Sweeps of local Newton steps at one delta.
+    few : float
+        Share of the hexes below which the inverted ones are few: then local sweeps do the work.
+    few_sweeps, few_period : int
+        Sweeps at one delta where they are few, and at every which idle delta all nodes step.
+    patience, faceted_patience : int
+        Deltas in a row that repair no further hex after which the stage ends; the second on a faceted surface, where
+        the max-min stage repairs what is left.
+    """
+
+    initial_epsilon: float = 0.03
+    min_epsilon: float = 1e-9
+    reduction: float = 0.7
+    max_delta: float = 0.5
+    newton_steps: int = 3
+    sweeps: int = 10
+    few: float = 0.003
+    few_sweeps: int = 50
+    few_period: int = 3
+    patience: int = 14
+    faceted_patience: int = 7
+
+
+@dataclass(frozen=True, eq=False)
+class Untangled:
+    """Result of the stage.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    quality : ElementQuality
+        Of the hexes at these points.
+    omitted : (m,) uint8
+        Bit t set: corner tetrahedron t of the hex is inverted still, or locked; later energies omit it.
+    """
+
+    points: np.ndarray
+    quality: ElementQuality
+    omitted: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Iterate:
+    """Nodes at x (n, 3), in mean edge lengths, how many hexes are inverted there and the least determinant."""
+
+    x: np.ndarray
+    points: np.ndarray
+    quality: ElementQuality
+    inverted: int
+    worst: float
+
+    @classmethod
+    def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
+        points = energy.to_mesh_units(x)
+        return cls.measured(x, points, measure(points, energy.mesh.hexes), energy, locked)
+
+    @classmethod
+    def measured(
+        cls, x: np.ndarray, points: np.ndarray, quality: ElementQuality, energy: MeshEnergy, locked: np.ndarray
+    ) -> _Iterate:
+        return cls(x, points, quality, *count_inverted(points, energy.mesh.hexes, locked, quality))
+
+
+def untangle(
+    mesh: Mesh,
+    energy: MeshEnergy,
+    quality: ElementQuality,
+    locked: np.ndarray,
+    config: UntanglingConfig,
+    newton: NewtonConfig,
+) -> Generator[Step, None, Untangled]:
+    """Untangle what can be untangled.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its points are where the stage begins.
+    energy : MeshEnergy
+        Of this mesh, the locked corners omitted.
+    quality : ElementQuality
+        Of the mesh's hexes.
+    locked : (m,) uint8
+        Corners that fixed nodes lock in inversion.
+    config : UntanglingConfig
+    newton : NewtonConfig
+
+    Yields
+    ------
+    Step
+        After each step of all nodes and after the sweeps at each delta.
+    """
+    points = recentre_far_nodes(mesh, quality)
+    if points is not mesh.points:
+        quality = measure(points, mesh.hexes)
+        yield Step(points, intermediate=True, quality=quality, power=energy.power)
+    now = _Iterate.measured(energy.to_edge_units(points), points, quality, energy, locked)
+    epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
+    patience = config.faceted_patience if energy.faceted else config.patience
+    while now.inverted and idle < patience and epsilon > config.min_epsilon:
+        worst = min(now.worst / energy.unit**3, 0.0)
+        delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
+        few = now.inverted < config.few * mesh.n_hexes
+        if not few or idle % config.few_period == config.few_period - 1:
+            now = yield from _newton_steps(now, energy, locked, delta, config.newton_steps, newton)
+        if now.inverted:
+            sweeps = config.few_sweeps if few else config.sweeps
+            x = local_sweeps(energy, now.x, now.quality.inverted, locked, delta, sweeps)
+            now = _Iterate.at(x, energy, locked)
+            diagnostics = {"delta": delta, "sweeps": sweeps}
+            yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, power=energy.power)
+        idle = 0 if now.inverted < fewest else idle + 1
+        fewest = min(fewest, now.inverted)
+        epsilon *= config.reduction
+    return Untangled(now.points, now.quality, inverted_corners(now.points, mesh.hexes, now.quality) | locked)
+
+
+def _newton_steps(
+    now: _Iterate, energy: MeshEnergy, locked: np.ndarray, delta: float, count: int, newton: NewtonConfig
+) -> Generator[Step, None, _Iterate]:
+    """Step with all nodes at one delta until no hex is inverted or no step descends, `count` times at most."""
+    find = newton.direction()
+    for _ in range(count):
+        taken = newton.step(energy, now.x, delta, find)
+        if taken is None or taken.alpha == 0:
+            break
+        now = _Iterate.at(taken.x, energy, locked)
+        diagnostics = taken.diagnostics(delta)
+        yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, power=energy.power)
+        if not now.inverted:
+            break
+    return now
