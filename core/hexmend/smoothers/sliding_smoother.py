@@ -55,9 +55,9 @@ class SlidingSmoother(Smoother):
         """What the nodes of a mesh's boundary slide on; None where they stay."""
         if not self.slides:
             return None
-        return SlidingBoundary(mesh, self.feature_angle, self.room(mesh))
+        return SlidingBoundary(mesh, self.feature_angle, self.max_deviation(mesh))
 
-    def room(self, mesh: Mesh) -> float:
+    def max_deviation(self, mesh: Mesh) -> float:
         """How far the boundary may leave the surface, in the mesh's unit of length."""
         return np.inf if self.surface_tolerance == UNLIMITED else self.surface_tolerance * mesh.mean_edge_length
 

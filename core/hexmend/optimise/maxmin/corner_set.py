@@ -1,4 +1,4 @@
-"""The corners of a mesh that can be moved, with their scaled Jacobians."""
+"""Corners of a mesh that can be moved, with their scaled Jacobians."""
 
 from __future__ import annotations
 
@@ -12,22 +12,21 @@ from hexmend.quality.measure import fixed_tetrahedra
 
 
 class MovableCorners:
-    """The corners that have a free node, and their scaled Jacobians as nodes move.
+    """Corners with a free node, and their scaled Jacobians as nodes move.
 
     Parameters
     ----------
     mesh : Mesh
-        Whose free nodes are moved.
+        Its free nodes are moved.
     points : (n, 3) float64
-        Where its nodes are.
 
     Attributes
     ----------
     mesh : Mesh
     values : (m, 8) float64
-        The scaled Jacobian of each corner, those that cannot be moved too.
+        Scaled Jacobian of each corner, including those that cannot be moved.
     frozen : (m, 8) bool
-        Corners that could be moved, but none of whose nodes moves any more.
+        Corners that could be moved, but whose nodes all stay.
     """
 
     def __init__(self, mesh: Mesh, points: np.ndarray):
@@ -37,52 +36,52 @@ class MovableCorners:
         self.set_mesh(mesh)
 
     def set_mesh(self, mesh: Mesh) -> None:
-        """Take a mesh of which other nodes are fixed."""
+        """Take over the fixed marks of a mesh with the same hexes."""
         self.mesh = mesh
         self._locked = fixed_tetrahedra(mesh.hexes, ~mesh.free)
 
     def active_values(self) -> np.ndarray:
-        """The values, +inf of corners that cannot be moved or are settled, (m, 8) float64."""
+        """The values, +inf for corners that are frozen or cannot be moved, (m, 8) float64."""
         return np.where(self._locked | self.frozen, np.inf, self.values)
 
     @property
     def least(self) -> float:
-        """The least value of the corners that are raised; +inf where there is none."""
+        """The least of the active values; +inf where there is none."""
         return float(self.active_values().min(initial=np.inf))
 
     @property
     def least_of_all(self) -> float:
-        """The least value of all corners that can be moved, settled or not; +inf where there is none."""
+        """The least value of all corners that can be moved, frozen or not; +inf where there is none."""
         return float(np.where(self._locked, np.inf, self.values).min(initial=np.inf))
 
     def locked_below(self, value: float) -> np.ndarray:
-        """Corners, 8 * hex + corner, lower than a value, all of whose nodes are fixed, the lowest first, (k,) int64."""
+        """Corners, 8 * hex + corner, below a value with all nodes fixed, the lowest first, (k,) int64."""
         values = np.where(self._locked, self.values, np.inf).ravel()
         low = np.flatnonzero(values < value)
         return low[np.argsort(values[low], kind="stable")]
 
     def freeze(self, corners: np.ndarray) -> None:
-        """Let corners, 8 * hex + corner, be, (k,), and their nodes stay; others with no node left are settled too."""
+        """Fix the nodes of corners (k,), 8 * hex + corner; corners of which no node is left to move are frozen."""
         self._stays[self.nodes_of(corners)] = True
         moves = self.mesh.free & ~self._stays
         self.frozen = ~moves[self.mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2) & ~self._locked
 
     def unfreeze(self) -> None:
-        """Let everything be moved again that is free."""
+        """Let all free nodes move again."""
         self.frozen[:] = self._stays[:] = False
 
     def movable(self, nodes: np.ndarray) -> np.ndarray:
-        """Those of some nodes that are free and need not stay, (k,) int."""
+        """Select those of some nodes that are free and not frozen, (k,) int."""
         return nodes[self.mesh.free[nodes] & ~self._stays[nodes]]
 
     def nodes_of(self, corners: np.ndarray) -> np.ndarray:
-        """Apex and ends of corners, 8 * hex + corner, (k, 4) int32."""
+        """Apex and ends of the edges of corners, 8 * hex + corner, (k, 4) int32."""
         return np.take_along_axis(self.mesh.hexes[corners // 8], CORNER_TETRAHEDRA[corners % 8], axis=1)
 
     def groups(self, corners: np.ndarray) -> np.ndarray:
-        """The group that each of some corners, 8 * hex + corner, belongs to, (k,) int from 0.
+        """Number the connected groups of some corners, 8 * hex + corner, (k,) int from 0.
 
-        Corners of one group have free nodes in common, directly or by others of them: only those bear on each other.
+        Corners of one group have free nodes in common, directly or through others: only these influence each other.
         """
         nodes, count = self.nodes_of(corners), len(corners)
         corner, end = np.nonzero(self.mesh.free[nodes])
@@ -91,9 +90,9 @@ class MovableCorners:
         return components(count + nodes.size, links)[:count]
 
     def hexes_at(self, nodes: np.ndarray) -> np.ndarray:
-        """Hexes that have one of some nodes, ascending, (k,) int."""
+        """Hexes attached to some nodes, ascending, (k,) int."""
         return np.unique(self.mesh.topology.node_corners.of(nodes) // 8)
 
     def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
-        """Take anew the values of some hexes, nodes being at points (n, 3)."""
+        """Compute the values of some hexes (k,) at points (n, 3)."""
         self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])

@@ -1,4 +1,4 @@
-"""Scaled Jacobians of corners one by one, and their derivatives."""
+"""Scaled Jacobians of single corners, and their derivatives."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
 
-#: Hexes whose corners are worked out at a time.
+#: Hexes in a batch, which bounds the memory of temporary arrays.
 _HEXES = 50_000
 
 
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """The scaled Jacobian of each corner of hexes, (k, 8) in [-1, 1]; -1 where an edge has no length.
+    """Compute the scaled Jacobian of each corner of hexes, (k, 8) in [-1, 1]; -1 where an edge has no length.
 
     Parameters
     ----------
@@ -32,12 +32,18 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 
 
 def corner_jacobians(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """The scaled Jacobian of corners (k, 4): the node at the apex, and the ends of its edges; (k,)."""
+    """Compute the scaled Jacobian of corners (k, 4), the apex and the ends of its edges each, (k,)."""
     return _edge_terms(points, corners)[0]
 
 
 def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Scaled Jacobians of corners (k, 4) with their derivatives by the four nodes.
+    """Compute scaled Jacobians with their derivatives by the four nodes.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    corners : (k, 4) int
+        Apex and ends of the edges of each corner.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Length of the shortest edge of some hexes at each node, (n,); +inf at nodes of none of them."""
+    """Find the length of the shortest edge of hexes (k, 8) at each node, (n,); +inf at nodes of none of them."""
     size = np.full(len(points), np.inf)
     ends = hexes[:, EDGES].reshape(-1, 2)
     lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
@@ -66,7 +72,7 @@ def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
 
 
 def _edge_terms(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Values (k,), edges (k, 3, 3) by rows, their lengths (k, 3), and for each the product of the others (k, 3, 3)."""
+    """Values (k,), edges (k, 3, 3) by rows, their lengths (k, 3), cross products of the other two (k, 3, 3)."""
     x = points[corners]
     edges = x[:, 1:] - x[:, :1]
     lengths = np.linalg.norm(edges, axis=2)

@@ -1,4 +1,4 @@
-"""Where a sliding boundary and its surface are apart, followed as nodes move."""
+"""Distances of a surface from the boundary that slides on it, followed as nodes move."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_boun
 
 
 class DeviationTracker:
-    """How far the surface's edges, faces and nodes are from a boundary that has moved.
+    """Distances of the surface's edges, faces and nodes from a boundary that has moved.
 
-    As nodes move, only those are looked at anew whose closest place has moved; that of the others is still there, so
-    that they are no further than it is.
+    As nodes move, only those distances are found anew whose closest place has moved. The others are upper bounds: their
+    closest place is still there.
 
     Parameters
     ----------
@@ -23,8 +23,8 @@ class DeviationTracker:
 
     Attributes
     ----------
-    distances : (s,)
-        The distances: see `SlidingBoundary.behind`.
+    distances : (s,) float64
+        See `SlidingBoundary.behind`.
     """
 
     def __init__(self, sliding: SlidingBoundary, points: np.ndarray):
@@ -34,7 +34,7 @@ class DeviationTracker:
         self._update(np.arange(far.size))
 
     def after_move(self, points: np.ndarray, nodes: np.ndarray) -> DeviationTracker:
-        """The same with nodes (k,) elsewhere, all others being where they were."""
+        """A tracker of the boundary at points (n, 3), where only nodes (k,) have moved."""
         other = copy.copy(self)
         other.points = points
         other.distances, other._away = self.distances.copy(), self._away.copy()
@@ -43,31 +43,31 @@ class DeviationTracker:
         other._update(np.flatnonzero(touched[self._nodes].any(axis=1)))
         return other
 
-    def exceeds(self, before: DeviationTracker, nodes: np.ndarray, room: float) -> bool:
-        """Whether boundary and surface are further apart than a room, and than they were before nodes (k,) moved."""
-        if (self.distances > np.maximum(before.distances, room)).any():
+    def exceeds(self, before: DeviationTracker, nodes: np.ndarray, max_deviation: float) -> bool:
+        """Return True if a distance exceeds `max_deviation` and what it was before nodes (k,) moved."""
+        if (self.distances > np.maximum(before.distances, max_deviation)).any():
             return True
-        off = self.sliding.off(self.points, self.sliding.middles_at(nodes), room)
+        off = self.sliding.off(self.points, self.sliding.middles_at(nodes), max_deviation)
         if not off.which.size:
             return False
-        was = self.sliding.off(before.points, off.which, room)
+        was = self.sliding.off(before.points, off.which, max_deviation)
         if was.which.size < off.which.size:
             return True
         return bool((off.far > was.far).any())
 
-    def bounds(self, moves: np.ndarray, room: float) -> LinearConstraints:
-        """What keeps boundary and surface no further apart than a room; moves (n,) is how far each node may go."""
+    def bounds(self, moves: np.ndarray, max_deviation: float) -> LinearConstraints:
+        """Constraints on the distances while each node moves by moves (n,) at most, in the mesh's unit."""
         sliding = self.sliding
         which = sliding.middles_at(np.flatnonzero(moves))
-        off = sliding.off(self.points, which, room - moves[sliding.middles[which]].max(axis=1, initial=0.0))
-        models = lower_bounds(off.nodes, room - off.far, -off.weights[:, :, None] * off.away[:, None])
+        off = sliding.off(self.points, which, max_deviation - moves[sliding.middles[which]].max(axis=1, initial=0.0))
+        models = lower_bounds(off.nodes, max_deviation - off.far, -off.weights[:, :, None] * off.away[:, None])
         reach = moves[self._nodes].max(axis=1, initial=0.0)
-        near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > room))
+        near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > max_deviation))
         slopes = self._weights[near, :, None] * self._away[near, None]
-        return models.joined(lower_bounds(self._nodes[near], room - self.distances[near], slopes))
+        return models.joined(lower_bounds(self._nodes[near], max_deviation - self.distances[near], slopes))
 
     def _update(self, which: np.ndarray) -> None:
-        """Find what is closest to some places of the surface; of the boundary as it was at first that is known."""
+        """Find what is closest to some places of the surface, beginning with what was closest at first."""
         at_first, nodes, weights = self.sliding.behind_at_first
         off = self.sliding.behind(self.points, which, room=-1.0)
         self._nodes, self._weights = self._nodes.copy(), self._weights.copy()

@@ -1,4 +1,4 @@
-"""The ways that nodes may go in a step: along the axes inside, along the surface where they slide."""
+"""Admissible directions of nodes in a step: along the axes inside, along the surface where they slide."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 
-#: Ways around a place of a patch, in its basis.
+#: Directions around a point of a patch, in the basis of its tangent plane.
 _AROUND = np.array([(np.cos(angle), np.sin(angle), 0.0) for angle in np.arange(8) * np.pi / 4]).round(15)
 
 
 @dataclass(frozen=True, eq=False)
 class StepDirections:
-    """Ways that nodes may go, in the length of the shortest edge at each.
+    """Admissible directions, scaled by the shortest edge at each node.
 
     Parameters
     ----------
-    owner : (w,)
-        Whose, ascending.
-    displacements : (w, 3)
-        The displacement that is asked for: along a tangent where the node slides.
-    effective : (w, 3)
-        What it comes to once the node is put back: of a faceted surface that is another plane at every side.
+    owner : (w,) int
+        The node of each, as an index into the nodes of the step, ascending.
+    displacements : (w, 3) float64
+        The displacement: along a tangent where the node slides.
+    effective : (w, 3) float64
+        The displacement after projection; on a faceted surface each direction leads to another plane.
     """
 
     owner: np.ndarray
@@ -39,22 +39,26 @@ def step_directions(
     slides: np.ndarray,
     sliding: SlidingBoundary | None,
 ) -> StepDirections:
-    """Both senses of each axis; of nodes that slide on a patch eight ways around, on a curve two.
+    """Find the directions of nodes: both senses of each axis inside, eight in a patch, two along a curve.
 
     Parameters
     ----------
     x : (k, 3) float64
-        Where the nodes are.
+        The nodes' places.
     size : (k,) float64
-        The length of the shortest edge at each.
+        Length of the shortest edge at each, in the mesh's unit of length.
     radius : float
-        How far each may go, in that length.
+        Distance that each may move, in that length.
     nodes : (k,) int
-        Which they are; `StepDirections.owner` counts within these.
+        The nodes' numbers in the mesh.
     slides : (k,) bool
-        Which of them slide.
+        Those that slide.
     sliding : SlidingBoundary or None
-        Where they do.
+        The boundary; None where no node slides.
+
+    Returns
+    -------
+    StepDirections
     """
     axes = np.concatenate([np.eye(3), -np.eye(3)])
     inside = np.flatnonzero(~slides)
@@ -65,7 +69,7 @@ def step_directions(
         bases = sliding.bases(x[on], nodes[on])
         around = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
         of_around = np.repeat(on, len(_AROUND))
-        there = np.linalg.norm(around, axis=1) > 0.5  # of a curve all that goes along it, once
+        there = np.linalg.norm(around, axis=1) > 0.5  # on a curve those along it, each once
         there &= np.tile(_AROUND[:, 1] == 0, on.size) | np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
         around, of_around = around[there], of_around[there]
         far = np.maximum(radius * size[of_around, None], np.finfo(float).tiny)  # nodes may coincide

@@ -1,4 +1,4 @@
-"""The envelope of the surface in which a boundary stays as it is moved, and which of its nodes are on the surface."""
+"""Envelope of a surface: the band around it in which a boundary stays, and the nodes that slide on it."""
 
 from __future__ import annotations
 
@@ -10,88 +10,97 @@ from hexmend.optimise.maxmin.linear_program import LinearConstraints, no_constra
 
 
 class Envelope:
-    """Where the boundary of a mesh may go: its nodes slide, or are lifted off the surface but stay in the room around.
+    """Admissible places of a boundary: its nodes slide on the surface, or are released from it and stay in its band.
 
     Parameters
     ----------
     n_nodes : int
     sliding : SlidingBoundary, optional
-        Without it the boundary is fixed, and nothing is bounded here.
+        None where the boundary is fixed: then nothing is constrained here.
 
     Attributes
     ----------
     sliding : SlidingBoundary or None
-    room : float
-        How far boundary and surface may be from each other, in the mesh's unit.
+    max_deviation : float
+        Distance of boundary and surface in the band, in the mesh's unit of length.
     released : (n,) bool
-        Nodes of the boundary that need not stay on the surface.
+        Nodes of the boundary that may leave the surface.
     flips_allowed : bool
-        Whether quads at these may be turned over; else no step does that.
+        Steps may turn quads at released nodes over.
     """
 
     def __init__(self, n_nodes: int, sliding: SlidingBoundary | None):
         self.sliding = sliding
-        self.room = np.inf if sliding is None else sliding.room
+        self.max_deviation = np.inf if sliding is None else sliding.room
         self.released = np.zeros(n_nodes, dtype=bool)
         self.flips_allowed = False
         self._tracker: DeviationTracker | None = None
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of some nodes (k,) are put back on the surface wherever they are moved to, (k,) bool."""
+        """Mark those of some nodes (k,) that slide on the surface and are not released, (k,) bool."""
         if self.sliding is None:
             return np.zeros(nodes.size, dtype=bool)
         return self.sliding.slides(nodes) & ~self.released[nodes]
 
     def project(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-        """The points (n, 3) after a step of some nodes (k,) from `before`: put back, and no quad turned over.
+        """Project nodes that slide onto the surface, and take moves back that turn a quad over.
 
-        `points` is changed.
+        Parameters
+        ----------
+        before, points : (n, 3) float64
+            Points before and after a step; `points` is changed.
+        nodes : (k,) int
+            The nodes that the step moves.
+
+        Returns
+        -------
+        (n, 3) float64
         """
         if self.sliding is None:
             return points
         slide = nodes[self.slides(nodes)]
         if slide.size:
             points[slide] = self.sliding.put_back(points[slide], slide)
-        # Off the surface its normals say little.
+        # Away from the surface its normals say little, so that released nodes are not judged by them.
         return self.sliding.unturned(before, points, self.released if self.flips_allowed else None)
 
     def bounds(self, points: np.ndarray, moves: np.ndarray) -> LinearConstraints:
-        """What keeps the boundary in its room as nodes go from points (n, 3) no further than moves (n,) each."""
+        """Linear constraints that keep the boundary in its band while each node moves by moves (n,) at most."""
         if not self._bounded:
             return no_constraints()
-        return self._track(points).bounds(moves, self.room)
+        return self._track(points).bounds(moves, self.max_deviation)
 
     def leaves_band(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> bool:
-        """Whether the boundary has left its room, further than it was, as nodes (k,) went from `before` to points."""
+        """Return True if the boundary left its band, or went further outside, as nodes (k,) moved."""
         if not self._bounded:
             return False
-        apart = self._track(before)
-        after = apart.after_move(points, nodes)
-        if after.exceeds(apart, nodes, self.room):
+        tracker = self._track(before)
+        after = tracker.after_move(points, nodes)
+        if after.exceeds(tracker, nodes, self.max_deviation):
             return True
         self._tracker = after
         return False
 
     def track(self, before: np.ndarray, points: np.ndarray, nodes: np.ndarray) -> None:
-        """Know that nodes (k,) have gone from `before` to points, both (n, 3): quicker than to look at all anew."""
+        """Follow a move of nodes (k,) from `before` to `points`, faster than by finding all distances anew."""
         self._tracker = self._track(before).after_move(points, nodes)
 
     def largest_deviation(self, points: np.ndarray) -> float:
-        """The largest distance of the boundary, nodes being at points (n, 3), and the surface, both ways."""
+        """The larger of the distances of the boundary at points (n, 3) from the surface, and of the surface from it."""
         if self.sliding is None:
             return 0.0
-        return max(float(off.far.max(initial=0.0)) for off in self._deviations(points, 0.0))
+        return max(float(places.far.max(initial=0.0)) for places in self._deviations(points, 0.0))
 
     def infeasible_nodes(self, points: np.ndarray) -> np.ndarray:
-        """Nodes where the boundary, at points (n, 3), is out of its room, ascending, (k,) int."""
-        return np.unique(np.concatenate([off.nodes for off in self._deviations(points, self.room)]))
+        """Nodes at which the boundary at points (n, 3) is outside its band, ascending, (k,) int."""
+        return np.unique(np.concatenate([places.nodes for places in self._deviations(points, self.max_deviation)]))
 
     @property
     def _bounded(self) -> bool:
-        return self.sliding is not None and bool(np.isfinite(self.room))
+        return self.sliding is not None and bool(np.isfinite(self.max_deviation))
 
     def _deviations(self, points: np.ndarray, room: float) -> tuple[Deviations, Deviations]:
-        """Where the boundary is further than that from the surface, and the surface from the boundary."""
+        """Places of the boundary further than `room` from the surface, and of the surface from the boundary."""
         sliding = self.sliding
         return sliding.off(points, np.arange(len(sliding.middles)), room), sliding.behind(points, room=room)
 

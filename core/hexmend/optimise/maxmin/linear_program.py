@@ -1,4 +1,4 @@
-"""The linear program of a step: nodes that go certain directions, and what depends on their places by linear models."""
+"""Linear program of a step: nodes move in given directions, and what depends on them follows linear models."""
 
 from __future__ import annotations
 
@@ -13,28 +13,30 @@ from hexmend.optimise.maxmin.directions import StepDirections
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: Share of the gain that may be given away so that nodes stay which need not move.
+#: Share of the gain that may be lost so that nodes stay which need not move.
 IDLE = 0.05
-#: How near to their bounds, in radii of the region, the models are that the program begins with; what counts as below.
-NEAR, BELOW = 0.3, 1e-7
-#: Of HiGHS: programs as small as these are solved before its presolve has made them smaller.
+#: Distance of a model from its bound, in radii of the region, up to which the program begins with it.
+NEAR = 0.3
+#: Violation from which on a model that was omitted is added.
+BELOW = 1e-7
+#: Options of HiGHS: its presolve takes longer than the solution of programs as small as these.
 _HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
 
 
 @dataclass(frozen=True, eq=False)
 class LinearConstraints:
-    """Linear models of what depends on the places of four nodes each.
+    """Linear models of values that depend on four nodes each and have a lower bound.
 
     Parameters
     ----------
-    ends : (r, 4)
+    ends : (r, 4) int
         The nodes.
-    above : (r,)
-        How far the value is above its bound.
-    slopes : (r, 4, 3)
-        Its derivatives by their places.
-    rises : (r,)
-        1 where the bound is to rise, as the least of the corners is; 0 where it stands.
+    above : (r,) float64
+        Distance of the value above its bound.
+    slopes : (r, 4, 3) float64
+        Derivatives of the value by the nodes' places.
+    rises : (r,) float64
+        1 where the bound is the least of the corners, which is raised; 0 where it is constant.
     """
 
     ends: np.ndarray
@@ -43,33 +45,33 @@ class LinearConstraints:
     rises: np.ndarray
 
     def joined(self, other: LinearConstraints) -> LinearConstraints:
-        """These, and others behind them."""
+        """Append the models of another."""
         pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
         return LinearConstraints(*(np.concatenate(list(pair)) for pair in pairs))
 
 
 def lower_bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
-    """Models of what is not to fall below its bound; arrays as of `LinearConstraints`."""
+    """Models with constant lower bounds; arrays as in `LinearConstraints`."""
     return LinearConstraints(ends, above, slopes, np.zeros(len(above)))
 
 
 def no_constraints() -> LinearConstraints:
-    """None of them."""
+    """An empty set of models."""
     return lower_bounds(np.empty((0, 4), np.int32), np.empty(0), np.empty((0, 4, 3)))
 
 
 @dataclass(frozen=True, eq=False)
 class LPSolution:
-    """The solution of a program.
+    """Solution of a program.
 
     Parameters
     ----------
-    lengths : (w,)
-        How far to go each way.
+    lengths : (w,) float64
+        Length of the step in each direction.
     gain : float
-        What the least rises by, as the models say.
-    multipliers : (r,)
-        Of the models, not negative: those of the ones that rise have the sum 1 where the gain has no bound.
+        Rise of the least by the models.
+    multipliers : (r,) float64
+        Of the models, not negative; those of the raised ones have the sum 1 where the gain is not bounded.
     """
 
     lengths: np.ndarray
@@ -80,20 +82,26 @@ class LPSolution:
 def solve(
     nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool = False
 ) -> LPSolution | None:
-    """Find how far nodes (k,) are to go for the least to rise most; None where the program has no solution.
+    """Find the lengths of the steps that raise the least most; None where the program has no solution.
 
-    Most models are far from their bounds, and hold whatever the nodes do: the program begins with those that are near,
-    and is solved again with those that turn out to fall below.
+    Most models are far from their bounds and hold whatever the nodes do: the program begins with those that are near,
+    and is solved again with those that turn out to be violated.
 
     Parameters
     ----------
     nodes : (k,) int
+        The nodes that move.
     directions : StepDirections
+        Of these nodes.
     models : LinearConstraints
     radius : float
-        How far a node may go each way.
+        Longest step in a direction.
     falls : bool
-        Whether the least may fall, so that all else can be kept to.
+        The least may fall, so that the constant bounds can be kept.
+
+    Returns
+    -------
+    LPSolution or None
     """
     from scipy.optimize import linprog
 
@@ -115,9 +123,9 @@ def solve(
 def build_program(
     nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool
 ) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
-    """The linear program of a step: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
+    """Build the linear program: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
 
-    Unknowns are how far nodes (k,) go in each of their directions, up to a radius, and what the least rises by. A small
+    Unknowns are the lengths in each direction, up to a radius, and the rise of the least, which comes last. A small
     price on each direction keeps nodes that need not move.
     """
     from scipy.sparse import coo_array

@@ -1,9 +1,9 @@
-"""Raise the least scaled Jacobian of a mesh as far as it goes, by a sequence of linear programs.
+"""Sequential linear programming with a trust region: the least scaled Jacobian of a mesh is raised as far as it goes.
 
 The least of many functions has no derivative where two of them are equal, which is where its maximum lies. So each step
-takes all that could become the least by their linear models, and asks for the displacement within a trust region that
-raises their least most: a linear program (Madsen 1975; Fletcher and Sainz de la Maza 1989). At the end its multipliers
-say which corners hold each other: no direction raises one without lowering another.
+takes all functions that could become the least by their linear models, and finds the displacement within a trust region
+that raises their least most: a linear program (Madsen 1975; Fletcher and Sainz de la Maza 1989). At the end its
+multipliers name the active corners: no direction raises one of them without lowering another.
 """
 
 from __future__ import annotations
@@ -14,36 +14,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.iteration.result import Step
+from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import gradients, shortest_edges
 from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
-
-#: Radius of the trust region at first and at most, in lengths of the shortest edge at each node, and where it ends.
-FIRST, LARGEST, SMALLEST = 0.1, 0.3, 1e-6
-#: What share of the gain that the models promise a step must bring, below which share the region shrinks, above which
-#: it grows; and by what factors.
-BRINGS, POOR, GOOD, SHRINK, GROW = 0.1, 0.3, 0.7, 0.4, 2.0
-#: Nodes at corners whose values are within a band above the least are moved: so many radii of the region, in bounds.
-BAND, NARROWEST, WIDEST = 4.0, 0.01, 0.1
-#: How much a corner can fall while its nodes go no further than a radius.
-FALL = 8.0
-#: Of how many corners the nodes are moved at first, and how many there are at most; more as the fewer bring nothing.
-FEW, MANY = 300, 1_200
-#: A gain that is none of a step's model; that is none of `LATELY` steps together, and where the least is sound anyway.
-NOTHING, LATELY, LITTLE, SOUND, LITTLE_BEYOND = 1e-6, 10, 2e-5, 0.2, 1e-3
-#: What a multiplier counts from on, the sum of all being 1.
-HOLDS = 1e-3
-#: By how many radii, in mean edge lengths, a boundary that has strayed is brought nearer at a time; what is enough.
-NEARER, EXACT = 0.2, 1e-6
+from hexmend.optimise.maxmin.slp_config import SLP, SLPConfig
 
 
 @dataclass(frozen=True, eq=False)
 class MaxMinStep:
-    """A step that has raised the least.
+    """Accepted step of the algorithm.
 
     Parameters
     ----------
@@ -51,7 +34,7 @@ class MaxMinStep:
     least : float
         The least scaled Jacobian of the corners that can be moved.
     corners : int
-        Whose models were looked at.
+        Number of corners whose nodes moved.
     radius : float
         Of the trust region, in lengths of the shortest edge at each node.
     """
@@ -62,22 +45,21 @@ class MaxMinStep:
     radius: float
 
     def step(self, infeasible: bool) -> Step:
-        """As a smoother yields it; see `Step.infeasible`."""
+        """Convert it to a step of a smoother; see `Step.infeasible`."""
         diagnostics = {"least": self.least, "corners": self.corners, "radius": self.radius}
         return Step(self.points, diagnostics, intermediate=True, infeasible=infeasible)
 
 
 @dataclass(frozen=True, eq=False)
 class ActiveCorners:
-    """Where it ended.
+    """Corners that let the least rise no further.
 
     Parameters
     ----------
     least : float
         The least scaled Jacobian of the corners that can be moved.
     hexes, corners : (k,) int64
-        Those that let it rise no further, and which corner of each it is; by their weight, the heaviest first. Those
-        of one place hold each other.
+        Hex and corner (0 to 7) of each, by their multipliers, the heaviest first. Those of one place hold each other.
     """
 
     least: float
@@ -86,92 +68,112 @@ class ActiveCorners:
 
 
 class MaxMinOptimiser:
-    """Raises the least scaled Jacobian of the corners that can be moved.
+    """Optimiser of the least scaled Jacobian of the corners that can be moved.
 
     Parameters
     ----------
     mesh : Mesh
-        Whose free nodes are moved.
+        Its free nodes are moved.
     points : (n, 3) float64
-        Where they begin.
+        The points to begin with.
     sliding : SlidingBoundary, optional
-        Where some of them slide: `mesh` is its mesh.
+        The boundary's nodes slide on it; `mesh` is its mesh then.
+    config : SLPConfig, optional
 
     Attributes
     ----------
     points : (n, 3) float64
+        The current points.
     corners : MovableCorners
+        Their values at these points.
     envelope : Envelope
+        The band in which the boundary stays.
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None = None):
+    def __init__(self, mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary | None = None, config: SLPConfig = SLP):
+        self.config = config
         self.points, self.corners = points, MovableCorners(mesh, points)
         self.envelope = Envelope(mesh.n_nodes, sliding)
         self._begin()
 
     @property
     def mesh(self) -> Mesh:
-        """Whose free nodes are moved: of the nodes that are fixed, some may have been lifted."""
+        """The mesh, its fixed marks as of now: nodes that were released are free."""
         return self.corners.mesh
 
-    def steps(self, aim: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
-        """Steps that raise the least, until none does any more, or it has reached `aim`; at last what limits it."""
+    def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
+        """Raise the least until no step does any more, or it has reached `target`.
+
+        Yields
+        ------
+        MaxMinStep or ActiveCorners
+            Each accepted step; at last the corners that limit the least.
+        """
+        config = self.config
         self._begin()
-        gains = [np.inf] * LATELY
-        while self._radius > SMALLEST and self.corners.least < aim:
+        gains = [np.inf] * config.window
+        while self._radius > config.min_radius and self.corners.least < target:
             values, least, radius = self.corners.active_values().ravel(), self.corners.least, self._radius
-            band = float(np.clip(BAND * radius, NARROWEST, WIDEST))
+            band = float(np.clip(config.band * radius, config.min_band, config.max_band))
             low = np.flatnonzero(values < least + band)
             whole = low.size <= self._most
             if not whole:
                 low = low[np.argpartition(values[low], self._most)[: self._most]]
             promised, points, moved = self._step(low, band)
-            gain = self._take(points, moved, least, promised) if promised > NOTHING else 0.0
+            gain = self._take(points, moved, least, promised) if promised > config.no_gain else 0.0
             if gain > 0:
                 yield MaxMinStep(self.points, self.corners.least, low.size, radius)
             gains.append(gain)
-            if promised <= NOTHING or sum(gains[-LATELY:]) < (LITTLE if least < SOUND else LITTLE_BEYOND):
-                if whole or self._most >= MANY:
+            enough = config.min_gain if least < config.sound else config.min_gain_sound
+            if promised <= config.no_gain or sum(gains[-config.window :]) < enough:
+                if whole or self._most >= config.max_corners:
                     break
-                self._most, self._radius = 2 * self._most, max(self._radius, NARROWEST)
+                self._most, self._radius = 2 * self._most, max(self._radius, config.min_band)
                 gains.append(np.inf)
-        yield self._limit()
+        yield self._active_corners()
 
-    def return_to_band(self, room: float) -> Iterator[MaxMinStep]:
-        """Steps that bring the boundary nearer to the surface until it is in its room; the least falls as it must.
+    def return_to_band(self, max_deviation: float) -> Iterator[MaxMinStep]:
+        """Bring the boundary nearer to the surface until it is in its band; the least falls as little as it can.
 
-        What is settled is no more: everything may be moved.
+        Frozen corners are free again.
+
+        Parameters
+        ----------
+        max_deviation : float
+            Distance of boundary and surface in the band, in the mesh's unit of length.
         """
+        config = self.config
         self._begin()
         self.corners.unfreeze()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
-        while self._radius > SMALLEST and (far := envelope.largest_deviation(self.points)) > room * (1 + EXACT):
+        allowed = max_deviation * (1 + config.band_rounding)
+        while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points)) > allowed:
             radius = self._radius
-            envelope.room = max(room, far - NEARER * radius * edge)
-            low = np.flatnonzero(corners.active_values().ravel() < corners.least + NARROWEST)[: self._most]
-            strayed = envelope.infeasible_nodes(self.points)
-            _, points, moved = self._step(low, NARROWEST, strayed[self.mesh.free[strayed]])
-            if envelope.largest_deviation(points) > far - BRINGS * (far - envelope.room):
-                self._radius *= SHRINK
+            envelope.max_deviation = max(max_deviation, far - config.return_step * radius * edge)
+            low = np.flatnonzero(corners.active_values().ravel() < corners.least + config.min_band)[: self._most]
+            outside = envelope.infeasible_nodes(self.points)
+            _, points, moved = self._step(low, config.min_band, outside[self.mesh.free[outside]])
+            if envelope.largest_deviation(points) > far - config.accept * (far - envelope.max_deviation):
+                self._radius *= self.config.shrink
                 continue
             corners.update(points, corners.hexes_at(moved))
             envelope.track(self.points, points, moved)
-            self.points, self._radius = points, min(GROW * self._radius, LARGEST)
+            self.points, self._radius = points, min(config.grow * self._radius, config.max_radius)
             yield MaxMinStep(points, corners.least, low.size, radius)
-        envelope.room = room
+        envelope.max_deviation = max_deviation
 
-    def freeze(self, limit: ActiveCorners) -> None:
-        """Let the corners that hold each other be, and their nodes stay: those that are left can be raised further."""
-        self.corners.freeze(8 * limit.hexes + limit.corners)
+    def freeze(self, active: ActiveCorners) -> None:
+        """Fix the nodes of corners that hold each other, so that the corners above them can be raised further."""
+        self.corners.freeze(8 * active.hexes + active.corners)
 
-    def release(self, limit: ActiveCorners) -> bool:
-        """Let sliding nodes of the corners that hold each other leave the surface; whether there is one more."""
+    def release(self, active: ActiveCorners) -> bool:
+        """Let sliding nodes of corners that hold each other leave the surface; return True if any node was released."""
         envelope, sliding, mesh = self.envelope, self.envelope.sliding, self.mesh
-        if sliding is None or not envelope.room > 0:
+        if sliding is None or not envelope.max_deviation > 0:
             return False
-        holding = np.unique(self.corners.nodes_of(8 * limit.hexes + limit.corners))
+        holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
         nodes = holding[envelope.slides(holding)]
-        if not nodes.size and limit.least <= 0:
+        if not nodes.size and active.least <= 0:
             nodes = holding[sliding.yields[holding] & ~mesh.free[holding]]
             fixed = mesh.fixed.copy()
             fixed[nodes] = False
@@ -180,23 +182,23 @@ class MaxMinOptimiser:
         return nodes.size > 0
 
     def _begin(self) -> None:
-        self._radius, self._most = FIRST, FEW
+        self._radius, self._most = self.config.initial_radius, self.config.initial_corners
         self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
 
     def _step(
-        self, low: np.ndarray, band: float, strayed: np.ndarray | None = None
+        self, low: np.ndarray, band: float, outside: np.ndarray | None = None
     ) -> tuple[float, np.ndarray, np.ndarray]:
-        """Solve the linear program of the nodes at corners `low`; of those too that have strayed, the least may fall.
+        """Solve the linear program of the nodes at corners `low`; with nodes outside the band, the least may fall.
 
-        Returns the gain that it promises, all points with these nodes moved and put back, and which these are.
+        Returns the gain that it promises, all points with these nodes moved and projected, and the numbers of these.
         """
         corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.least
         nodes = corners.movable(np.unique(corners.nodes_of(low)))
-        if strayed is not None:
-            nodes = np.union1d(nodes, strayed)
+        if outside is not None:
+            nodes = np.union1d(nodes, outside)
         around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        near = near[corners.active_values().ravel()[near] - least < band + FALL * radius]
+        near = near[corners.active_values().ravel()[near] - least < band + self.config.fall * radius]
         ends = corners.nodes_of(near)
         values, derivatives = gradients(self.points, ends)
         size = shortest_edges(self.points, self.mesh.hexes[around])
@@ -204,11 +206,11 @@ class MaxMinOptimiser:
         moves = np.zeros(len(self.points))
         moves[nodes] = radius * size[nodes]
         bounds = envelope.bounds(self.points, moves)
-        if strayed is None:
+        if outside is None:
             np.maximum(bounds.above, 0.0, out=bounds.above)
         x, slides = self.points[nodes], envelope.slides(nodes)
         directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
-        solved = solve(nodes, directions, models.joined(bounds), radius, falls=strayed is not None)
+        solved = solve(nodes, directions, models.joined(bounds), radius, falls=outside is not None)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, solved.multipliers[: near.size]
@@ -217,27 +219,27 @@ class MaxMinOptimiser:
         return solved.gain, envelope.project(self.points, points, nodes), nodes
 
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
-        """Move to `points` if that brings enough, and fit the trust region; returns what was gained."""
-        corners = self.corners
+        """Move to `points` if that brings enough, and adapt the trust region; returns what was gained."""
+        corners, config = self.corners, self.config
         hexes = corners.hexes_at(moved)
         before = corners.values[hexes]
         corners.update(points, hexes)
         gain = corners.least - least
-        if gain > BRINGS * promised and self.envelope.leaves_band(self.points, points, moved):
+        if gain > config.accept * promised and self.envelope.leaves_band(self.points, points, moved):
             gain = -np.inf
         share = gain / promised
-        if share > GOOD:
-            self._radius = min(GROW * self._radius, LARGEST)
-        elif share < POOR:
-            self._radius *= SHRINK
-        if share > BRINGS:
+        if share > config.good:
+            self._radius = min(config.grow * self._radius, config.max_radius)
+        elif share < config.poor:
+            self._radius *= self.config.shrink
+        if share > config.accept:
             self.points = points
             return gain
         corners.values[hexes] = before
         return 0.0
 
-    def _limit(self) -> ActiveCorners:
+    def _active_corners(self) -> ActiveCorners:
         corners, weights = self._multipliers
         order = np.argsort(-weights, kind="stable")
-        order = order[weights[order] > HOLDS]
+        order = order[weights[order] > self.config.min_multiplier]
         return ActiveCorners(self.corners.least, corners[order] // 8, corners[order] % 8)

@@ -83,16 +83,16 @@ class Mend(ObjectiveSmoother):
         shape = yield from self._shape(mesh, MeshEnergy(mesh, norm), quality, intermediate)
         if not intermediate:
             return shape.outcome
-        candidates, sliding, tolerance = [mesh.points, shape.points], None, 0.0
+        candidates, sliding, max_deviation = [mesh.points, shape.points], None, 0.0
         if self.slides:
-            tolerance = self.room(mesh)
-            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * tolerance)
+            max_deviation = self.max_deviation(mesh)
+            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation)
             mesh = sliding.mesh
             freed = yield from self._slide_free(mesh, shape.points, sliding)
             quality = measure(freed.points, mesh.hexes)
             shape = yield from self._shape(freed, SlidingEnergy(sliding, norm), quality, intermediate)
             candidates += [freed.points, shape.points]
-        result = yield from self._raise_least(mesh, candidates, sliding, tolerance)
+        result = yield from self._raise_least(mesh, candidates, sliding, max_deviation)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
         limits, sentences, quality = None, [], None
@@ -130,12 +130,12 @@ class Mend(ObjectiveSmoother):
         return mesh.with_points(optimiser.points)
 
     def _raise_least(
-        self, mesh: Mesh, candidates: Sequence[np.ndarray], sliding: SlidingBoundary | None, tolerance: float
+        self, mesh: Mesh, candidates: Sequence[np.ndarray], sliding: SlidingBoundary | None, max_deviation: float
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the least scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
-        None where shape is the goal and the least is sound. The boundary may leave the surface by the tolerance, in the
-        mesh's unit of length.
+        None where shape is the goal and the least is sound. `max_deviation` is the distance from the surface that
+        the boundary may have, in the mesh's unit of length.
         """
         optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
         best = max(optimisers, key=lambda optimiser: optimiser.corners.least)
@@ -143,9 +143,9 @@ class Mend(ObjectiveSmoother):
             return None
         target, wanted = (np.inf, MAXMIN.acceptable) if self.raises else (MAXMIN.barrier_safe, MAXMIN.barrier_safe)
         result = MaxMinResult(best, (yield from raise_least(best, target, groups=MAXMIN.groups)))
-        if 0 < tolerance < np.inf and best.corners.least_of_all < wanted:
+        if 0 < max_deviation < np.inf and best.corners.least_of_all < wanted:
             optimiser = MaxMinOptimiser(mesh, candidates[1], sliding)  # from the optimum with the boundary fixed
-            result = yield from release_from_surface(optimiser, tolerance, result)
+            result = yield from release_from_surface(optimiser, max_deviation, result)
         return result
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:

@@ -20,7 +20,7 @@ class MaxMinResult:
 
 
 def release_from_surface(
-    optimiser: MaxMinOptimiser, tolerance: float, on_surface: MaxMinResult, config: MaxMinConfig = MAXMIN
+    optimiser: MaxMinOptimiser, max_deviation: float, on_surface: MaxMinResult, config: MaxMinConfig = MAXMIN
 ) -> Generator[Step, None, MaxMinResult]:
     """Raise the least with nodes of the boundary off the surface, then bring them back into its band.
 
@@ -28,8 +28,8 @@ def release_from_surface(
     ----------
     optimiser : MaxMinOptimiser
         Where this begins.
-    tolerance : float
-        Half the width of the band around the surface, in the mesh's unit of length.
+    max_deviation : float
+        Distance from the surface that the boundary may have, in the mesh's unit of length.
     on_surface : MaxMinResult
         The result without leaving the surface.
     config : MaxMinConfig
@@ -45,14 +45,17 @@ def release_from_surface(
         The better one: this, if it is back in the band, or `on_surface`.
     """
     envelope, corners = optimiser.envelope, optimiser.corners
-    envelope.room, envelope.flips_allowed = max(config.wide * optimiser.mesh.mean_edge_length, tolerance), True
+    envelope.max_deviation, envelope.flips_allowed = (
+        max(config.wide * optimiser.mesh.mean_edge_length, max_deviation),
+        True,
+    )
     target, groups = config.off_surface_factor * config.acceptable, config.groups_off_surface
     yield from raise_least(optimiser, target, config.acceptable, groups, infeasible=True, config=config)
-    for step in islice(optimiser.return_to_band(tolerance), 0, None, config.programs):
+    for step in islice(optimiser.return_to_band(max_deviation), 0, None, config.programs):
         yield step.step(infeasible=True)
     envelope.flips_allowed = False
     flipped = envelope.sliding.turned(envelope.sliding.points, optimiser.points).size > 0
-    outside = envelope.largest_deviation(optimiser.points) > tolerance * (1 + config.band_rounding)
+    outside = envelope.largest_deviation(optimiser.points) > max_deviation * (1 + config.band_rounding)
     least_on_surface = on_surface.optimiser.corners.least_of_all
     if flipped or outside or corners.least_of_all < least_on_surface:
         yield Step(on_surface.optimiser.points, {"least": least_on_surface}, intermediate=True)

@@ -27,7 +27,7 @@ def test_without_sliding_nothing_is_bounded():
     mesh = grid(2)
     envelope, nodes = Envelope(mesh.n_nodes, None), np.arange(mesh.n_nodes)
     points = mesh.points + 1.0
-    assert envelope.room == np.inf
+    assert envelope.max_deviation == np.inf
     assert not envelope.slides(nodes).any()
     assert envelope.project(mesh.points, points, nodes) is points
     assert envelope.bounds(points, np.ones(mesh.n_nodes)).above.size == 0
@@ -55,10 +55,10 @@ def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
     assert not envelope.leaves_band(mesh.points, points, node)  # where there is no end of room
     far = envelope.largest_deviation(points)
     assert 0.2 * edge < far <= 0.3 * edge * (1 + 1e-9)
-    envelope.room = 0.99 * far
+    envelope.max_deviation = 0.99 * far
     assert envelope.leaves_band(mesh.points, points, node)
     assert node[0] in envelope.infeasible_nodes(points)
-    envelope.room = 1.01 * far
+    envelope.max_deviation = 1.01 * far
     assert not envelope.leaves_band(mesh.points, points, node)
     assert envelope.infeasible_nodes(points).size == 0
 
@@ -66,7 +66,7 @@ def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
 def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     mesh, node = sliding.mesh, sliding.nodes[:1]
     followed, anew = (Envelope(mesh.n_nodes, sliding) for _ in range(2))
-    followed.room = anew.room = 0.2 * mesh.mean_edge_length
+    followed.max_deviation = anew.max_deviation = 0.2 * mesh.mean_edge_length
     points, moves = pushed(sliding, node, 0.1), np.zeros(mesh.n_nodes)
     moves[sliding.nodes] = 0.2 * mesh.mean_edge_length
     followed.track(mesh.points, points, node)
@@ -86,7 +86,7 @@ def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, 
 
     monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
     envelope = Envelope(sliding.mesh.n_nodes, sliding)
-    envelope.room = sliding.mesh.mean_edge_length
+    envelope.max_deviation = sliding.mesh.mean_edge_length
     before, nodes = sliding.mesh.points, sliding.nodes[:3]
     after = pushed(sliding, nodes, 0.1)
     assert not envelope.leaves_band(before, after, nodes)

@@ -100,12 +100,12 @@ def test_corners_at_the_end_hold_each_other(seed):
         assert there.min() < values.min() + 3 * IDLE * reach + 10 * reach**2
 
 
-def test_nothing_is_raised_beyond_its_aim():
+def test_nothing_is_raised_beyond_its_target():
     mesh = scrambled(grid(4), 0.4, 2)
     raising = MaxMinOptimiser(mesh, mesh.points)
-    steps, _ = raised(raising, aim=0.6)
+    steps, _ = raised(raising, target=0.6)
     assert [step.least >= 0.6 for step in steps] == [False] * (len(steps) - 1) + [True]
-    assert raised(raising, aim=0.6)[0] == []
+    assert raised(raising, target=0.6)[0] == []
 
 
 @settings(max_examples=15)

@@ -8,37 +8,36 @@ import pytest
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin import slp
 from hexmend.optimise.maxmin.corner_values import scaled_jacobians
+from hexmend.optimise.maxmin.slp_config import SLPConfig
 from tests.core.grids import grid, scrambled
 
 
-def steps_of(monkeypatch, **constants):
-    for name, value in constants.items():
-        monkeypatch.setattr(slp, name, value)
+def steps_of(**settings):
     mesh = scrambled(grid(3), 0.4, 1)
-    *steps, limit = slp.MaxMinOptimiser(mesh, mesh.points).steps()
+    *steps, limit = slp.MaxMinOptimiser(mesh, mesh.points, config=SLPConfig(**settings)).steps()
     assert isinstance(limit, slp.ActiveCorners)
     return steps
 
 
-@pytest.mark.parametrize("lately", [1, 3])
+@pytest.mark.parametrize("window", [1, 3])
 @pytest.mark.parametrize("sound", [-2.0, 2.0])
-def test_it_ends_after_some_steps_that_together_gain_less_than_a_little(monkeypatch, lately, sound):
-    """Below `SOUND` what counts is `LITTLE`, above it `LITTLE_BEYOND`."""
-    much, nothing = ("LITTLE", "LITTLE_BEYOND") if sound == 2.0 else ("LITTLE_BEYOND", "LITTLE")
-    assert len(steps_of(monkeypatch, LATELY=lately, SOUND=sound, **{much: 10.0, nothing: 0.0})) == lately
-    assert len(steps_of(monkeypatch, LATELY=lately, SOUND=sound, **{much: 0.0, nothing: 10.0})) > lately
+def test_it_ends_after_some_steps_that_together_gain_less_than_a_little(window, sound):
+    """Below `sound` what counts is `min_gain`, above it `min_gain_sound`."""
+    much, nothing = ("min_gain", "min_gain_sound") if sound == 2.0 else ("min_gain_sound", "min_gain")
+    assert len(steps_of(window=window, sound=sound, **{much: 10.0, nothing: 0.0})) == window
+    assert len(steps_of(window=window, sound=sound, **{much: 0.0, nothing: 10.0})) > window
 
 
 @pytest.mark.parametrize("few", [1, 3])
-def test_it_ends_as_high_however_few_corners_the_first_programs_have(monkeypatch, few):
-    end = steps_of(monkeypatch)[-1].least
-    steps = steps_of(monkeypatch, FEW=few)
+def test_it_ends_as_high_however_few_corners_the_first_programs_have(few):
+    end = steps_of()[-1].least
+    steps = steps_of(initial_corners=few)
     assert steps[-1].least == pytest.approx(end, abs=2e-3)
     assert steps[0].corners == few
 
 
-def test_it_never_has_more_corners_than_the_most(monkeypatch):
-    assert max(step.corners for step in steps_of(monkeypatch, FEW=3, MANY=6)) <= 6
+def test_it_never_has_more_corners_than_the_most():
+    assert max(step.corners for step in steps_of(initial_corners=3, max_corners=6)) <= 6
 
 
 def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
@@ -46,17 +45,16 @@ def test_what_is_begun_again_begins_with_the_first_radius_and_few_corners():
     raise_ = slp.MaxMinOptimiser(mesh, mesh.points)
     first = [step.radius for step in raise_.steps(0.4) if isinstance(step, slp.MaxMinStep)]
     again = [step.radius for step in raise_.steps() if isinstance(step, slp.MaxMinStep)]
-    assert first[0] == again[0] == slp.FIRST
-    assert max(first[1:]) > slp.FIRST  # it had changed
+    assert first[0] == again[0] == SLPConfig().initial_radius
+    assert max(first[1:]) > SLPConfig().initial_radius  # it had changed
 
 
 @pytest.mark.parametrize(("radius", "band"), [(0.3, 0.1), (0.01, 0.04), (0.001, 0.01)])
-def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_radius(monkeypatch, radius, band):
-    for name, value in {"FEW": 10**6, "FIRST": radius, "LARGEST": radius, "SHRINK": 1.0}.items():
-        monkeypatch.setattr(slp, name, value)
+def test_the_corners_of_a_program_are_those_within_a_band_that_narrows_with_the_radius(radius, band):
+    config = SLPConfig(initial_corners=10**6, initial_radius=radius, max_radius=radius, shrink=1.0)
     mesh = scrambled(grid(4), 0.2, 3)
     before, counts = mesh.points, []
-    for step in itertools.islice(slp.MaxMinOptimiser(mesh, mesh.points).steps(), 30):
+    for step in itertools.islice(slp.MaxMinOptimiser(mesh, mesh.points, config=config).steps(), 30):
         if isinstance(step, slp.MaxMinStep):
             values = scaled_jacobians(before, mesh.hexes)[movable(mesh)]
             assert step.corners == np.count_nonzero(values < values.min() + band)

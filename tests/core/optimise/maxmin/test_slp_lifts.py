@@ -16,9 +16,9 @@ from tests.core.optimise.maxmin.test_slp import raised
 def lifted(sliding, points, wide, times):
     """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
     raising = MaxMinOptimiser(sliding.mesh, points, sliding)
-    raising.envelope.room = wide
+    raising.envelope.max_deviation = wide
     for _ in range(times):
-        _, limit = raised(raising, aim=0.5)
+        _, limit = raised(raising, target=0.5)
         if not raising.release(limit):
             break
     return raising
@@ -37,7 +37,7 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
         assert np.isfinite(step.points).all()
     assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
     assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
-    assert raising.envelope.room == 0.1 * edge
+    assert raising.envelope.max_deviation == 0.1 * edge
     least = raising.corners.least
     steps, _ = raised(raising)
     assert all(step.least > least for step in steps)
@@ -49,7 +49,7 @@ def test_nothing_is_lifted_off_a_surface_without_room():
     sliding = SlidingBoundary(mesh, room=0.0)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
-    raising.envelope.room = 0.0
+    raising.envelope.max_deviation = 0.0
     assert not raising.release(limit)
     assert not raising.envelope.released.any()
     fixed = MaxMinOptimiser(mesh, mesh.points)
@@ -61,7 +61,7 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     room = 0.4 * mesh.mean_edge_length
     sliding = SlidingBoundary(mesh)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    raising.envelope.room = 1.5 * mesh.mean_edge_length
+    raising.envelope.max_deviation = 1.5 * mesh.mean_edge_length
     for _ in range(5):
         for step in itertools.islice(raising.steps(0.0), 10):
             limit = step

@@ -1,0 +1,68 @@
+"""Settings of the sequential linear programming that raises the least scaled Jacobian."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class SLPConfig:
+    """Settings of the algorithm. Radii are in lengths of the shortest edge at each node, values in scaled Jacobians.
+
+    Parameters
+    ----------
+    initial_radius, max_radius, min_radius : float
+        Of the trust region; below the last the algorithm ends.
+    accept : float
+        Share of the gain promised by the models that a step must bring.
+    poor, good : float
+        Shares below and above which the region shrinks and grows.
+    shrink, grow : float
+        Factors by which it does.
+    band, min_band, max_band : float
+        Nodes at corners whose values are within a band above the least move: its width in radii, and its bounds.
+    fall : float
+        How far the value of a corner can fall while its nodes go one radius.
+    initial_corners, max_corners : int
+        Corners whose nodes move at first, and at most: more where fewer bring nothing.
+    no_gain : float
+        Promised gain that is none.
+    window : int
+        Steps over which the gain is judged.
+    min_gain, min_gain_sound : float
+        Gain in these steps below which the algorithm ends; the second where the least is above `sound`.
+    sound : float
+        Value from which on a corner is sound, so that small gains are not worth their time.
+    min_multiplier : float
+        From which on a corner is active; the sum of all is 1.
+    return_step : float
+        By how many radii, in mean edge lengths, a boundary outside its band is brought nearer at a time.
+    band_rounding : float
+        Share of the band's width that is not counted as outside.
+    """
+
+    initial_radius: float = 0.1
+    max_radius: float = 0.3
+    min_radius: float = 1e-6
+    accept: float = 0.1
+    poor: float = 0.3
+    good: float = 0.7
+    shrink: float = 0.4
+    grow: float = 2.0
+    band: float = 4.0
+    min_band: float = 0.01
+    max_band: float = 0.1
+    fall: float = 8.0
+    initial_corners: int = 300
+    max_corners: int = 1_200
+    no_gain: float = 1e-6
+    window: int = 10
+    min_gain: float = 2e-5
+    min_gain_sound: float = 1e-3
+    sound: float = 0.2
+    min_multiplier: float = 1e-3
+    return_step: float = 0.2
+    band_rounding: float = 1e-6
+
+
+SLP = SLPConfig()
