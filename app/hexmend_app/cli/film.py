@@ -36,7 +36,7 @@ class Film:
         add_force(parser)
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.boundary.displacement import Displacement, Moment
+        from hexmend.boundary.displacement import Displacement, ReferenceState
         from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.arguments.run_arguments import method_and_limits
         from hexmend.cli.output.progress import follow
@@ -64,7 +64,7 @@ class Film:
         history.add(record, run.start)
         follow(run, lambda iteration: history.add(record, iteration))
         numbers = shown(history, record, most)
-        start = Moment(mesh.points, run.start.quality, "before the run")
+        start = ReferenceState(mesh.points, run.start.quality, "before the run")
         movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
         taken = shots(record, numbers, lambda number: history.state(Shown(record, number), mesh))
         frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)

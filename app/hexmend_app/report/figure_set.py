@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from math import ceil, sqrt
 from pathlib import Path
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend.report import comparison_rows, comparison_table, write_documents
 from hexmend.report.run_figures import write_convergence, write_distributions
@@ -127,7 +127,7 @@ def _paged(style: Style, scene: Scene, panels: Sequence[Panel]) -> Scene:
 
 def stationary(scene: Scene) -> Scene:
     """A scene without what needs a mesh that has moved, and without panels: those of a set are its meshes."""
-    moved = scene.colours.metric in MOVEMENTS
+    moved = scene.colours.metric in DISPLACEMENT_QUANTITIES
     return replace(
         scene,
         colours=Colours() if moved else scene.colours,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend_app.scene.camera.directions import direction_of
 from hexmend_app.state.scene import Camera, Colours, Cut, Plane
@@ -69,7 +69,7 @@ def coloured_by(colours: Colours, inverted: bool) -> str:
     >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
     'Coloured by Scaled Jacobian; inverted hexes are magenta.'
     """
-    known = {**METRICS, **MOVEMENTS}
+    known = {**METRICS, **DISPLACEMENT_QUANTITIES}
     said = "Without colours" if colours.neutral else f"Coloured by {known[colours.metric].title}"
     return f"{said}; inverted hexes are magenta." if inverted else f"{said}."
 

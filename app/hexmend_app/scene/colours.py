@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from hexmend.boundary.displacement import MOVEMENTS, NOTHING, named
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, ROUNDING, hex_quantity
 from hexmend_app.resources import resource
 from hexmend_app.scene.palette import INVERTED as MAGENTA
 from hexmend_app.scene.values import better, declared_range
@@ -147,14 +147,14 @@ def resolve(
     if ends is None:
         low, high = fitted(values, inverted)
         ends = (low, high) if beside is None else (min(low, beside[0]), max(high, beside[1]))
-        if scale.metric in MOVEMENTS:
+        if scale.metric in DISPLACEMENT_QUANTITIES:
             most = max(abs(end) for end in ends)
-            most = most if most > NOTHING else 1.0
+            most = most if most > ROUNDING else 1.0
             ends = (-most if change else 0.0, most)
     colours = table(DIVERGING if change else scale.map)
     if scale.reverse != (better(scale.metric) < 0):
         colours = colours[::-1]
-    return Colouring(title or named(scale.metric).title, *ends, colours, _CHANGED if change else _INVERTED)
+    return Colouring(title or hex_quantity(scale.metric).title, *ends, colours, _CHANGED if change else _INVERTED)
 
 
 def declared_ends(scale: ColourScale) -> tuple[float, float] | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend_app.scene.colours import Colouring, fitted, resolve
 from hexmend_app.scene.frame import Frame
 from hexmend_app.state.measured import values
@@ -33,13 +33,13 @@ class ElementColours:
         self._frame = frame
         mesh, figures, scale, movement = frame.mesh, frame.figures, frame.look.scale, frame.movement
         self.kinds, title = figures.inverted, ""
-        if scale.metric not in MOVEMENTS:
+        if scale.metric not in DISPLACEMENT_QUANTITIES:
             self.values = values(scale.metric, mesh.points, mesh.hexes, figures)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
         else:
             self.values = movement.values(scale.metric)
-            self.kinds = movement.kinds if scale.metric == "q-change" else figures.inverted
+            self.kinds = movement.inversion_changes if scale.metric == "q-change" else figures.inverted
             title = movement.title(scale.metric)
         self.colouring = resolve(scale, self.values, figures.inverted, self._beside, title)
 

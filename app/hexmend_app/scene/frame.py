@@ -57,7 +57,7 @@ class Frame:
             known = self.movement
             then = movement.before
             alike = known is not None and known.before.points is then.points and known.before.name == then.name
-            movement = known if alike else movement.until(self.mesh.points, self.figures)
+            movement = known if alike else movement.updated(self.mesh.points, self.figures)
         return Frame(self.mesh, self.figures, movement, first.look, first.original, first.kinds)
 
 

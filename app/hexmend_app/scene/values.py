@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.displacement import named
+from hexmend.boundary.displacement import hex_quantity
 from hexmend.quality import METRICS
 from hexmend_app.state.look import RangeMode, ValueRange
 
@@ -31,10 +31,10 @@ def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.n
 
 def better(metric: str) -> int:
     """1 for a metric of which more is better, -1 where less is, 0 where neither is."""
-    return named(metric).better
+    return hex_quantity(metric).better
 
 
 def declared_range(metric: str, mode: RangeMode) -> tuple[float, float] | None:
     """The range that a metric itself declares for the mode FULL or ACCEPTABLE; None where an end of it is infinite."""
-    declared = named(metric).full_range if mode is RangeMode.FULL else named(metric).acceptable
+    declared = hex_quantity(metric).full_range if mode is RangeMode.FULL else hex_quantity(metric).acceptable
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

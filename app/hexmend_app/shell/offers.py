@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QLineEdit, QSlider, QWidget
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
@@ -75,7 +75,7 @@ def choices(session: Session) -> Iterator[Entry]:
             why = f"Chosen: {method.title}. Run starts it."
             yield Entry(name=method.title, do=partial(order.choose, stage, why), help=method.help, kind="Method")
     if session.document.is_open:
-        for metric in (*METRICS.values(), *MOVEMENTS.values()):
+        for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
             do = partial(session.view.colour_by, metric.name)
             yield Entry(name=metric.title, do=do, help=metric.meaning, kind="Colour by")
 

@@ -53,7 +53,7 @@ def node_kinds(mesh: Mesh, degrees: float) -> np.ndarray:
     boundary = sliding_boundary(mesh, degrees)
     sharp = np.zeros(mesh.n_nodes, dtype=bool)
     sharp[boundary_of(mesh.with_points(mesh.surface_points), degrees, whisker=0).segments] = True
-    kinds = np.where(sharp & (boundary.kind == NodeClass.PATCH), WHISKER, boundary.kind).astype(np.uint8)
+    kinds = np.where(sharp & (boundary.node_class == NodeClass.PATCH), WHISKER, boundary.node_class).astype(np.uint8)
     if mesh.pinned is not None:
         kinds[mesh.pinned & (kinds != NodeClass.INSIDE)] = PIN
     return kinds

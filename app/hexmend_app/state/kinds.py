@@ -38,4 +38,4 @@ def of_kind(kind: str, mesh: Mesh, figures: ElementQuality, movement: Displaceme
         return np.flatnonzero(figures.inverted)
     if kind == "locked":
         return np.flatnonzero(locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
-    return np.empty(0, np.int64) if movement is None else np.flatnonzero(movement.kinds == _MOVED[kind])
+    return np.empty(0, np.int64) if movement is None else np.flatnonzero(movement.inversion_changes == _MOVED[kind])

@@ -35,7 +35,7 @@ class ColourScale:
     Parameters
     ----------
     metric : str
-        A name of `hexmend.quality.METRICS`, or of `hexmend.boundary.displacement.MOVEMENTS`.
+        A name of `hexmend.quality.METRICS`, or of `hexmend.boundary.displacement.DISPLACEMENT_QUANTITIES`.
     map : str
         A name of `hexmend_app.scene.colours.MAPS`.
     mode : RangeMode

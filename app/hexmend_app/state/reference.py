@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend_app.state import history
 from hexmend_app.state.document import Document, State
 from hexmend_app.state.history import History
@@ -21,7 +21,7 @@ class References:
     def __init__(self, document: Document, records: History):
         self._document, self._history = document, records
         self._last: tuple[tuple, Displacement] | None = None
-        self._before: tuple[State, Moment] | None = None
+        self._before: tuple[State, ReferenceState] | None = None
         self._measured: tuple[history.Moment, State] | None = None
 
     def movement(self, since: Since) -> Displacement:
@@ -35,10 +35,10 @@ class References:
             self._last = asked, Displacement(self._document.start.mesh, before, now.mesh.points, now.figures)
         return self._last[1]
 
-    def _moment(self, state: State, name: str) -> Moment:
+    def _moment(self, state: State, name: str) -> ReferenceState:
         """A state to compare with: the same as long as it is the one, with what is known of its surface."""
         if self._before is None or self._before[0] is not state or self._before[1].name != name:
-            self._before = state, Moment(state.mesh.points, state.figures, name)
+            self._before = state, ReferenceState(state.mesh.points, state.figures, name)
         return self._before[1]
 
     def _find(self, since: Since, shown: history.Moment | None) -> tuple[State, str]:

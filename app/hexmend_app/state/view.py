@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend_app.state.clip import BoxClip, Clip, ClipPlane, CutLeft, PlaneClip
 from hexmend_app.state.document import Document
@@ -31,7 +31,7 @@ class ViewData:
         scale, shown = self.look.scale, self.look.quality_range
         if self.counted is not None and self.counted not in METRICS:
             raise ValueError(f"there is no metric {self.counted!r}")
-        if scale.metric not in METRICS and scale.metric not in MOVEMENTS:
+        if scale.metric not in METRICS and scale.metric not in DISPLACEMENT_QUANTITIES:
             raise ValueError(f"there is no metric {scale.metric!r}")
         if shown is not None and shown.metric not in METRICS:
             raise ValueError(f"there is no metric {shown.metric!r}")

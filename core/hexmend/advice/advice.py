@@ -67,7 +67,7 @@ def advise(result: Result) -> Advice:
         worse=fallen,
         locked=now.locked,
         loose=now.loose,
-        surface="" if result.surface is None else result.surface.words,
+        surface="" if result.surface is None else result.surface.sentence,
         limiting=none if limits is None else np.unique(limits.hexes),
         held=none if limits is None else limits.locked[~now.figures.inverted[limits.locked]],
         suggestions=tuple(told),

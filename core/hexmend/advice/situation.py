@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.boundary import freed_by_sliding
-from hexmend.boundary.features import DEGREES
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
@@ -104,7 +104,7 @@ class Situation:
         """How many of the locked hexes can be freed where the boundary slides."""
         which = np.zeros(self.mesh.n_hexes, dtype=bool)
         which[self.locked] = True
-        degrees = self.smoother.values().get("feature_angle", DEGREES)
+        degrees = self.smoother.values().get("feature_angle", FEATURE_ANGLE)
         return int(np.count_nonzero(freed_by_sliding(self.mesh, which, degrees)))
 
     def pins_of(self, hexes: np.ndarray) -> np.ndarray:

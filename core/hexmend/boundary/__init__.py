@@ -1,10 +1,10 @@
-"""The surface of a mesh: corners, curves and patches of its boundary, closest points, and how two boundaries differ."""
+"""Boundary of a mesh: corners, curves and patches, sliding on a surface, closest points, comparison of two surfaces."""
 
 from hexmend.aliases import exports
 from hexmend.boundary.band import Deviations
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
-from hexmend.boundary.comparison import SkinSurface, SurfaceChange, distances, surface_change
+from hexmend.boundary.comparison import SkinSurface, SurfaceChange, mutual_distances, surface_change
 from hexmend.boundary.corner_detection import sliding_boundary
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.boundary.surface import Surface
@@ -22,8 +22,8 @@ __all__ = [
     "SurfaceChange",
     "boundary_of",
     "classify",
-    "distances",
     "freed_by_sliding",
+    "mutual_distances",
     "sliding_boundary",
     "surface_change",
 ]

@@ -1,4 +1,4 @@
-"""The room around a surface in which a boundary that slides on it stays."""
+"""The band around a surface in which a boundary that slides on it stays."""
 
 from __future__ import annotations
 
@@ -9,172 +9,205 @@ import numpy as np
 
 from hexmend.boundary.comparison import SkinSurface
 
-#: By what share of it a distance is off by rounding, and the least room, as a share of the diagonal.
+#: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
 _ROUNDING = 1e-9
-NOBODY = np.empty(0, dtype=np.int64)
+NO_NODES = np.empty(0, dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """Places where boundary and surface are apart.
+    """Samples of one surface that lie further from the other than a limit.
 
     Parameters
     ----------
-    which : (k,) int64
-        Of those that were looked at, ascending.
-    far : (k,)
-        The distance of each from the closest place of the other.
-    away : (k, 3)
-        Unit vectors along which it grows: from the closest place to this one.
-    nodes : (k, 4)
-        Nodes of the boundary that make the place, or the closest one.
-    weights : (k, 4)
-        Theirs.
+    indices : (k,) int64
+        Numbers of these samples, ascending.
+    distances : (k,) float64
+        Distance of each from the closest point of the other surface, in the mesh's unit.
+    directions : (k, 3) float64
+        Unit vectors from the closest point to the sample: moving along them increases the distance.
+    nodes : (k, 4) int
+        Boundary nodes whose weighted mean is the sample, or the point closest to it.
+    weights : (k, 4) float64
+        Weights of these nodes.
     """
 
-    which: np.ndarray
-    far: np.ndarray
-    away: np.ndarray
+    indices: np.ndarray
+    distances: np.ndarray
+    directions: np.ndarray
     nodes: np.ndarray
     weights: np.ndarray
 
 
 class Band:
-    """How far a boundary and the surface that it slides on are from each other, both ways.
+    """Two-sided distance between a boundary and the surface on which it slides, against a tolerance.
 
-    Nodes are on the surface, but what lies between them cuts off its bends.
+    Nodes of the boundary lie on the surface, but its edges and faces cut off the surface's bends.
 
     Parameters
     ----------
     points : (n, 3) float64
-        Where the boundary was.
+        Original node positions of the boundary.
     faces : (k, 4) int32
+        Faces of the boundary.
     start : (n, 3) float64
-        Where it is before it slides, its nodes on the surface.
+        Node positions before sliding, with the nodes on the surface.
     target : SkinSurface or None
-        The surface; None where it is the boundary as it was.
-    room : float
-        How far the two may be from each other, in the mesh's unit; 0 for no further than rounding leaves them apart.
+        The surface; None if it is the original boundary.
+    tolerance : float
+        Largest distance allowed, in the mesh's unit; 0 allows rounding only.
     """
 
     def __init__(
-        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, room: float
+        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, tolerance: float
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
-        self.room = max(room, _ROUNDING * size)
+        self.tolerance = max(tolerance, _ROUNDING * size)
 
     @cached_property
     def skin(self) -> SkinSurface:
-        """The boundary as it was, as a whole."""
+        """The original boundary."""
         return SkinSurface(self.points, self._faces)
 
     @property
     def target(self) -> SkinSurface:
-        """The surface, as a whole."""
+        """The surface on which the boundary slides."""
         return self._given or self.skin
 
     @cached_property
-    def middles(self) -> np.ndarray:
-        """Nodes whose means are the middles of the boundary's edges and faces, (s, 4) int: an edge's nodes twice."""
+    def midpoints(self) -> np.ndarray:
+        """Samples of the boundary, (s, 4) int: each is the mean of four nodes.
+
+        They are the midpoints of edges (with each node twice) and of faces, then the nodes themselves.
+        """
         nodes = np.tile(self.skin.nodes[:, None], 4)
         return np.concatenate([np.tile(self.skin.edges.nodes, 2), self._faces, nodes])
 
-    def middles_at(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of `middles` move with some nodes, (k,) int64."""
+    def midpoints_of(self, nodes: np.ndarray) -> np.ndarray:
+        """Find the samples of `midpoints` that move with some nodes (j,), as (k,) int64."""
         moved = np.zeros(len(self.points), dtype=bool)
         moved[nodes] = True
-        return np.flatnonzero(moved[self.middles].any(axis=1))
+        return np.flatnonzero(moved[self.midpoints].any(axis=1))
 
-    def off(self, points: np.ndarray, which: np.ndarray, room: float | np.ndarray = 0.0) -> Deviations:
-        """Those of some `middles` that are further than a room from the surface.
-
-        Parameters
-        ----------
-        points : (n, 3) float64
-        which : (k,) int64
-            Of `middles`.
-        room : float or (k,) float64
-            One for all, or one for each.
-        """
-        room = np.broadcast_to(room, which.shape)
-        moved = (points - self._start)[self.middles[which]].mean(axis=1)
-        may = self._off_at_first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
-        which, room = which[may], room[may]
-        x = points[self.middles[which]].mean(axis=1)
-        far, away = _apart(x, self.target.closest(x, max(float(room.min(initial=np.inf)), 0.0)))
-        out = far > room
-        nodes = self.middles[which[out]]
-        return Deviations(which[out], far[out], away[out], nodes, np.full(nodes.shape, 0.25))
-
-    def behind(self, points: np.ndarray, which: np.ndarray | None = None, room: float | np.ndarray = 0.0) -> Deviations:
-        """Those of the surface's nodes and middles that are further than a room from the boundary as it is now.
+    def boundary_deviation(
+        self, points: np.ndarray, indices: np.ndarray, limit: float | np.ndarray = 0.0
+    ) -> Deviations:
+        """Find samples of the boundary that are further from the surface than a limit.
 
         Parameters
         ----------
         points : (n, 3) float64
-        which : (k,) int64, optional
-            Of them; all, if None.
-        room : float or (k,) float64
-            One for all, or one for each.
+            Node positions.
+        indices : (k,) int64
+            Samples of `midpoints` to be examined.
+        limit : float or (k,) float64
+            In the mesh's unit; one for all samples, or one for each.
+
+        Returns
+        -------
+        Deviations
         """
-        first, nodes, weights = self.behind_at_first
-        if which is None:
-            which = np.arange(len(first))
-        room = np.broadcast_to(room, which.shape)
-        moved = np.einsum("sk,ski->si", weights[which], (points - self._start)[nodes[which]])
-        may = first[which] + np.linalg.norm(moved, axis=1) > np.maximum(room, 0.0)
-        which, room = which[may], room[may]
-        if not which.size:
-            return Deviations(which, np.empty(0), np.empty((0, 3)), nodes[which], weights[which])
-        x = self._samples[which]
-        places, nodes, weights = self.skin.with_points(points).closest_on(x, max(float(room.min(initial=np.inf)), 0.0))
-        far, away = _apart(x, places)
-        out = far > room
-        return Deviations(which[out], far[out], away[out], nodes[out], weights[out])
+        limit = np.broadcast_to(limit, indices.shape)
+        moved = (points - self._start)[self.midpoints[indices]].mean(axis=1)
+        # A sample cannot be further away than it was at first plus its own move: no search for the others.
+        near = self._initial_boundary_deviation[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
+        indices, limit = indices[near], limit[near]
+        x = points[self.midpoints[indices]].mean(axis=1)
+        closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
+        distances, directions = _distance_and_direction(x, closest)
+        out = distances > limit
+        nodes = self.midpoints[indices[out]]
+        return Deviations(indices[out], distances[out], directions[out], nodes, np.full(nodes.shape, 0.25))
 
-    def beyond(self, points: np.ndarray) -> np.ndarray:
-        """The nodes at which the boundary has left its room, further than it was at first, (k,) int.
+    def surface_deviation(
+        self, points: np.ndarray, indices: np.ndarray | None = None, limit: float | np.ndarray = 0.0
+    ) -> Deviations:
+        """Find samples of the surface that are further from the boundary than a limit.
 
-        Where it is far from a place of the surface these are the nodes that are closest to it, and that were at first.
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Node positions of the boundary.
+        indices : (k,) int64, optional
+            Samples of the surface to be examined; all by default.
+        limit : float or (k,) float64
+            In the mesh's unit; one for all samples, or one for each.
+
+        Returns
+        -------
+        Deviations
         """
-        if not np.isfinite(self.room):
-            return NOBODY
-        at_first, nodes, _ = self.behind_at_first
-        off = self.off(points, np.arange(len(self.middles)), self._most(self._off_at_first))
-        behind = self.behind(points, room=self._most(at_first))
-        return np.unique(np.concatenate([one.ravel() for one in (off.nodes, behind.nodes, nodes[behind.which])]))
+        initial, nodes, weights = self.initial_surface_deviation
+        if indices is None:
+            indices = np.arange(len(initial))
+        limit = np.broadcast_to(limit, indices.shape)
+        moved = np.einsum("sk,ski->si", weights[indices], (points - self._start)[nodes[indices]])
+        near = initial[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
+        indices, limit = indices[near], limit[near]
+        if not indices.size:
+            return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
+        x = self._samples[indices]
+        enough = max(float(limit.min(initial=np.inf)), 0.0)
+        closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
+        distances, directions = _distance_and_direction(x, closest)
+        out = distances > limit
+        return Deviations(indices[out], distances[out], directions[out], nodes[out], weights[out])
 
-    def _most(self, at_first: np.ndarray) -> np.ndarray:
-        return np.maximum(at_first, self.room) * (1 + _ROUNDING)
+    def outside_band(self, points: np.ndarray) -> np.ndarray:
+        """Find nodes at which the boundary is outside the band and further from the surface than at first.
+
+        Where a sample of the surface is too far from the boundary, these are the nodes of the face closest to it now
+        and of the face closest to it at first.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Node positions.
+
+        Returns
+        -------
+        (k,) int
+            Numbers of nodes, ascending.
+        """
+        if not np.isfinite(self.tolerance):
+            return NO_NODES
+        initial, nodes, _ = self.initial_surface_deviation
+        boundary_limit = self._allowed(self._initial_boundary_deviation)
+        boundary = self.boundary_deviation(points, np.arange(len(self.midpoints)), boundary_limit)
+        surface = self.surface_deviation(points, limit=self._allowed(initial))
+        return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
+
+    def _allowed(self, initial: np.ndarray) -> np.ndarray:
+        return np.maximum(initial, self.tolerance) * (1 + _ROUNDING)
 
     @cached_property
     def _samples(self) -> np.ndarray:
-        return self._start[self.middles].mean(axis=1) if self._given is None else self._given.samples()
+        return self._start[self.midpoints].mean(axis=1) if self._given is None else self._given.samples()
 
     @cached_property
-    def _off_at_first(self) -> np.ndarray:
-        """How far `middles` are from the surface before anything slides, (s,)."""
+    def _initial_boundary_deviation(self) -> np.ndarray:
+        """Distance of `midpoints` from the surface before sliding, (s,)."""
         if self._given is None:
-            return np.zeros(len(self.middles))
-        return self.target.distances(self._start[self.middles].mean(axis=1))
+            return np.zeros(len(self.midpoints))
+        return self.target.distances(self._start[self.midpoints].mean(axis=1))
 
     @cached_property
-    def behind_at_first(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """How far the surface's nodes and middles are from the boundary before anything slides, (s,).
+    def initial_surface_deviation(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Distance of the surface's samples from the boundary before sliding, (s,), with what is closest to them.
 
-        Also the nodes and weights that make what is closest to them, (s, 4).
+        The latter is given by boundary nodes, (s, 4) int, and their weights, (s, 4).
         """
         if self._given is None:
-            return np.zeros(len(self.middles)), self.middles, np.full(self.middles.shape, 0.25)
+            return np.zeros(len(self.midpoints)), self.midpoints, np.full(self.midpoints.shape, 0.25)
         x = self._samples
-        places, nodes, weights = self.skin.with_points(self._start).closest_on(x)
-        return np.linalg.norm(x - places, axis=1), nodes, weights
+        closest, nodes, weights = self.skin.with_points(self._start).closest_on(x)
+        return np.linalg.norm(x - closest, axis=1), nodes, weights
 
 
-def _apart(x: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (k,) of x (k, 3) from other places, and the unit vectors from these to x (k, 3)."""
-    away = x - places
-    far = np.linalg.norm(away, axis=1)
-    return far, away / np.maximum(far, np.finfo(float).tiny)[:, None]
+def _distance_and_direction(x: np.ndarray, closest: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distances (k,) of x (k, 3) from the closest points (k, 3), and unit vectors from these to x (k, 3)."""
+    difference = x - closest
+    distances = np.linalg.norm(difference, axis=1)
+    return distances, difference / np.maximum(distances, np.finfo(float).tiny)[:, None]

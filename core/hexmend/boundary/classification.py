@@ -1,4 +1,4 @@
-"""The boundary of a mesh, each node classed by what it may do: a corner is kept, others slide on a curve or a patch."""
+"""Classification of boundary nodes: corners stay, other nodes may slide on a curve or a patch."""
 
 from __future__ import annotations
 
@@ -8,7 +8,14 @@ from enum import IntEnum
 import numpy as np
 
 from hexmend.boundary.edges import SurfaceEdges, chains
-from hexmend.boundary.features import DEGREES, WHISKER, feature_edges, given_corners, given_edges, turns
+from hexmend.boundary.features import (
+    FEATURE_ANGLE,
+    WHISKER_FACTOR,
+    feature_edges,
+    marked_corners,
+    marked_edges,
+    turning_angles,
+)
 from hexmend.errors import MeshError
 from hexmend.mesh.components import components
 from hexmend.mesh.fields import as_set
@@ -17,7 +24,7 @@ from hexmend.mesh.validation import as_faces, as_integers, as_points, check_node
 
 
 class NodeClass(IntEnum):
-    """What a node of a mesh is to its boundary."""
+    """Role of a node in the boundary of a mesh."""
 
     INSIDE = 0
     CORNER = 1
@@ -27,23 +34,25 @@ class NodeClass(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Boundary:
-    """Faces of a boundary in patches, their feature edges in curves, and what that makes of the nodes.
+    """Boundary divided into patches of faces, curves of feature edges, and corners.
 
     Parameters
     ----------
-    kind : (n,) uint8
-        One of `NodeClass` for each node.
+    node_class : (n,) uint8
+        `NodeClass` of each node.
     part : (n,) int32
-        The curve of a curve node, the patch of a patch node, -1 of others; both counted from 0.
+        Number of the curve of a curve node or of the patch of a patch node, each from 0; -1 for other nodes.
     faces : (k, 4) or (k, 3) int32
         Nodes of each face, counter-clockwise from outside.
     patch_of_face : (k,) int32
+        Patch number of each face.
     segments : (s, 2) int32
         Nodes of each feature edge, lower node first.
     curve_of_segment : (s,) int32
+        Curve number of each feature edge.
     """
 
-    kind: np.ndarray
+    node_class: np.ndarray
     part: np.ndarray
     faces: np.ndarray
     patch_of_face: np.ndarray
@@ -60,42 +69,51 @@ class Boundary:
         """Number of curves."""
         return int(self.curve_of_segment.max(initial=-1)) + 1
 
-    def count(self, kind: NodeClass) -> int:
-        """Number of nodes of a kind."""
-        return int(np.count_nonzero(self.kind == kind))
+    def count(self, node_class: NodeClass) -> int:
+        """Return the number of nodes of a class."""
+        return int(np.count_nonzero(self.node_class == node_class))
 
 
 def boundary_of(
-    mesh: Mesh, degrees: float = DEGREES, *, turn: float | None = None, whisker: float = WHISKER,
+    mesh: Mesh, degrees: float = FEATURE_ANGLE, *, turn: float | None = None, whisker: float = WHISKER_FACTOR,
     sharp: np.ndarray | None = None, corners: np.ndarray | None = None,
 ) -> Boundary:  # fmt: skip
-    """Class the boundary of a mesh.
+    """Classify the boundary nodes of a mesh.
 
     Parameters
     ----------
     mesh : Mesh
     degrees : float
-        Angle between two faces beyond which their edge is a feature.
+        Dihedral angle beyond which an edge is a feature.
     turn : float, optional
-        Angle by which a curve turns at a corner; that of `degrees` where none is given.
+        Angle between successive segments beyond which a curve has a corner, in degrees; `degrees` by default.
     whisker : float
-        A chain of feature edges that ends in the middle of a patch, and what hangs together with no other, is left out
-        where its angles sum up to less than so many times `degrees`; 0 leaves every one.
+        Feature edges that end in the middle of a patch, or are isolated, are dropped if the sum of their dihedral
+        angles is less than this multiple of `degrees`; 0 keeps them all.
     sharp : (e, 2) int, optional
-        Edges that are features whatever their angle. Where none are given: those that the mesh's file marks (Medit's
-        Ridges and RequiredEdges, and where references of Quadrilaterals change).
+        Edges that are features whatever their angle. By default those that the mesh's file marks (Medit's Ridges and
+        RequiredEdges, and edges at which references of Quadrilaterals change).
     corners : (c,) int, optional
-        Nodes that are kept. Where none are given: those that the file marks (Medit's Corners) and the pinned ones.
+        Nodes that are corners. By default those that the file marks (Medit's Corners) and the pinned nodes.
+
+    Returns
+    -------
+    Boundary
+
+    Raises
+    ------
+    MeshError
+        For edges or corners that name nodes that do not exist.
 
     Examples
     --------
     >>> from hexmend.gallery import make
     >>> cube = boundary_of(make("cube", size=27))
-    >>> [cube.count(kind) for kind in NodeClass], cube.n_curves, cube.n_patches
+    >>> [cube.count(of) for of in NodeClass], cube.n_curves, cube.n_patches
     ([8, 8, 24, 24], 12, 6)
     """
-    sharp = given_edges(mesh) if sharp is None else sharp
-    corners = given_corners(mesh) if corners is None else corners
+    sharp = marked_edges(mesh) if sharp is None else sharp
+    corners = marked_corners(mesh) if corners is None else corners
     return classify(
         mesh.points, mesh.topology.boundary_faces, degrees,
         turn=turn, whisker=whisker, sharp=sharp, corners=corners,
@@ -103,21 +121,30 @@ def boundary_of(
 
 
 def classify(
-    points: np.ndarray, faces: np.ndarray, degrees: float = DEGREES, *, turn: float | None = None,
-    whisker: float = WHISKER, sharp: np.ndarray | None = None, corners: np.ndarray | None = None,
+    points: np.ndarray, faces: np.ndarray, degrees: float = FEATURE_ANGLE, *, turn: float | None = None,
+    whisker: float = WHISKER_FACTOR, sharp: np.ndarray | None = None, corners: np.ndarray | None = None,
 ) -> Boundary:  # fmt: skip
-    """Class the nodes of any surface of triangles or quads; see `boundary_of`.
+    """Classify the nodes of any surface of triangles or quads; see `boundary_of`.
 
-    A curve is a chain of feature edges from corner to corner, or a loop without any. Corners are where not two feature
-    edges meet, where a curve turns, where the surface is no disc (sheets that touch in a node), and those given.
-    Patches are the faces between curves.
+    A curve is a chain of feature edges from corner to corner, or a loop without corners. Corners are nodes at which
+    one, three or more feature edges meet, a curve turns, or sheets of the surface touch, and those given. Patches are
+    the connected faces between curves.
 
     Parameters
     ----------
     points : (n, 3) float64
     faces : (k, 4) or (k, 3) int32
     degrees, turn, whisker, sharp, corners
-        See `boundary_of`.
+        See `boundary_of`; no edges and corners are given by default.
+
+    Returns
+    -------
+    Boundary
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for nodes that do not exist.
     """
     points = as_points(points)
     n = len(points)
@@ -129,20 +156,20 @@ def classify(
     segments = edges.nodes[feature]
     valence = np.bincount(segments.ravel(), minlength=n)
     corner = kept | ((valence != 2) & (valence != 0)) | (edges.fans > 1)
-    corner |= turns(points, segments, ~corner & (valence == 2)) > (degrees if turn is None else turn)
+    corner |= turning_angles(points, segments, ~corner & (valence == 2)) > (degrees if turn is None else turn)
     curve_of_segment = chains(segments, corner)
     patch_of_face = components(len(faces), edges.neighbours[~feature & (edges.count == 2)])
 
-    kind, part = np.zeros(n, dtype=np.uint8), np.full(n, -1, dtype=np.int32)
-    kind[faces], part[faces] = NodeClass.PATCH, patch_of_face[:, None]
-    kind[segments], part[segments] = NodeClass.CURVE, curve_of_segment[:, None]
-    corner &= kind != NodeClass.INSIDE
-    kind[corner], part[corner] = NodeClass.CORNER, -1
-    return Boundary(kind, part, faces, patch_of_face, segments, curve_of_segment)
+    node_class, part = np.zeros(n, dtype=np.uint8), np.full(n, -1, dtype=np.int32)
+    node_class[faces], part[faces] = NodeClass.PATCH, patch_of_face[:, None]
+    node_class[segments], part[segments] = NodeClass.CURVE, curve_of_segment[:, None]
+    corner &= node_class != NodeClass.INSIDE
+    node_class[corner], part[corner] = NodeClass.CORNER, -1
+    return Boundary(node_class, part, faces, patch_of_face, segments, curve_of_segment)
 
 
 def _edges(edges: np.ndarray, n: int) -> np.ndarray:
-    """Edges of nodes below n, (e, 2) int; `MeshError` where they are none."""
+    """Check edges of n nodes, (e, 2) int; raises `MeshError` for another shape or an unknown node."""
     array = as_integers(edges, "sharp edges", ("edge", "end"))
     if not array.size:
         return array.reshape(0, 2)

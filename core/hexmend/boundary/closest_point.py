@@ -1,4 +1,4 @@
-"""Closest points of triangles and segments, by a tree of boxes for each group of them."""
+"""Closest points on triangles and segments, found by a bounding-box tree for each group of them."""
 
 from __future__ import annotations
 
@@ -12,21 +12,22 @@ from hexmend.kernels import closest_point
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.validation import as_faces, as_points, points_like
 
-#: Coordinates from which on distances leave the range of numbers.
-FARTHEST = 1e150
+#: Squares of coordinates beyond this overflow.
+MAX_COORDINATE = 1e150
 
 
 @dataclass(frozen=True, eq=False)
 class ClosestPoints:
-    """Closest points.
+    """Closest points and the triangles or segments on which they lie.
 
     Parameters
     ----------
     places : (k, 3) float64
+        Positions of the closest points.
     pieces : (k,) int32
-        The piece that each lies on.
+        Number of the triangle or segment of each.
     weights : (k, 3) float64
-        Of the piece's corners at each place.
+        Barycentric coordinates of each with respect to the corners of its piece.
     """
 
     places: np.ndarray
@@ -35,7 +36,7 @@ class ClosestPoints:
 
 
 class ClosestPointTrees:
-    """Triangles and segments in groups, each group with a tree.
+    """Bounding-box trees of groups of triangles and segments ("pieces").
 
     Parameters
     ----------
@@ -43,14 +44,14 @@ class ClosestPointTrees:
     pieces : (k, 3) int32
         Triangles (a, b, c), and segments as (a, b, b).
     group : (k,) int
-        Of each piece, from 0; none is empty.
+        Group of each piece, from 0; no group is empty.
 
     Attributes
     ----------
     order : (k,) int64
-        Where each piece, as `ClosestPoints.pieces` counts them, was in `pieces`.
+        Number in the given `pieces` of each piece as `ClosestPoints.pieces` numbers them.
     points, pieces, boxes, links, roots
-        Arrays of `hexmend.kernels.closest_point`: points (n, 3), pieces (k, 3), boxes (b, 6), links (b, 2), roots (t,).
+        Arguments of `hexmend.kernels.closest_point`.
 
     Raises
     ------
@@ -78,26 +79,31 @@ class ClosestPointTrees:
         return closest_point.BoxTrees(self.points, self.pieces, self.boxes, self.links)
 
     def with_points(self, points: np.ndarray) -> ClosestPointTrees:
-        """The same pieces with their points (n, 3) elsewhere; the nearer to where they were, the faster it is."""
+        """Return trees of the same pieces with other points (n, 3); fast if the points have moved little."""
         other, points = copy.copy(self), points_like(points, self.points.shape)
         other.points, other.boxes = points, np.empty_like(self.boxes)
         closest_point.refit(points, self.pieces, self.links, other.boxes)
         return other
 
     def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> ClosestPoints:
-        """The point closest to each of x in a group.
+        """Find the point of a group that is closest to each given point.
 
         Parameters
         ----------
         x : (k, 3) float64
         group : (k,) int
+            Group to be searched for each point.
         enough : float
-            A point no further than that will do for the closest, which is faster.
+            The search ends at any point within this distance.
+
+        Returns
+        -------
+        ClosestPoints
 
         Raises
         ------
         MeshError
-            For a point that is infinite or next to it, and for arrays of another shape or type.
+            For coordinates that are not finite or exceed `MAX_COORDINATE`, and for arrays of another shape or type.
         """
         x = as_points(x, "places")
         group = as_set(group, "group", len(self.roots))
@@ -107,20 +113,27 @@ class ClosestPointTrees:
         closest_point.closest(self.box_trees, x, self.roots[group], enough, piece, places, weights)
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
-            raise MeshError(f"nothing is closest to the point {wrong}: expected finite numbers, below {FARTHEST:g}")
+            raise MeshError(
+                f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_COORDINATE:g}"
+            )
         return ClosestPoints(places, piece, weights)
 
 
-def triangulated(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Faces as triangles, a quad as four around the mean of its corners, so that no diagonal is preferred.
+def triangulate(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Divide quads into four triangles around their centres, so that no diagonal is preferred; triangles stay.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    faces : (k, 4) or (k, 3) int32
 
     Returns
     -------
     vertices : (v, 3) float64
-        The points, then the middles of quads.
+        The points, then the centres of quads.
     triangles : (t, 3) int32
     face : (t,) int64
-        The face of each triangle.
+        Number of the face of each triangle.
     """
     if faces.shape[1] == 3:
         return np.ascontiguousarray(points), faces, np.arange(len(faces))

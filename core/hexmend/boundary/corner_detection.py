@@ -1,44 +1,59 @@
-"""Bends of feature curves that must not slide: they are corners of the boundary that nodes slide on."""
+"""Bends of feature curves whose nodes must not slide, and the sliding boundary with these as corners."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
-from hexmend.boundary.features import DEGREES, given_corners
+from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
 
-def sliding_boundary(mesh: Mesh, degrees: float = DEGREES) -> Boundary:
-    """The boundary as the nodes of a mesh slide on it: of the surface that the mesh keeps, its bends being corners.
+def sliding_boundary(mesh: Mesh, degrees: float = FEATURE_ANGLE) -> Boundary:
+    """Classify the original boundary of a mesh for sliding, with `bend_corners` as corners.
 
     Parameters
     ----------
     mesh : Mesh
+        Its `surface_points` define the original boundary.
     degrees : float
-        See `boundary_of`.
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+
+    Returns
+    -------
+    Boundary
     """
     original = mesh.with_points(mesh.surface_points)
     boundary = boundary_of(original, degrees)
-    bends = kept_bends(original, boundary)
+    bends = bend_corners(original, boundary)
     if not bends.size:
         return boundary
-    return boundary_of(original, degrees, corners=np.concatenate([given_corners(mesh), bends]))
+    return boundary_of(original, degrees, corners=np.concatenate([marked_corners(mesh), bends]))
 
 
-def kept_bends(mesh: Mesh, boundary: Boundary) -> np.ndarray:
-    """Nodes of curves that had better not slide, (k,) int: of a face with both edges at the node on the curve.
+def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:
+    """Find curve nodes at which both edges of one face lie on the curve.
 
-    The bend of the curve at such a node is all that holds the hex's corner open: on one straight segment with its
-    neighbours it would be flat for good, sigma being 0 and its derivative along the curve too. Where the corner is
-    inverted as it is, the node may as well slide.
+    Only the bend of the curve keeps such a corner of a hex open: with its neighbours on one straight segment sigma
+    would be 0, and so would its derivative along the curve. Nodes at which the corner is inverted already may slide.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    boundary : Boundary
+        Boundary of the mesh.
+
+    Returns
+    -------
+    (k,) int
+        Numbers of nodes, ascending.
     """
     hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
     ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
     on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
-    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.kind[boundary.faces] == NodeClass.CURVE)
+    at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.node_class[boundary.faces] == NodeClass.CURVE)
     face, place = np.nonzero(at)
     sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
     corner = FACES[sides[face], place]

@@ -1,4 +1,4 @@
-"""How far nodes have moved and elements have changed since an earlier moment: what colours, arrows and counts show."""
+"""Displacement of nodes and change of hexes between two states of one mesh, as colours, arrows and counts show it."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 from hexmend.quality import METRICS, ElementQuality, HexQuantity
 
-#: Changes of q, and ways in mean edge lengths, that are rounding.
-NOTHING = 1e-9
+#: Changes of q, and displacements in mean edge lengths, up to this are rounding errors.
+ROUNDING = 1e-9
 
 _MOVED = "of where each node is and where it was, in mean edge lengths of the mesh as it was opened"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Change(HexQuantity):
-    """A figure of every hex between two moments of one mesh.
+class DisplacementQuantity(HexQuantity):
+    """Quantity of every hex that compares two states of one mesh.
 
     Parameters
     ----------
     label : str
-        A word for a button.
+        Short name for a button.
     since : str
-        What it is called before "since" and the earlier moment.
+        Name that a caption puts before "since" and the name of the reference state.
     of : callable
-        Gives the values, (m,) float64, of a `Displacement`.
+        Computes the values, (m,) float64, from a `Displacement`.
     """
 
     label: str
@@ -45,17 +45,17 @@ def _moved(movement: Displacement, of_corners: Callable[..., None]) -> np.ndarra
 
 
 def _of_nodes(movement: Displacement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
-    """What becomes of distances of nodes, (n,) in the unit of the mesh, in each hex, (m,) in mean edge lengths."""
+    """Combine node distances (n,), in the mesh's unit, into one value a hex (m,), in mean edge lengths."""
     values = np.empty(movement.mesh.n_hexes)
     of_corners(movement.mesh.hexes, distances / movement.unit, values)
     return values
 
 
-#: What colours can show of a movement, beside `METRICS`.
-MOVEMENTS: dict[str, Change] = {
+#: Displacement quantities by name.
+DISPLACEMENT_QUANTITIES: dict[str, DisplacementQuantity] = {
     one.name: one
     for one in (
-        Change(
+        DisplacementQuantity(
             name="moved-most",
             title="Largest displacement",
             label="Displacement",
@@ -69,7 +69,7 @@ MOVEMENTS: dict[str, Change] = {
             unit="mean edge lengths",
             of=lambda movement: _moved(movement, corner_values.largest),
         ),
-        Change(
+        DisplacementQuantity(
             name="moved-mean",
             title="Mean displacement",
             label="Mean displacement",
@@ -83,7 +83,7 @@ MOVEMENTS: dict[str, Change] = {
             unit="mean edge lengths",
             of=lambda movement: _moved(movement, corner_values.mean),
         ),
-        Change(
+        DisplacementQuantity(
             name="q-change",
             title="Change of q(H)",
             label="Δq",
@@ -96,7 +96,7 @@ MOVEMENTS: dict[str, Change] = {
             meaning="Which hexes have paid for what others have gained.",
             of=lambda movement: movement.figures.q - movement.before.figures.q,
         ),
-        Change(
+        DisplacementQuantity(
             name="surface-distance",
             title="Distance from the surface",
             label="Off surface",
@@ -114,25 +114,27 @@ MOVEMENTS: dict[str, Change] = {
     )
 }
 
-#: What the colours of `q-change` set apart, in this order: numbers of `Displacement.kinds`.
+#: Values of `Displacement.inversion_changes`, in the order of the legend of `q-change`.
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
 
 
-def named(name: str) -> HexQuantity:
-    """What colours show under a name: a metric, or a change."""
-    return MOVEMENTS.get(name) or METRICS[name]
+def hex_quantity(name: str) -> HexQuantity:
+    """Return the displacement quantity or the metric of a name; raises `ParameterError` for an unknown one."""
+    return DISPLACEMENT_QUANTITIES.get(name) or METRICS[name]
 
 
 @dataclass(frozen=True, eq=False)
-class Moment:
-    """The open mesh as it was, that it is compared with.
+class ReferenceState:
+    """Earlier state of a mesh, to which displacements refer.
 
     Parameters
     ----------
     points : (n, 3) float64
+        Node positions.
     figures : ElementQuality
+        Quality of the hexes.
     name : str
-        What to call it behind "since".
+        Name that a caption puts after "since".
     """
 
     points: np.ndarray
@@ -141,7 +143,7 @@ class Moment:
     _skins: dict[str, SkinSurface] = field(default_factory=dict)
 
     def skin(self, mesh: Mesh) -> SkinSurface:
-        """The boundary of the mesh as it was; found once."""
+        """Return the boundary of the mesh in this state; it is built once."""
         if "whole" not in self._skins:
             self._skins["whole"] = SkinSurface(self.points, mesh.topology.boundary_faces)
         return self._skins["whole"]
@@ -149,21 +151,26 @@ class Moment:
 
 @dataclass(frozen=True, eq=False)
 class Displacement:
-    """What lies between two moments of one mesh; each figure is worked out once, when it is asked for.
+    """Difference between two states of one mesh; every quantity is computed once, on demand.
 
     Parameters
     ----------
     mesh : Mesh
-        For its hexes and its mean edge length, which is the unit.
-    before : Moment
+        Mesh that gives the hexes and the mean edge length.
+    before : ReferenceState
     points : (n, 3) float64
-        Where its nodes are now.
+        Present node positions.
     figures : ElementQuality
-        Of it now.
+        Present quality of the hexes.
+
+    Raises
+    ------
+    MeshError
+        For points of another shape or type.
     """
 
     mesh: Mesh
-    before: Moment
+    before: ReferenceState
     points: np.ndarray
     figures: ElementQuality
     _known: dict[str, np.ndarray] = field(default_factory=dict)
@@ -172,22 +179,22 @@ class Displacement:
         for points in (self.before.points, self.points):
             points_like(points, self.mesh.points.shape)
 
-    def until(self, points: np.ndarray, figures: ElementQuality) -> Displacement:
-        """From the same moment to where the nodes are elsewhere, (n, 3) float64."""
+    def updated(self, points: np.ndarray, figures: ElementQuality) -> Displacement:
+        """Return the displacement from the same reference state to other points (n, 3) float64."""
         return Displacement(self.mesh, self.before, points, figures)
 
     def title(self, name: str) -> str:
-        """What colours show under one of the names of `MOVEMENTS`, in short."""
-        return f"{MOVEMENTS[name].since} since {self.before.name}"
+        """Return the caption of a quantity of `DISPLACEMENT_QUANTITIES`."""
+        return f"{DISPLACEMENT_QUANTITIES[name].since} since {self.before.name}"
 
     @cached_property
     def distances(self) -> np.ndarray:
-        """How far each node is from where it was, (n,) float64 in the unit of the mesh."""
+        """Distance of each node from its reference position, (n,) float64, in the mesh's unit."""
         return np.sqrt(np.square(self.points - self.before.points).sum(axis=1))
 
     @cached_property
     def off_surface(self) -> np.ndarray:
-        """How far each boundary node is from the boundary as it was, (n,) float64 in the unit of the mesh; others 0."""
+        """Distance of boundary nodes from the reference boundary, (n,) float64, in the mesh's unit; 0 inside."""
         off = np.zeros(len(self.points))
         moved = np.flatnonzero(self.mesh.topology.boundary & (self.distances > 0))
         if moved.size:
@@ -196,55 +203,55 @@ class Displacement:
 
     @cached_property
     def unit(self) -> float:
-        """The mean edge length of the mesh."""
+        """Mean edge length of the mesh, 1 if it is 0."""
         return self.mesh.mean_edge_length or 1.0
 
     def values(self, name: str) -> np.ndarray:
-        """What colours show, (m,) float64; one of `MOVEMENTS`."""
+        """Return the values of a quantity of `DISPLACEMENT_QUANTITIES`, (m,) float64; they are computed once."""
         if name not in self._known:
-            self._known[name] = MOVEMENTS[name].of(self)
+            self._known[name] = DISPLACEMENT_QUANTITIES[name].of(self)
         return self._known[name]
 
     @cached_property
-    def kinds(self) -> np.ndarray:
-        """0, or `NEWLY_INVERTED`, `STILL_INVERTED` or `MENDED`, of each element, (m,) uint8."""
+    def inversion_changes(self) -> np.ndarray:
+        """`NEWLY_INVERTED`, `STILL_INVERTED` or `MENDED` for each hex, 0 for one always valid; (m,) uint8."""
         then, now = self.before.figures.inverted, self.figures.inverted
         return np.array([0, MENDED, NEWLY_INVERTED, STILL_INVERTED], np.uint8)[2 * now.astype(np.uint8) + then]
 
     @cached_property
-    def counts(self) -> Counts:
-        """Its figures in short."""
+    def counts(self) -> DisplacementCounts:
+        """Counts of moved nodes and changed hexes."""
         distances = self.distances / self.unit
-        moved = distances > NOTHING
+        moved = distances > ROUNDING
         change = self.values("q-change")
-        return Counts(
+        return DisplacementCounts(
             int(np.count_nonzero(moved)),
             int(np.count_nonzero(moved & self.mesh.topology.boundary)),
             float(distances[moved].mean()) if moved.any() else 0.0,
             float(distances.max(initial=0.0)),
-            int(np.count_nonzero(change > NOTHING)),
-            int(np.count_nonzero(change < -NOTHING)),
-            int(np.count_nonzero(self.kinds == NEWLY_INVERTED)),
-            int(np.count_nonzero(self.kinds == MENDED)),
+            int(np.count_nonzero(change > ROUNDING)),
+            int(np.count_nonzero(change < -ROUNDING)),
+            int(np.count_nonzero(self.inversion_changes == NEWLY_INVERTED)),
+            int(np.count_nonzero(self.inversion_changes == MENDED)),
         )
 
 
 @dataclass(frozen=True)
-class Counts:
-    """Of a movement.
+class DisplacementCounts:
+    """Counts of moved nodes and changed hexes of a displacement.
 
     Parameters
     ----------
     moved : int
-        Nodes that are elsewhere.
+        Number of moved nodes.
     slid : int
-        Those of the boundary among them.
+        Number of moved boundary nodes.
     mean, largest : float
-        How far they are, in mean edge lengths.
+        Mean and largest displacement of the moved nodes, in mean edge lengths.
     better, worse : int
-        Elements whose q(H) has risen or fallen.
+        Number of hexes whose q(H) has risen or fallen.
     newly_inverted, mended : int
-        Elements that were not inverted and are, and the other way round.
+        Number of hexes that have become inverted, and that are inverted no longer.
     """
 
     moved: int

@@ -1,4 +1,4 @@
-"""Where a surface is sharp: by the angle between faces, by what its file says, without whiskers."""
+"""Feature edges of a surface: by dihedral angle or by marks of its file, without short dangling chains."""
 
 from __future__ import annotations
 
@@ -8,34 +8,39 @@ from hexmend.boundary.edges import SurfaceEdges, chains
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
-#: Faces that meet at a larger angle, in degrees, meet in a feature edge.
-DEGREES = 40.0
-#: A chain that ends in the middle of a patch is a roughness of it where its angles sum up to less than so many times
-#: the least of a feature: fewer than so many edges that just reach that. So is a small loop all by itself.
-WHISKER = 10.0
-#: A face whose area is a smaller share of that of a square with its perimeter has no normal to speak of.
-_THIN = 1e-6
+#: Default dihedral angle, in degrees, beyond which an edge is a feature.
+FEATURE_ANGLE = 40.0
+#: Dangling chains and isolated groups of feature edges count as roughness of a patch if the sum of their dihedral
+#: angles is less than this multiple of the feature angle.
+WHISKER_FACTOR = 10.0
+#: Smallest ratio of a face's area to that of a square with its perimeter for which it has a normal.
+_MIN_AREA_RATIO = 1e-6
 
 
 def feature_edges(
     points: np.ndarray, edges: SurfaceEdges, degrees: float, given: np.ndarray, kept: np.ndarray, whisker: float
 ) -> np.ndarray:
-    """Which edges are features, (e,) bool.
+    """Find the feature edges of a surface.
 
     Parameters
     ----------
     points : (n, 3) float64
     edges : SurfaceEdges
     degrees : float
+        Dihedral angle beyond which an edge is a feature.
     given : (e,) bool
         Edges that are features whatever their angle.
     kept : (n,) bool
         Nodes at which a chain may end.
     whisker : float
-        See `WHISKER`.
+        See `WHISKER_FACTOR`.
+
+    Returns
+    -------
+    (e,) bool
     """
     certain = given | (edges.count != 2)
-    angle = angles(points, edges)
+    angle = dihedral_angles(points, edges)
     feature = certain | (angle > degrees)
     weight = np.where(certain, np.inf, angle / max(degrees, np.finfo(float).tiny))
     while True:
@@ -43,22 +48,22 @@ def feature_edges(
         segments = edges.nodes[chosen]
         valence = np.bincount(segments.ravel(), minlength=edges.n)
         ends = ((valence == 1) & ~kept)[segments].any(axis=1)
-        rough = _light(chains(segments, valence != 2), weight[chosen], ends, whisker)
+        rough = _below_weight(chains(segments, valence != 2), weight[chosen], ends, whisker)
         whole = components(edges.n, segments)[segments[:, 0]]
-        rough |= _light(whole, weight[chosen], np.ones(len(chosen), dtype=bool), whisker)
+        rough |= _below_weight(whole, weight[chosen], np.ones(len(chosen), dtype=bool), whisker)
         if not rough.any():
             return feature
         feature[chosen[rough]] = False
 
 
-def _light(group: np.ndarray, weight: np.ndarray, counts: np.ndarray, least: float) -> np.ndarray:
-    """Which segments are of a group that has one that counts, and a sum of weights below the least; (s,) bool."""
+def _below_weight(group: np.ndarray, weight: np.ndarray, counts: np.ndarray, least: float) -> np.ndarray:
+    """True for segments of groups that have a member with `counts` and a total weight below `least`, (s,) bool."""
     sums = np.bincount(group, weight)
     return ((sums < least) & (np.bincount(group, counts) > 0))[group]
 
 
-def angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
-    """Angle between the normals of the two faces of each edge, in degrees, 0 where a face has none; (e,) float64."""
+def dihedral_angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
+    """Angles between the normals of the two faces of each edge, in degrees, 0 without a normal; (e,) float64."""
     normals = face_normals(points, edges.faces)
     one, other = (normals[edges.neighbours[:, side]] for side in (0, 1))
     other = np.where(edges.opposed[:, None], other, -other)
@@ -67,18 +72,18 @@ def angles(points: np.ndarray, edges: SurfaceEdges) -> np.ndarray:
 
 
 def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Unit normals of the faces' mean planes, 0 for a face whose area is next to nothing; (k, 3) float64."""
+    """Unit normals of the faces' mean planes, 0 for a face of negligible area; (k, 3) float64."""
     x = points[faces] - points[faces[:, :1]]
     following = np.roll(x, -1, axis=1)
     area = np.cross(x, following).sum(axis=1)  # twice the area vector
     size = np.linalg.norm(area, axis=1)
     perimeter = np.linalg.norm(following - x, axis=2).sum(axis=1)
-    sound = size > _THIN * perimeter**2 / 8
+    sound = size > _MIN_AREA_RATIO * perimeter**2 / 8
     return np.where(sound[:, None], area, 0.0) / np.where(sound, size, 1.0)[:, None]
 
 
-def turns(points: np.ndarray, segments: np.ndarray, between: np.ndarray) -> np.ndarray:
-    """By how much a curve turns at nodes `between` (n,) bool two segments, in degrees, 0 elsewhere; (n,) float64."""
+def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray) -> np.ndarray:
+    """Angles by which curves turn at nodes `between` (n,) bool two segments, in degrees, 0 elsewhere; (n,) float64."""
     ends = segments.ravel()
     at = np.flatnonzero(between[ends])
     at = at[np.argsort(ends[at], kind="stable")].reshape(-1, 2)
@@ -90,8 +95,8 @@ def turns(points: np.ndarray, segments: np.ndarray, between: np.ndarray) -> np.n
     return angle
 
 
-def given_edges(mesh: Mesh) -> np.ndarray:
-    """Edges that the mesh's file marks as ridges or required, and those between sides of two references, (e, 2) int."""
+def marked_edges(mesh: Mesh) -> np.ndarray:
+    """Edges marked in the mesh's file as ridges or required, and those between faces of two references, (e, 2) int."""
     found = [np.empty((0, 2), dtype=np.int32)]
     for cells in mesh.cells:
         if cells.kind == "quad" and "medit:ref" in cells.data:
@@ -103,7 +108,7 @@ def given_edges(mesh: Mesh) -> np.ndarray:
     return np.concatenate(found)
 
 
-def given_corners(mesh: Mesh) -> np.ndarray:
-    """Nodes that the mesh's file marks as corners, and those that are pinned, (c,) int."""
+def marked_corners(mesh: Mesh) -> np.ndarray:
+    """Nodes marked in the mesh's file as corners, and pinned nodes, (c,) int."""
     pinned = np.empty(0, dtype=np.int64) if mesh.pinned is None else np.flatnonzero(mesh.pinned)
     return np.concatenate([np.asarray(mesh.node_sets.get("corners", []), dtype=np.int64), pinned])

@@ -1,4 +1,4 @@
-"""The nodes of a mesh that slide on its boundary: which they are, where they may go, and how they are put back."""
+"""Sliding of boundary nodes on a surface: projection, tangents, and rejection of moves that harm the boundary."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary.band import NOBODY, Band
+from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
-from hexmend.boundary.closest_point import FARTHEST, ClosestPoints, triangulated
-from hexmend.boundary.comparison import NEAR
+from hexmend.boundary.closest_point import MAX_COORDINATE, ClosestPoints, triangulate
+from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
 from hexmend.boundary.corner_detection import sliding_boundary
-from hexmend.boundary.features import DEGREES, given_corners
-from hexmend.boundary.normals import unit, vertex_normals
+from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
+from hexmend.boundary.normals import unit_vectors, vertex_normals
 from hexmend.boundary.surface import Surface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
@@ -21,99 +21,120 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.mesh.validation import as_points, points_like
 
-#: Least weight of the corners of a triangle, or segment, at a place that counts as inside of it: there its own plane
-#: is the tangent, at its edges the mean of those around.
-_INNER = 1e-3
+#: A point is inside a triangle or segment if all its weights there exceed this; its tangent is then that of the
+#: triangle or segment, else one interpolated between vertices.
+_INTERIOR_WEIGHT = 1e-3
 
 
 class SlidingBoundary(Band):
-    """A mesh whose boundary nodes slide: those of curves along them, those of patches on them; corners stay.
+    """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
+
+    Corners and pinned nodes stay.
 
     Parameters
     ----------
     mesh : Mesh
-        Its `target`, or else its `surface`, is what nodes of its boundary slide on.
+        Nodes slide on its `target`, or else on the boundary that its `surface_points` define.
     degrees : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
-    room : float
-        How far, in the mesh's unit, the middles of the boundary's edges and faces may leave the surface: nodes are on
-        it, but what lies between them cuts off its bends.
+    tolerance : float
+        Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
 
     Attributes
     ----------
     boundary : Boundary
     surface : Surface
-    kind : (n,) uint8
-        What each node is to the surface that it slides on, one of `NodeClass`.
+    node_class : (n,) uint8
+        `NodeClass` of each node with respect to the surface.
+    releasable : (n,) bool
+        True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
     mesh : Mesh
-        The same, of whose nodes only corners, pinned ones and those that no hex uses are fixed; on a target those that
-        slide have been put on it.
+        The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
     nodes : (k,) int64
-        Those that slide, ascending.
+        Sliding nodes, ascending.
     """
 
-    def __init__(self, mesh: Mesh, degrees: float = DEGREES, room: float = np.inf):
+    def __init__(self, mesh: Mesh, degrees: float = FEATURE_ANGLE, tolerance: float = np.inf):
         self.boundary = sliding_boundary(mesh, degrees)
-        target = mesh.target
+        target, start = mesh.target, mesh.surface_points
         if target is None:
-            self.surface = Surface(mesh.surface_points, self.boundary)
+            self.surface = Surface(start, self.boundary)
         else:
             whole = Surface(target.points, classify(target.points, target.faces, degrees))
-            self.surface = whole.attached(mesh.surface_points, self.boundary, NEAR * mesh.mean_edge_length)
-        self.kind = self.surface.kind
-        slides = self.kind >= NodeClass.CURVE
+            self.surface = whole.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
+        self.node_class = self.surface.node_class
+        slides = self.node_class >= NodeClass.CURVE
         self.nodes = np.flatnonzero(slides)
-        self.yields = self.boundary.kind == NodeClass.CORNER
-        self.yields[given_corners(mesh)] = False
+        self.releasable = self.boundary.node_class == NodeClass.CORNER
+        self.releasable[marked_corners(mesh)] = False
         self._group = self.surface.group_of(self.nodes)
         self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
         self._number[self.nodes] = np.arange(self.nodes.size)
-        start = mesh.surface_points
         if target is not None:
-            start, mesh = self._put_on(start), mesh.with_points(self._put_on(mesh.points))
-        super().__init__(mesh.surface_points, self.boundary.faces, start, target, room)
+            start, mesh = self._projected(start), mesh.with_points(self._projected(mesh.points))
+        super().__init__(mesh.surface_points, self.boundary.faces, start, target, tolerance)
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
-        """Which of some nodes (k,) slide, (k,) bool."""
+        """Return True for each of some nodes (k,) that slides, (k,) bool."""
         return self._number[nodes] >= 0
 
-    def put_back(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
-        """The closest places of sliding nodes on their own curves and patches, (k, 3).
+    def project(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """Project positions of sliding nodes onto the closest points of their own curves and patches.
 
         Parameters
         ----------
         x : (k, 3) float64
-            Where they have been moved to, in the mesh's unit of length.
+            Positions in the mesh's unit of length.
         nodes : (k,) int, optional
-            Which they are; all that slide, if None.
+            Numbers of these nodes; all sliding nodes by default.
+
+        Returns
+        -------
+        (k, 3) float64
+
+        Raises
+        ------
+        MeshError
+            For coordinates that are not finite or are too large.
         """
         return self._closest(x, nodes).places
 
-    def bases(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
-        """Directions in which sliding nodes may move, the columns of (k, 3, 3): 0 beyond the node's degrees of freedom.
+    def tangent_bases(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
+        """Compute orthonormal directions in which sliding nodes may move.
 
         Parameters
         ----------
         x : (k, 3) float64
-            Where they are, on the surface.
+            Positions on the surface, in the mesh's unit of length.
         nodes : (k,) int, optional
-            Which they are; all that slide, if None.
+            Numbers of these nodes; all sliding nodes by default.
+
+        Returns
+        -------
+        (k, 3, 3) float64
+            Directions in columns: one for a node of a curve, two for one of a patch; the other columns are 0.
         """
         of, found = self.nodes if nodes is None else nodes, self._closest(x, nodes)
+        curve = self.node_class[of] == NodeClass.CURVE
         weights = found.weights.copy()
-        weights[self.kind[of] == NodeClass.CURVE, 2] = 1.0  # a segment has two
-        inner = weights.min(axis=1, keepdims=True) > _INNER
+        weights[curve, 2] = 1.0  # a segment has two
+        inner = weights.min(axis=1, keepdims=True) > _INTERIOR_WEIGHT
         along = np.where(inner, self.surface.directions(found, smooth=False), self.surface.directions(found))
         bases = np.zeros((len(of), 3, 3))
-        curve = self.kind[of] == NodeClass.CURVE
         bases[curve, :, 0] = along[curve]
-        bases[~curve, :, :2] = _across(along[~curve])
+        bases[~curve, :, :2] = _tangent_basis(along[~curve])
         return bases
 
     def tangents(self, points: np.ndarray) -> np.ndarray:
-        """The directions of `bases` for all that slide, nodes being at points (n, 3): one after the other, (k, 6)."""
-        return np.ascontiguousarray(self.bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
+        """Return the first two directions of `tangent_bases` of all sliding nodes, each as a row (k, 6).
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Positions of all nodes of the mesh.
+        """
+        return np.ascontiguousarray(self.tangent_bases(points[self.nodes])[:, :, :2].transpose(0, 2, 1)).reshape(-1, 6)
 
     @cached_property
     def sliding_surface(self) -> kernels.SlidingSurface:
@@ -129,86 +150,101 @@ class SlidingBoundary(Band):
 
     @cached_property
     def outward(self) -> np.ndarray:
-        """The normal of the boundary at each of its faces as it was, that of the faces around it too, (k, 3)."""
+        """Outward normals of the original boundary faces, averaged with those of the faces around, (k, 3)."""
         faces = self.boundary.faces
-        vertices, triangles, face = triangulated(self.points, faces)
+        vertices, triangles, face = triangulate(self.points, faces)
         normals = vertex_normals(vertices, triangles, self.boundary.patch_of_face[face])
-        return unit(normals[:, :2].mean(axis=1).reshape(len(faces), 4, 3).mean(axis=1))
+        return unit_vectors(normals[:, :2].mean(axis=1).reshape(len(faces), 4, 3).mean(axis=1))
 
     @cached_property
     def rings(self) -> CSR:
-        """Edge neighbours of each node, of those that slide only the ones on their own curve or patch, and its ends."""
-        kind, whole = self.kind, self.mesh.topology.rings
+        """Edge neighbours of each node; of a sliding node only those on its own curve or patch and on its ends."""
+        node_class, whole = self.node_class, self.mesh.topology.rings
         node = np.repeat(np.arange(self.mesh.n_nodes), np.diff(whole.start))
-        ways = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
+        edges = [np.stack([node, whole.items], axis=1)[self._number[node] < 0]]
         for of, along in (NodeClass.CURVE, self.boundary.segments), (NodeClass.PATCH, self.skin.edges.nodes):
             both = np.concatenate([along, along[:, ::-1]])
-            ways.append(both[kind[both[:, 0]] == of])
-        ways = np.concatenate(ways)
-        ways = ways[np.lexsort((ways[:, 1], ways[:, 0]))]
-        start = np.searchsorted(ways[:, 0], np.arange(self.mesh.n_nodes + 1))
-        return CSR(start.astype(np.int32), np.ascontiguousarray(ways[:, 1], dtype=np.int32))
+            edges.append(both[node_class[both[:, 0]] == of])
+        edges = np.concatenate(edges)
+        edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
+        start = np.searchsorted(edges[:, 0], np.arange(self.mesh.n_nodes + 1))
+        return CSR(start.astype(np.int32), np.ascontiguousarray(edges[:, 1], dtype=np.int32))
 
-    def turned(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
-        """Faces of the boundary that are turned over after a step and were not before, (k,) int.
+    def flipped_quads(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+        """Find boundary faces that are flipped after a step and were not before.
 
-        A quad is turned over if its normal is against that of the boundary there as it was, or it is flat.
+        A quad is flipped if its normal points against that of the original boundary there, or if it is flat.
 
         Parameters
         ----------
         before, after : (n, 3) float64
+            Node positions.
+
+        Returns
+        -------
+        (k,) int
+            Numbers of faces of `boundary`.
         """
         before, after = (points_like(points, self.mesh.points.shape) for points in (before, after))
         found = np.empty(len(self.boundary.faces), dtype=bool)
         kernels.newly_inverted(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
-    def unturned(self, before: np.ndarray, after: np.ndarray, may: np.ndarray | None = None) -> np.ndarray:
-        """The points after a step, of which those nodes stay whose quads it would turn over, until none is.
+    def rejected_nodes(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+        """Find nodes whose moves flip a quad or take the boundary out of its band, (k,) int.
 
         Parameters
         ----------
         before, after : (n, 3) float64
-        may : (n,) bool, optional
-            Nodes whose quads may be turned over.
+            Node positions.
         """
-        while True:
-            quads = self.boundary.faces[self.turned(before, after)]
-            if may is not None:
-                quads = quads[~may[quads].any(axis=1)]
-            if not quads.size:
-                return after
-            nodes = np.unique(quads)
-            after = after.copy()
-            after[nodes] = before[nodes]
+        flipped = self.boundary.faces[self.flipped_quads(before, after)].ravel()
+        return np.union1d(flipped, self.outside_band(after))
 
-    def refused(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
-        """Nodes that a step must not take where it does, (k,) int: it would turn a quad over, or leave the room."""
-        turned = self.boundary.faces[self.turned(before, after)].ravel()
-        return np.union1d(turned, self.beyond(after))
+    def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
+        """Undo the moves of nodes whose quads a step flips, until none is flipped.
 
-    def held(
-        self, before: np.ndarray, after: np.ndarray, harmed: Callable[[np.ndarray], np.ndarray] = lambda after: NOBODY
+        Parameters
+        ----------
+        before, after : (n, 3) float64
+            Node positions.
+        exempt : (n,) bool, optional
+            Nodes whose quads may be flipped.
+
+        Returns
+        -------
+        (n, 3) float64
+            `after`, or a copy of it.
+        """
+
+        def rejected(points: np.ndarray) -> np.ndarray:
+            quads = self.boundary.faces[self.flipped_quads(before, points)]
+            return np.unique(quads if exempt is None else quads[~exempt[quads].any(axis=1)])
+
+        return _undone(before, after, rejected)
+
+    def reject_moves(
+        self, before: np.ndarray, after: np.ndarray, harmed: Callable[[np.ndarray], np.ndarray] = lambda after: NO_NODES
     ) -> np.ndarray:
-        """The points after a step, of which those nodes stay that are refused to go, until none is.
+        """Undo the moves of `rejected_nodes` and of others that a function names, until none is left.
 
         Parameters
         ----------
         before, after : (n, 3) float64
+            Node positions.
         harmed : callable
-            From points (n, 3) to more nodes, (k,) int, that are refused to be there.
-        """
-        while True:
-            nodes = np.union1d(self.refused(before, after), harmed(after))
-            nodes = nodes[(after[nodes] != before[nodes]).any(axis=1)]
-            if not nodes.size:
-                return after
-            after = after.copy()
-            after[nodes] = before[nodes]
+            Maps node positions (n, 3) to more nodes whose moves are rejected, (k,) int.
 
-    def _put_on(self, points: np.ndarray) -> np.ndarray:
+        Returns
+        -------
+        (n, 3) float64
+            `after`, or a copy of it.
+        """
+        return _undone(before, after, lambda points: np.union1d(self.rejected_nodes(before, points), harmed(points)))
+
+    def _projected(self, points: np.ndarray) -> np.ndarray:
         points = points.copy()
-        points[self.nodes] = self.put_back(points[self.nodes])
+        points[self.nodes] = self.project(points[self.nodes])
         return points
 
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
@@ -216,20 +252,31 @@ class SlidingBoundary(Band):
         try:
             return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
         except MeshError:
-            far = np.flatnonzero(~(np.abs(x) < FARTHEST).all(axis=1))
+            far = np.flatnonzero(~(np.abs(x) < MAX_COORDINATE).all(axis=1))
             if not far.size:
                 raise
             row = far[0]
             node = int((self.nodes if nodes is None else nodes)[row])
             raise MeshError(
                 f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
-                f"coordinates below {FARTHEST:g}. Correct its place, or pin it."
+                f"coordinates below {MAX_COORDINATE:g}. Correct its place, or pin it."
             ) from None
 
 
-def _across(normals: np.ndarray) -> np.ndarray:
+def _undone(before: np.ndarray, after: np.ndarray, rejected: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Move rejected nodes back to their positions before a step, until none of those that have moved is rejected."""
+    while True:
+        nodes = rejected(after)
+        nodes = nodes[(after[nodes] != before[nodes]).any(axis=1)]
+        if not nodes.size:
+            return after
+        after = after.copy()
+        after[nodes] = before[nodes]
+
+
+def _tangent_basis(normals: np.ndarray) -> np.ndarray:
     """Two unit vectors at right angles to each other and to each normal, the columns of (k, 3, 2); 0 where it is 0."""
-    least = np.abs(normals).argmin(axis=1)
-    one = np.cross(normals, np.eye(3)[least])
-    one /= np.maximum(np.linalg.norm(one, axis=1, keepdims=True), np.finfo(float).tiny)
-    return np.stack([one, np.cross(normals, one)], axis=-1)
+    axis = np.abs(normals).argmin(axis=1)
+    first = np.cross(normals, np.eye(3)[axis])
+    first /= np.maximum(np.linalg.norm(first, axis=1, keepdims=True), np.finfo(float).tiny)
+    return np.stack([first, np.cross(normals, first)], axis=-1)

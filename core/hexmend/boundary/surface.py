@@ -1,4 +1,4 @@
-"""A surface that nodes slide on: each is put back on the closest point of its own curve or patch."""
+"""Surface on which nodes slide: curves and patches with trees for closest points, normals and tangents."""
 
 from __future__ import annotations
 
@@ -7,31 +7,31 @@ import copy
 import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass
-from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulated
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
 from hexmend.boundary.normals import curve_tangents, segment_tangents, triangle_normals, vertex_normals
 from hexmend.errors import MeshError
 
-#: Vertex normals whose mean is shorter say nothing: they stand against each other.
-_OPPOSED = 1e-6
+#: Interpolated normals shorter than this have no direction: the vertex normals are opposed.
+_MIN_MEAN_NORMAL = 1e-6
 
 
 class Surface:
-    """The surface that a boundary is: triangles in patches and segments in curves.
+    """Surface of a boundary: triangles in patches and segments in curves.
 
-    A quad is four triangles around the mean of its corners. Between the vertices of a patch its normal is interpolated,
-    as the tangent is between those of a curve; the places are those of the triangles and segments as they are.
+    Quads are divided into four triangles around their centres. Normals of patches and tangents of curves are
+    interpolated between vertices; closest points are those of the flat triangles and straight segments.
 
     Parameters
     ----------
     points : (n, 3) float64
-        Where the nodes of the boundary are.
+        Node positions of the boundary.
     boundary : Boundary
-        Of quads, or of triangles as a file of a surface holds them.
+        Boundary of quads, or of triangles such as a surface file has.
 
     Attributes
     ----------
-    kind, part
-        Those of the nodes that slide on it, as in `Boundary`: of its own boundary, or as `attached` says.
+    node_class, part
+        Class and part, as in `Boundary`, of the nodes that slide on the surface; see `attached`.
     trees : ClosestPointTrees
         Patch i is group i, curve i is group `n_patches` + i.
 
@@ -42,16 +42,16 @@ class Surface:
     >>> cube = make("cube", size=27)
     >>> boundary = boundary_of(cube)
     >>> surface = Surface(cube.points, boundary)
-    >>> sliding = np.flatnonzero(boundary.kind == NodeClass.PATCH)
+    >>> sliding = np.flatnonzero(boundary.node_class == NodeClass.PATCH)
     >>> found = surface.trees.closest(cube.points[sliding] + 0.1, surface.group_of(sliding))
     >>> sorted(set(np.abs(surface.directions(found)).sum(axis=1).tolist()))
     [1.0]
     """
 
     def __init__(self, points: np.ndarray, boundary: Boundary):
-        self.kind, self.part = boundary.kind, boundary.part
+        self.node_class, self.part = boundary.node_class, boundary.part
         self.n_patches, self.n_curves = boundary.n_patches, boundary.n_curves
-        vertices, triangles, face = triangulated(points, boundary.faces)
+        vertices, triangles, face = triangulate(points, boundary.faces)
         patch, segments = boundary.patch_of_face[face], boundary.segments
         self.trees = ClosestPointTrees(
             vertices,
@@ -64,69 +64,86 @@ class Surface:
         self._group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])[self.trees.order]
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
-        """The group of `trees` that each of some nodes slides on, (k,) int32.
+        """Return the group of `trees` on which each of some nodes slides.
+
+        Parameters
+        ----------
+        nodes : (k,) int
+
+        Returns
+        -------
+        (k,) int32
 
         Raises
         ------
         MeshError
-            For a node that slides on nothing: one of the inside, or a corner.
+            For a node that does not slide: an interior node or a corner.
         """
-        kind = self.kind[nodes]
-        stays = np.flatnonzero(kind < NodeClass.CURVE)
+        node_class = self.node_class[nodes]
+        stays = np.flatnonzero(node_class < NodeClass.CURVE)
         if len(stays):
-            node, name = int(np.asarray(nodes)[stays[0]]), NodeClass(kind[stays[0]]).name
+            node, name = int(np.asarray(nodes)[stays[0]]), NodeClass(node_class[stays[0]]).name
             raise MeshError(f"node {node} (counted from 0) is of kind {name}: expected CURVE or PATCH, which slide")
-        return self.part[nodes] + np.where(kind == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
+        return self.part[nodes] + np.where(node_class == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
 
     def directions(self, found: ClosestPoints, smooth: bool = True) -> np.ndarray:
-        """Normals of patches and tangents of curves at places that `trees` found, (k, 3) float64.
-
-        They are of length 1, normals to the outside, tangents of either sense; 0 on a triangle or segment that has no
-        direction.
+        """Compute normals of patches and tangents of curves at closest points.
 
         Parameters
         ----------
         found : ClosestPoints
+            Points found by `trees`.
         smooth : bool
-            Interpolate between vertices; else they are those of the triangle or segment.
+            Interpolate between vertices; otherwise directions are constant on each triangle and segment.
+
+        Returns
+        -------
+        (k, 3) float64
+            Unit vectors: outward normals, tangents in either direction; 0 on a degenerate triangle or segment.
         """
         plain = self._plain[found.pieces]
         if not smooth:
             return plain
         mean = np.einsum("ki,kij->kj", found.weights, self._smooth[found.pieces])
         size = np.linalg.norm(mean, axis=1, keepdims=True)
-        return np.where(size > _OPPOSED, mean / np.maximum(size, _OPPOSED), plain)
+        return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), plain)
 
     def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> Surface:
-        """This surface for the nodes of another boundary: each slides on the nearest patch or curve of this one.
+        """Return this surface for the nodes of another boundary, which slide on its nearest curves and patches.
 
-        Curve nodes are given to curves that are within a quarter of the reach, else to patches. Corners stay what they
-        are, and what is out of reach of all patches is a corner.
+        Curve nodes without a curve within a quarter of `reach` slide on patches; nodes without a patch within `reach`
+        become corners. Corners stay corners.
 
         Parameters
         ----------
         points : (n, 3) float64
+            Node positions of the other boundary.
         boundary : Boundary
+            The other boundary.
         reach : float
-            In the unit of the points.
+            Largest distance, in the unit of the points.
+
+        Returns
+        -------
+        Surface
         """
-        kind, part = boundary.kind.copy(), np.full(len(boundary.kind), -1, dtype=np.int32)
+        node_class, part = boundary.node_class.copy(), np.full(len(boundary.node_class), -1, dtype=np.int32)
         curve = self._group >= self.n_patches
         nearest = ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
         if not self.n_curves:
-            kind[kind == NodeClass.CURVE] = NodeClass.PATCH
+            node_class[node_class == NodeClass.CURVE] = NodeClass.PATCH
         for of, other, most in (
             (NodeClass.CURVE, NodeClass.PATCH, reach / 4),
             (NodeClass.PATCH, NodeClass.CORNER, reach),
         ):
-            nodes = np.flatnonzero(kind == of)
+            nodes = np.flatnonzero(node_class == of)
             if not nodes.size:
                 continue
             found = nearest.closest(points[nodes], np.full(len(nodes), int(of == NodeClass.CURVE)))
             near = np.linalg.norm(found.places - points[nodes], axis=1) <= most
-            kind[nodes[~near]] = other
+            node_class[nodes[~near]] = other
             group = self._group[nearest.order[found.pieces[near]]]
             part[nodes[near]] = group - (self.n_patches if of == NodeClass.CURVE else 0)
         other = copy.copy(self)
-        other.kind, other.part = kind, part
+        other.node_class, other.part = node_class, part
         return other

@@ -1,33 +1,37 @@
-"""Which locked hexes can be freed where the boundary slides."""
+"""Locked hexes that sliding of the boundary can free."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from hexmend.boundary.classification import Boundary
-from hexmend.boundary.features import DEGREES
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.boundary.sliding import SlidingBoundary
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
-#: How far places of a flat patch may be from their plane, or of a straight curve from their line, in mean edge lengths.
-_FLAT = 1e-9
+#: Largest distance of nodes from the plane of a flat patch or the line of a straight curve, in mean edge lengths.
+_FLATNESS_TOLERANCE = 1e-9
 
 
-def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = DEGREES) -> np.ndarray:
-    """True for each locked hex that nothing holds in inversion any more once boundary nodes slide, (m,) bool.
+def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_ANGLE) -> np.ndarray:
+    """Find locked hexes that may become valid once boundary nodes slide.
 
-    Held are corner tetrahedra with sigma <= 0 all of whose nodes are kept, or lie on one flat patch, or three of them
-    on one straight curve: wherever these slide, sigma is not positive.
+    A corner tetrahedron with sigma <= 0 stays inverted if its nodes are all fixed, all lie on one flat patch, or three
+    of them lie on one straight curve: sliding cannot make sigma positive.
 
     Parameters
     ----------
     mesh : Mesh
     locked : (m,) bool
-        As `hexmend.quality.locked` tells.
+        Locked hexes; see `hexmend.quality.locked`.
     degrees : float
-        See `boundary_of`.
+        Dihedral angle beyond which an edge is a feature; see `boundary_of`.
+
+    Returns
+    -------
+    (m,) bool
     """
     freed = locked.copy()
     where = np.flatnonzero(locked)
@@ -36,7 +40,7 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = DEGREES) -
     sliding = SlidingBoundary(mesh, degrees)
     tetrahedra = mesh.hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
     held = sliding.mesh.fixed[tetrahedra].all(axis=2)
-    for nodes, most in _straight(mesh, sliding.boundary):
+    for nodes, most in _flat_parts(mesh, sliding.boundary):
         on = np.zeros(mesh.n_nodes, dtype=bool)
         on[nodes] = True
         held |= on[tetrahedra].sum(axis=2) > most
@@ -45,8 +49,8 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = DEGREES) -
     return freed
 
 
-def _straight(mesh: Mesh, boundary: Boundary) -> list[tuple[np.ndarray, int]]:
-    """Nodes of each flat patch and of each straight curve, and how many of a tetrahedron's may be on it: 3 and 2."""
+def _flat_parts(mesh: Mesh, boundary: Boundary) -> list[tuple[np.ndarray, int]]:
+    """Nodes of each flat patch and straight curve, and how many of a valid tetrahedron may lie on it: 3 and 2."""
     parts = [(boundary.faces, boundary.patch_of_face, boundary.n_patches, 2)]
     parts += [(boundary.segments, boundary.curve_of_segment, boundary.n_curves, 1)]
     found = []
@@ -59,6 +63,6 @@ def _straight(mesh: Mesh, boundary: Boundary) -> list[tuple[np.ndarray, int]]:
             nodes = np.unique(one)
             x = mesh.points[nodes] - mesh.points[nodes].mean(axis=0)
             least = np.linalg.eigh(x.T @ x)[1][:, : 3 - dimensions]  # the directions in which they extend least
-            if np.abs(x @ least).max() <= _FLAT * mesh.mean_edge_length:
+            if np.abs(x @ least).max() <= _FLATNESS_TOLERANCE * mesh.mean_edge_length:
                 found.append((nodes, dimensions + 1))
     return found

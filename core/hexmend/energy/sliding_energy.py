@@ -40,7 +40,7 @@ class SlidingEnergy(MeshEnergy):
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         there = super().moved(x, step, alpha)
         nodes = self.sliding.nodes
-        there[nodes] = self.sliding.put_back(there[nodes] * self.unit) / self.unit
+        there[nodes] = self.sliding.project(there[nodes] * self.unit) / self.unit
         return there
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
@@ -53,7 +53,7 @@ class SlidingEnergy(MeshEnergy):
         size = np.linalg.norm(step[rows], axis=1)
         far = _NEAR / np.maximum(size, np.finfo(float).tiny)[:, None]
         aims = (x[nodes] + far * step[rows]) * unit
-        leads = (self.sliding.put_back(aims) / unit - x[nodes]) / far
+        leads = (self.sliding.project(aims) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])
         step[rows[~(slopes < 0)]] = 0.0
         inside = np.ones(len(step), dtype=bool)
@@ -61,7 +61,7 @@ class SlidingEnergy(MeshEnergy):
         return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
 
     def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
-        nodes = self.sliding.refused(x * self.unit, there * self.unit)
+        nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit)
         nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
         if not nodes.size:
             return None
@@ -81,7 +81,7 @@ class SlidingEnergy(MeshEnergy):
         """What takes displacements of sliding nodes at x, all nodes' (n, 3), along the surface, (k, 3, 3) symmetric."""
         seen = self._seen  # another thread may put its own there
         if seen is None or seen[0] is not x:
-            bases = self.sliding.bases(x[self.sliding.nodes] * self.unit)
+            bases = self.sliding.tangent_bases(x[self.sliding.nodes] * self.unit)
             seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
         return seen[1]
 

@@ -34,8 +34,8 @@ class SecondOrderSummary:
         return dataclasses.asdict(self)
 
     @property
-    def words(self) -> str:
-        """The same as a part of a sentence."""
+    def phrase(self) -> str:
+        """Description of the values as part of a sentence."""
         return (
             f"{format_count(self.non_positive)} of {format_count(self.hexes)} have a Jacobian that is not positive at "
             f"their nodes or Gauss points (least, scaled: {format_quality(self.scaled_jacobian_min)})"

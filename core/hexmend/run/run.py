@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
-from hexmend.boundary.features import DEGREES
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
@@ -213,7 +213,9 @@ class Run(Iterator[Iteration]):
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Of the boundary as given to that of a mesh, where a method let it slide."""
-        angles = [leg.smoother.values().get("feature_angle", DEGREES) for leg in self._legs if leg.smoother.slides]
+        angles = [
+            leg.smoother.values().get("feature_angle", FEATURE_ANGLE) for leg in self._legs if leg.smoother.slides
+        ]
         return surface_change(self.mesh, mesh, angles[0]) if angles else None
 
     def _summaries(self) -> tuple[Summary, Summary]:

@@ -93,7 +93,7 @@ class Sweeps:
         while True:
             moved = points.copy()
             told = sweep(moved, stays)
-            beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.beyond(moved)
+            beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.outside_band(moved)
             beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
             if not beyond.size:
                 return moved, told

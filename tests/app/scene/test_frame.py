@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame, same_hexes
@@ -79,7 +79,7 @@ def test_another_movement_is_measured(watched):
     draw, viewport = watched
     look = Look(scale=ColourScale("moved-most"))
     draw(Frame(MESH, FIGURES, None, look))
-    movement = Displacement(MESH, Moment(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
+    movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
     assert draw(Frame(MESH, FIGURES, movement, look)) == {"move", "measure"}
     np.testing.assert_array_equal(viewport.colours.values, movement.values("moved-most"))
     assert draw(Frame(MESH, FIGURES, movement, look)) == set()
@@ -112,7 +112,7 @@ def test_hexes_are_the_same_wherever_the_nodes_are():
 
 
 def test_beside_another_frame_the_look_and_the_moment_are_the_same():
-    movement = Displacement(MESH, Moment(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
+    movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
     first = Frame(MESH, FIGURES, movement, Look(edges=False))
     other = Frame(MESH.with_points(MESH.points * 2), FIGURES).beside(first)
     assert other.look is first.look

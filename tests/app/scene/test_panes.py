@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
 from hexmend_app.scene.arrangement import columns, grid
 from hexmend_app.scene.export.sheet import draw_sheet
@@ -219,14 +219,14 @@ def test_a_figure_holds_all_meshes_with_captions():
 def test_views_beside_the_first_compare_with_the_same_moment(panes):
     first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
     look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
-    look_at(panes, look, Displacement(MESH, Moment(MESH.points, first, "then"), MESH.points, first))
+    look_at(panes, look, Displacement(MESH, ReferenceState(MESH.points, first, "then"), MESH.points, first))
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]
     far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
     assert panes.first.extras.arrows.drawn == panes.first.extras.arrows.moved == 0
     assert other.extras.arrows.drawn == MESH.free.sum()
     assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
-    look_at(panes, look, Displacement(MESH, Moment(OTHERS[0].points, second, "later"), MESH.points, first))
+    look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
     np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)
 

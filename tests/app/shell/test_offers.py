@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QCheckBox, QVBoxLayout, QWidget
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel, Place
@@ -68,7 +68,7 @@ def test_a_method_is_chosen_with_what_was_set_for_it(host):
 
 def test_a_metric_is_coloured_by(host, qtbot):
     entries = {one.title: one for one in choices(host.session)}
-    for metric in (*METRICS.values(), *MOVEMENTS.values()):
+    for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
         with qtbot.waitSignal(host.session.view.metric_wanted) as told:
             entries[f"Colour by: {metric.title}"].do()
         assert told.args == [metric.name]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure, summarise
 from hexmend_app.scene.colours import resolve
 from hexmend_app.state.document import Document, State
@@ -34,7 +34,7 @@ def test_every_name_on_the_colour_bar_is_known():
 def test_a_movement_tells_who_was_inverted_and_is():
     was = scrambled(MESH, 0.3, 7)
     before = measure(was.points, was.hexes)
-    movement = Displacement(MESH, Moment(was.points, before, "then"), MESH.points, FIGURES)
+    movement = Displacement(MESH, ReferenceState(was.points, before, "then"), MESH.points, FIGURES)
     newly, still, mended = (
         set(of_kind(kind, MESH, FIGURES, movement).tolist()) for kind in ("newly inverted", "still inverted", "mended")
     )

@@ -41,7 +41,7 @@ def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     sliding = SlidingBoundary(mesh)
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape) * mesh.mean_edge_length
     points = mesh.points + shift * sliding.mesh.free[:, None]
-    points[sliding.nodes] = sliding.put_back(points[sliding.nodes])
+    points[sliding.nodes] = sliding.project(points[sliding.nodes])
     return mesh.with_points(points)
 
 

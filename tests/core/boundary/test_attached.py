@@ -22,35 +22,35 @@ def cube():
 def test_nodes_of_a_curve_slide_on_a_curve_within_a_quarter_of_the_reach(cube, shift, reach, curve):
     """The nodes of the edge x = 0, y = 0, moved into the face y = 0: it is still near that face."""
     mesh, boundary = cube
-    on = np.flatnonzero((boundary.kind == NodeClass.CURVE) & (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0))
+    on = np.flatnonzero((boundary.node_class == NodeClass.CURVE) & (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0))
     points = mesh.points.copy()
     points[on, 0] += shift
     attached = Surface(mesh.points, boundary).attached(points, boundary, reach)
-    assert (attached.kind[on] == curve).all()
+    assert (attached.node_class[on] == curve).all()
     (part,) = set(attached.part[on].tolist())
     if curve == NodeClass.CURVE:
         assert {part} == set(boundary.part[on].tolist())
     else:
-        side = (boundary.kind == NodeClass.PATCH) & (mesh.points[:, 1] == 0)
+        side = (boundary.node_class == NodeClass.PATCH) & (mesh.points[:, 1] == 0)
         assert {part} == set(boundary.part[side].tolist())
 
 
 @pytest.mark.parametrize(("shift", "kind"), [(0.99, NodeClass.PATCH), (1.01, NodeClass.CORNER)])
 def test_what_is_out_of_reach_of_all_patches_stays(cube, shift, kind):
     mesh, boundary = cube
-    top = np.flatnonzero((boundary.kind == NodeClass.PATCH) & (mesh.points[:, 2] == 4))
+    top = np.flatnonzero((boundary.node_class == NodeClass.PATCH) & (mesh.points[:, 2] == 4))
     points = mesh.points.copy()
     points[top, 2] += shift
     attached = Surface(mesh.points, boundary).attached(points, boundary, 1.0)
-    assert (attached.kind[top] == kind).all()
+    assert (attached.node_class[top] == kind).all()
     assert ((attached.part[top] >= 0) == (kind == NodeClass.PATCH)).all()
 
 
 def test_on_its_own_surface_each_node_slides_where_it_did(cube):
     mesh, boundary = cube
     attached = Surface(mesh.points, boundary).attached(mesh.points, boundary, 1.0)
-    np.testing.assert_array_equal(attached.kind, boundary.kind)
-    on = boundary.kind == NodeClass.CURVE
+    np.testing.assert_array_equal(attached.node_class, boundary.node_class)
+    on = boundary.node_class == NodeClass.CURVE
     np.testing.assert_array_equal(attached.part[on], boundary.part[on])
 
 

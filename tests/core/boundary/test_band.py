@@ -8,7 +8,7 @@ from hexmend.boundary.comparison import SkinSurface
 from tests.core.grids import grid
 
 
-def room_of(shift=0.0, size=1.0, target=True):
+def band_of(shift=0.0, size=1.0, target=True):
     """The boundary of a cube of edge 2, and one that is shifted along x as its surface."""
     mesh, other = grid(2), grid(4)
     faces = mesh.topology.boundary_faces
@@ -17,9 +17,9 @@ def room_of(shift=0.0, size=1.0, target=True):
 
 
 def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundary():
-    mesh, room = room_of(0.25)
-    far, nodes, weights = room.behind_at_first
-    samples = room.target.samples()
+    mesh, band = band_of(0.25)
+    far, nodes, weights = band.initial_surface_deviation
+    samples = band.target.samples()
     boundary = SkinSurface(mesh.points, mesh.topology.boundary_faces)
     assert far.shape == (len(samples),)
     np.testing.assert_allclose(far, boundary.distances(samples), atol=1e-12)
@@ -29,61 +29,62 @@ def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundar
 
 
 @pytest.mark.parametrize("shift", [0.0, 0.25])
-def test_what_is_further_than_a_room_is_found_and_nothing_else(shift):
-    mesh, room = room_of(shift)
-    every = np.arange(len(room.middles))
-    far = room.target.distances(mesh.points[room.middles].mean(axis=1))
-    for most in (1e-3, 0.1, 0.2499, 0.2501):
-        off = room.off(mesh.points, every, most)
-        np.testing.assert_array_equal(off.which, np.flatnonzero(far > most))
-        np.testing.assert_allclose(off.far, far[off.which], atol=1e-12)
-        np.testing.assert_allclose(np.linalg.norm(off.away, axis=1), (off.far > 0).astype(float), atol=1e-12)
-        assert off.weights.shape == off.nodes.shape == (len(off.which), 4)
-        behind = room.behind(mesh.points, room=most)
-        at_first = room.behind_at_first[0]
-        np.testing.assert_array_equal(behind.which, np.flatnonzero(at_first > most))
+def test_samples_beyond_a_limit_are_found_and_no_others(shift):
+    mesh, band = band_of(shift)
+    every = np.arange(len(band.midpoints))
+    far = band.target.distances(mesh.points[band.midpoints].mean(axis=1))
+    for limit in (1e-3, 0.1, 0.2499, 0.2501):
+        off = band.boundary_deviation(mesh.points, every, limit)
+        np.testing.assert_array_equal(off.indices, np.flatnonzero(far > limit))
+        np.testing.assert_allclose(off.distances, far[off.indices], atol=1e-12)
+        lengths = np.linalg.norm(off.directions, axis=1)
+        np.testing.assert_allclose(lengths, (off.distances > 0).astype(float), atol=1e-12)
+        assert off.weights.shape == off.nodes.shape == (len(off.indices), 4)
+        behind = band.surface_deviation(mesh.points, limit=limit)
+        at_first = band.initial_surface_deviation[0]
+        np.testing.assert_array_equal(behind.indices, np.flatnonzero(at_first > limit))
 
 
-def test_each_place_may_have_a_room_of_its_own():
-    mesh, room = room_of(0.25)
-    every = np.arange(len(room.middles))
-    far = room.target.distances(mesh.points[room.middles].mean(axis=1))
+def test_each_sample_may_have_a_limit_of_its_own():
+    mesh, band = band_of(0.25)
+    every = np.arange(len(band.midpoints))
+    far = band.target.distances(mesh.points[band.midpoints].mean(axis=1))
     own = np.where(every % 2, 0.1, 0.3)
-    np.testing.assert_array_equal(room.off(mesh.points, every, own).which, np.flatnonzero(far > own))
+    np.testing.assert_array_equal(band.boundary_deviation(mesh.points, every, own).indices, np.flatnonzero(far > own))
 
 
 def test_a_boundary_is_its_own_surface_where_no_other_is_given():
-    mesh, room = room_of(target=False)
-    far, nodes, _ = room.behind_at_first
+    mesh, band = band_of(target=False)
+    far, nodes, _ = band.initial_surface_deviation
     assert not far.any()
-    np.testing.assert_array_equal(nodes, room.middles)
+    np.testing.assert_array_equal(nodes, band.midpoints)
     points = mesh.points + [0, 0, 0.5]
-    assert room.off(points, np.arange(len(room.middles))).far.max() == pytest.approx(0.5)
-    assert room.behind(points).far.max() == pytest.approx(0.5)
+    assert band.boundary_deviation(points, np.arange(len(band.midpoints))).distances.max() == pytest.approx(0.5)
+    assert band.surface_deviation(points).distances.max() == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize(("shift", "left"), [(0.3, True), (0.2, False)])
-def test_nodes_have_left_their_room_where_they_are_further_than_it_and_than_at_first(shift, left):
-    mesh, room = room_of(size=0.25)
+def test_nodes_have_left_the_band_where_they_are_further_than_its_tolerance_and_than_at_first(shift, left):
+    mesh, band = band_of(size=0.25)
     points = mesh.points + [shift, 0, 0]
-    assert (room.beyond(points).size > 0) == left
-    assert room.beyond(mesh.points).size == 0
-    at_first = room_of(0.5, size=0.25)[1]  # it was further from the beginning
-    assert at_first.beyond(mesh.points).size == 0
-    assert at_first.beyond(mesh.points - [0.1, 0, 0]).size > 0
-    assert room_of(size=np.inf)[1].beyond(points + 9).size == 0
+    assert (band.outside_band(points).size > 0) == left
+    assert band.outside_band(mesh.points).size == 0
+    at_first = band_of(0.5, size=0.25)[1]  # it was further from the beginning
+    assert at_first.outside_band(mesh.points).size == 0
+    assert at_first.outside_band(mesh.points - [0.1, 0, 0]).size > 0
+    assert band_of(size=np.inf)[1].outside_band(points + 9).size == 0
 
 
-def test_places_that_move_with_a_node_are_its_own_and_those_of_its_edges_and_faces():
-    _, room = room_of()
-    at = room.middles_at(np.array([0]))
-    assert (room.middles[at] == 0).any(axis=1).all()
-    assert len(at) == (room.middles == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
+def test_midpoints_that_move_with_a_node_are_the_node_and_those_of_its_edges_and_faces():
+    _, band = band_of()
+    at = band.midpoints_of(np.array([0]))
+    assert (band.midpoints[at] == 0).any(axis=1).all()
+    assert len(at) == (band.midpoints == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
 
 
-def test_a_room_is_no_narrower_than_rounding_of_the_size_of_the_boundary():
-    mesh, room = room_of(size=0.0)
-    assert room.room == pytest.approx(1e-9 * np.sqrt(12))
-    assert room_of(size=0.5)[1].room == 0.5
+def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_boundary():
+    mesh, band = band_of(size=0.0)
+    assert band.tolerance == pytest.approx(1e-9 * np.sqrt(12))
+    assert band_of(size=0.5)[1].tolerance == 0.5
     nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
-    assert nothing.room == 0
+    assert nothing.tolerance == 0

@@ -22,7 +22,7 @@ def counts(boundary):
 
 def check(mesh, boundary):
     """What holds on every mesh."""
-    kind, part = boundary.kind, boundary.part
+    kind, part = boundary.node_class, boundary.part
     assert kind.dtype == np.uint8
     assert part.dtype == np.int32
     np.testing.assert_array_equal(kind != NodeClass.INSIDE, mesh.topology.boundary)
@@ -92,7 +92,7 @@ def test_kinds_depend_neither_on_the_numbering_nor_on_place_and_unit(random, uni
     points = np.empty_like(mesh.points)
     points[order] = unit * (mesh.points @ (turn * np.sign(np.linalg.det(turn))) + 1)
     one, other = boundary_of(mesh), boundary_of(Mesh(points, np.array(order)[mesh.hexes]))
-    np.testing.assert_array_equal(one.kind, other.kind[order])
+    np.testing.assert_array_equal(one.node_class, other.node_class[order])
     assert (one.n_curves, one.n_patches) == (other.n_curves, other.n_patches)
 
 
@@ -108,7 +108,7 @@ def test_cubes_that_touch_in_a_node_have_a_corner_there():
     mesh = touching(1)
     boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
     (node,) = np.flatnonzero((mesh.points == 1).all(axis=1))
-    assert boundary.kind[node] == NodeClass.CORNER
+    assert boundary.node_class[node] == NodeClass.CORNER
     assert (counts(boundary)[0], boundary.n_patches) == (1, 2)
 
 
@@ -117,7 +117,7 @@ def test_cubes_that_touch_in_an_edge_have_a_curve_there_however_large_the_angle(
     boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
     edge = np.flatnonzero((mesh.points[:, :2] == 1).all(axis=1))
     assert boundary.segments.tolist() == [sorted(edge.tolist())]
-    assert (boundary.kind[edge] == NodeClass.CORNER).all()
+    assert (boundary.node_class[edge] == NodeClass.CORNER).all()
 
 
 def dented(length):
@@ -132,15 +132,15 @@ def dented(length):
 
 def test_a_short_groove_in_a_patch_is_a_roughness():
     (flat, _), (short, groove) = dented(-1), dented(3)
-    np.testing.assert_array_equal(boundary_of(short).kind, boundary_of(flat).kind)
-    assert (boundary_of(short, whisker=0).kind[groove] < NodeClass.PATCH).all()
+    np.testing.assert_array_equal(boundary_of(short).node_class, boundary_of(flat).node_class)
+    assert (boundary_of(short, whisker=0).node_class[groove] < NodeClass.PATCH).all()
 
 
 def test_a_long_groove_ends_in_corners():
     mesh, groove = dented(9)
     boundary = boundary_of(mesh)
     check(mesh, boundary)
-    assert boundary.kind[groove].tolist() == [NodeClass.CORNER, *8 * [NodeClass.CURVE], NodeClass.CORNER]
+    assert boundary.node_class[groove].tolist() == [NodeClass.CORNER, *8 * [NodeClass.CURVE], NodeClass.CORNER]
 
 
 def test_given_edges_and_corners_are_taken_and_pinned_nodes_are_corners():
@@ -149,11 +149,11 @@ def test_given_edges_and_corners_are_taken_and_pinned_nodes_are_corners():
     line = np.flatnonzero(side)
     edges = np.column_stack([line[:-1], line[1:]])
     given = boundary_of(mesh, sharp=edges[:, ::-1])
-    assert (given.kind[line] == [1, 2, 2, 2, 1]).all()
+    assert (given.node_class[line] == [1, 2, 2, 2, 1]).all()
     assert given.n_patches == 7
     assert boundary_of(mesh, sharp=edges, corners=line[[2]]).n_curves == 12 + 2 + 2
     pinned = boundary_of(mesh.replace(pinned=side))
-    assert (pinned.kind[line] == NodeClass.CORNER).all()
+    assert (pinned.node_class[line] == NodeClass.CORNER).all()
     assert pinned.n_patches == 6
 
 
@@ -165,7 +165,7 @@ def test_ridges_and_corners_of_a_medit_file_are_features(tmp_path, suffix):
     ridges = Cells("line", edges, {"medit:ridge": np.array([1, 1, 0, 0], np.uint8)})
     write(tmp_path / f"a{suffix}", mesh.replace(cells=(ridges,), node_sets={"corners": line[[3]]}))
     boundary = boundary_of(read(tmp_path / f"a{suffix}"))
-    assert boundary.kind[line].tolist() == [
+    assert boundary.node_class[line].tolist() == [
         NodeClass.CORNER,
         NodeClass.CURVE,
         NodeClass.CORNER,
@@ -181,7 +181,7 @@ def test_where_references_of_a_file_s_sides_change_is_a_feature():
     boundary = boundary_of(mesh.replace(cells=(Cells("quad", faces, {"medit:ref": upper}),)))
     assert boundary.n_patches == 6 + 4
     ring = mesh.topology.boundary & (mesh.points[:, 2] == 2)
-    assert (boundary.kind[ring] < NodeClass.PATCH).all()
+    assert (boundary.node_class[ring] < NodeClass.PATCH).all()
 
 
 def test_triangles_have_kinds_too():
@@ -209,13 +209,13 @@ def test_a_collapsed_hex_has_kinds():
 
 def test_kinds_do_not_depend_on_how_the_inside_lies():
     before, after = (make("cube", size=125, scramble=amount) for amount in (0, 2))
-    np.testing.assert_array_equal(boundary_of(before).kind, boundary_of(after).kind)
+    np.testing.assert_array_equal(boundary_of(before).node_class, boundary_of(after).node_class)
 
 
 def test_a_surface_of_no_faces_has_no_patch_and_no_curve():
     nothing = classify(np.zeros((3, 3)), np.empty((0, 4), np.int32))
     assert (nothing.n_patches, nothing.n_curves) == (0, 0)
-    assert not nothing.kind.any()
+    assert not nothing.node_class.any()
 
 
 def test_an_edge_is_a_feature_beyond_the_angle_and_not_at_it():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import NodeClass, SkinSurface, Surface, boundary_of, distances, surface_change
+from hexmend.boundary import NodeClass, SkinSurface, Surface, boundary_of, mutual_distances, surface_change
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
@@ -24,7 +24,7 @@ def test_distances_are_those_of_brute_force(seed, height):
     before = grid(1)
     after = wavy(before, height, seed)
     old, new = skin(before), skin(after)
-    for one, other, found in zip((old, new), (new, old), distances(old, new), strict=True):
+    for one, other, found in zip((old, new), (new, old), mutual_distances(old, new), strict=True):
         quads = other.points[other.faces]
         pieces = [[a, b, quad.mean(axis=0)] for quad in quads for a, b in zip(quad, np.roll(quad, -1, 0), strict=True)]
         samples = one.samples()
@@ -48,8 +48,8 @@ def test_nothing_has_changed_where_nothing_moved():
 def test_a_box_that_is_shifted_along_an_axis_is_as_far_away(shift):
     mesh = grid(3)
     change = surface_change(mesh, mesh.with_points(mesh.points + [shift, 0, 0]))
-    assert change.furthest == pytest.approx(shift, rel=1e-12)
-    assert 0 < change.average < shift
+    assert change.max_distance == pytest.approx(shift, rel=1e-12)
+    assert 0 < change.mean_distance < shift
     assert change.max == pytest.approx(shift / mesh.mean_edge_length)
     assert change.max_percent_of_diagonal == pytest.approx(100 * shift / np.sqrt(27))
     assert change.volume_change == pytest.approx(0, abs=1e-12)
@@ -66,7 +66,7 @@ def test_figures_without_a_unit_do_not_depend_on_the_unit(unit, stretch):
     one, other = change(1), change(unit)
     assert one.to_dict() == pytest.approx(other.to_dict(), rel=1e-9, abs=1e-12)
     assert one.volume_change == pytest.approx(stretch - 1, abs=1e-12)
-    assert other.furthest == pytest.approx(unit * one.furthest, rel=1e-9, abs=1e-12 * unit)
+    assert other.max_distance == pytest.approx(unit * one.max_distance, rel=1e-9, abs=1e-12 * unit)
 
 
 @given(st.integers(0, 999))
@@ -74,7 +74,7 @@ def test_flat_solids_keep_their_surface_and_volume_while_their_nodes_slide(seed)
     mesh = grid(5, 4, 3)
     boundary = boundary_of(mesh)
     surface = Surface(mesh.points, boundary)
-    nodes = np.flatnonzero(boundary.kind >= NodeClass.CURVE)
+    nodes = np.flatnonzero(boundary.node_class >= NodeClass.CURVE)
     points = mesh.points.copy()
     random = np.random.default_rng(seed)
     points[nodes], _ = project(surface, points[nodes] + random.uniform(-0.4, 0.4, (len(nodes), 3)), nodes)
@@ -94,7 +94,7 @@ def test_nodes_that_slide_on_a_ball_leave_it_the_less_the_finer_it_is():
         points[nodes], _ = project(
             surface, points[nodes] + np.random.default_rng(0).uniform(-0.3, 0.3, (len(nodes), 3)) / n, nodes
         )
-        return surface_change(mesh, mesh.with_points(points)).furthest
+        return surface_change(mesh, mesh.with_points(points)).max_distance
 
     assert furthest(16) < 0.4 * furthest(8) < 0.16 * furthest(4)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass, SlidingBoundary, boundary_of
-from hexmend.boundary.corner_detection import kept_bends
+from hexmend.boundary.corner_detection import bend_corners
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
 from tests.core.boundary.solids import ball, cylinder, slid
@@ -13,20 +13,20 @@ from tests.core.grids import grid
 
 def test_bends_that_alone_hold_a_corner_open_are_kept():
     mesh = cylinder(16, 3)
-    bends = kept_bends(mesh, boundary_of(mesh))
+    bends = bend_corners(mesh, boundary_of(mesh))
     assert len(bends) == 8  # four on each rim: there a square's corner has been made a bend of a circle
-    assert (SlidingBoundary(mesh).boundary.kind[bends] == NodeClass.CORNER).all()
-    assert not kept_bends(grid(3), boundary_of(grid(3))).size
-    assert not kept_bends(ball(3), boundary_of(ball(3))).size
+    assert (SlidingBoundary(mesh).boundary.node_class[bends] == NodeClass.CORNER).all()
+    assert not bend_corners(grid(3), boundary_of(grid(3))).size
+    assert not bend_corners(ball(3), boundary_of(ball(3))).size
 
 
 def test_bends_of_inverted_corners_slide():
     mesh = cylinder(16, 3)
-    (bend, *_) = kept_bends(mesh, boundary_of(mesh))
+    (bend, *_) = bend_corners(mesh, boundary_of(mesh))
     points = mesh.points.copy()
     points[bend, :2] *= 0.5  # behind the line between its neighbours
     pushed = mesh.with_points(points)
-    assert bend not in kept_bends(pushed, boundary_of(pushed, turn=180.0))
+    assert bend not in bend_corners(pushed, boundary_of(pushed, turn=180.0))
 
 
 @pytest.mark.parametrize("name", ["local-nr", "global-sd", "mend"])
@@ -40,7 +40,7 @@ def test_no_corner_is_flattened_on_a_straight_piece_of_its_curve(name):
 def test_only_the_bend_of_the_inverted_corner_slides(which):
     mesh = cylinder(16, 3)
     boundary = boundary_of(mesh)
-    bends = kept_bends(mesh, boundary)
+    bends = bend_corners(mesh, boundary)
     points = mesh.points.copy()
     points[bends[which], :2] *= 0.5
-    assert kept_bends(mesh.with_points(points), boundary).tolist() == np.delete(bends, which).tolist()
+    assert bend_corners(mesh.with_points(points), boundary).tolist() == np.delete(bends, which).tolist()

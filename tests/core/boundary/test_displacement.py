@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import MENDED, MOVEMENTS, NEWLY_INVERTED, STILL_INVERTED, Displacement, Moment
+from hexmend.boundary.displacement import (
+    DISPLACEMENT_QUANTITIES,
+    MENDED,
+    NEWLY_INVERTED,
+    STILL_INVERTED,
+    Displacement,
+    ReferenceState,
+)
 from hexmend.quality import measure
 from tests.core.boundary.solids import slid
 from tests.core.grids import grid, scrambled
@@ -13,7 +20,7 @@ MESH = grid(5)
 
 def moved(points, before=None):
     then = MESH.points if before is None else before
-    was = Moment(then, measure(then, MESH.hexes), "then")
+    was = ReferenceState(then, measure(then, MESH.hexes), "then")
     return Displacement(MESH, was, points, measure(points, MESH.hexes))
 
 
@@ -30,16 +37,16 @@ def test_elements_are_newly_inverted_still_inverted_or_mended():
     good, bad = MESH.points, scrambled(MESH, 1.2).points
     inverted = measure(bad, MESH.hexes).inverted
     assert 0 < inverted.sum() < inverted.size
-    assert np.array_equal(moved(bad).kinds == NEWLY_INVERTED, inverted)
-    assert np.array_equal(moved(good, bad).kinds == MENDED, inverted)
-    assert np.array_equal(moved(bad, bad).kinds == STILL_INVERTED, inverted)
+    assert np.array_equal(moved(bad).inversion_changes == NEWLY_INVERTED, inverted)
+    assert np.array_equal(moved(good, bad).inversion_changes == MENDED, inverted)
+    assert np.array_equal(moved(bad, bad).inversion_changes == STILL_INVERTED, inverted)
     assert moved(bad).counts.newly_inverted == moved(good, bad).counts.mended == inverted.sum()
     assert moved(bad).counts.worse == moved(good, bad).counts.better > 0
 
 
 def test_where_nothing_has_moved_all_is_zero():
     movement = moved(MESH.points.copy())
-    for name in MOVEMENTS:
+    for name in DISPLACEMENT_QUANTITIES:
         assert not movement.values(name).any()
     assert not any(vars(movement.counts).values())
 
@@ -62,4 +69,4 @@ def test_distance_from_the_surface_is_that_of_boundary_nodes_alone():
     beside = (MESH.hexes == np.flatnonzero(on_face)[0]).any(axis=1)
     np.testing.assert_allclose(values[beside], 0.25, rtol=1e-12)
     assert not values[~beside].any()
-    assert movement.until(points, movement.figures).before.skin(MESH) is movement.before.skin(MESH)
+    assert movement.updated(points, movement.figures).before.skin(MESH) is movement.before.skin(MESH)

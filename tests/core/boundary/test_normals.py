@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary.classification import NodeClass, boundary_of
-from hexmend.boundary.normals import curve_tangents, segment_tangents, unit
+from hexmend.boundary.normals import curve_tangents, segment_tangents, unit_vectors
 from tests.core.boundary.solids import cylinder
 
 
@@ -24,10 +24,10 @@ def test_tangents_of_curves_are_unit_vectors_in_the_sense_of_their_segments(rims
 
 def test_the_tangents_of_a_circle_stand_at_right_angles_to_its_radius(rims):
     mesh, boundary = rims
-    assert (boundary.kind[boundary.segments] == NodeClass.CURVE).all()
+    assert (boundary.node_class[boundary.segments] == NodeClass.CURVE).all()
     out = mesh.points[boundary.segments] * [1, 1, 0]
     np.testing.assert_allclose(np.einsum("sei,sei->se", curve_tangents(mesh.points, boundary), out), 0, atol=1e-12)
 
 
 def test_unit_vectors_have_length_1_or_are_0():
-    np.testing.assert_array_equal(unit(np.array([[0.0, 0, 0], [0, -2, 0]])), [[0, 0, 0], [0, -1, 0]])
+    np.testing.assert_array_equal(unit_vectors(np.array([[0.0, 0, 0], [0, -2, 0]])), [[0, 0, 0], [0, -1, 0]])

@@ -10,7 +10,7 @@ from tests.core.boundary.solids import ball
 def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
     mesh = make("bridge-sharp", size=500)
     sliding = SlidingBoundary(mesh)
-    kind, part, rings = sliding.boundary.kind, sliding.boundary.part, sliding.rings
+    kind, part, rings = sliding.boundary.node_class, sliding.boundary.part, sliding.rings
     for node in range(mesh.n_nodes):
         whole, ring = mesh.topology.rings[node], rings[node]
         assert set(ring) <= set(whole)
@@ -31,5 +31,5 @@ def test_a_mesh_keeps_the_surface_that_it_is_told_to():
     np.testing.assert_array_equal(moved.keeping_surface().with_points(mesh.points).surface_points, mesh.points)
     np.testing.assert_array_equal(mesh.with_points(1.1 * mesh.points).surface_points, 1.1 * mesh.points)
     np.testing.assert_array_equal(SlidingBoundary(moved).mesh.points, moved.points)
-    places = SlidingBoundary(moved).put_back(moved.points[SlidingBoundary(moved).nodes])
+    places = SlidingBoundary(moved).project(moved.points[SlidingBoundary(moved).nodes])
     np.testing.assert_allclose(np.linalg.norm(places, axis=1), 1, atol=0.2)

@@ -90,7 +90,7 @@ def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed
 
 def sliding(mesh, kinds=(NodeClass.CURVE, NodeClass.PATCH)):
     boundary = boundary_of(mesh)
-    return boundary, Surface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.kind, kinds))
+    return boundary, Surface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.node_class, kinds))
 
 
 @pytest.mark.parametrize("mesh", [grid(4, 3, 2), ball(6), cylinder(), wavy(grid(4), 0.3)], ids=lambda mesh: mesh.name)
@@ -112,7 +112,7 @@ def test_nodes_of_a_box_stay_in_their_planes_and_on_their_edges(seed, far):
     held = (x == 0) | (x == upper)
     np.testing.assert_array_equal(places[held], x[held])
     np.testing.assert_allclose(places[~held], np.clip(moved, 0, upper)[~held], atol=1e-12)
-    on_patch = boundary.kind[nodes] == NodeClass.PATCH
+    on_patch = boundary.node_class[nodes] == NodeClass.PATCH
     outward = np.where(x == 0, -1.0, np.where(x == upper, 1.0, 0.0))[on_patch]
     np.testing.assert_allclose(directions[on_patch], outward, atol=1e-14)
     np.testing.assert_allclose(np.abs(directions[~on_patch]), ~held[~on_patch], atol=1e-14)
@@ -200,7 +200,7 @@ def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
     mesh = grid(3)
     boundary, surface, nodes = sliding(mesh)
     (corner, *_), (inside, *_) = (
-        np.flatnonzero(boundary.kind == kind) for kind in (NodeClass.CORNER, NodeClass.INSIDE)
+        np.flatnonzero(boundary.node_class == kind) for kind in (NodeClass.CORNER, NodeClass.INSIDE)
     )
     with pytest.raises(MeshError, match=rf"node {corner} \(counted from 0\) is of kind CORNER"):
         project(surface, mesh.points[[nodes[0], corner]], np.array([nodes[0], corner]))
@@ -225,9 +225,9 @@ def test_nodes_slide_on_the_surface_of_a_file(fine):
     mesh = grid(4)
     boundary = boundary_of(mesh)
     surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary)
-    np.testing.assert_array_equal(surface.kind, boundary.kind)
+    np.testing.assert_array_equal(surface.node_class, boundary.node_class)
     own = Surface(mesh.points, boundary)
-    nodes = np.flatnonzero(boundary.kind >= NodeClass.CURVE)
+    nodes = np.flatnonzero(boundary.node_class >= NodeClass.CURVE)
     x = mesh.points[nodes] + 0.3 * np.random.default_rng(0).normal(size=(len(nodes), 3))
     (places, there), (same, here) = project(surface, x, nodes), project(own, x, nodes)
     np.testing.assert_allclose(places, same, atol=1e-12)
@@ -239,7 +239,7 @@ def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     points, triangles = as_triangles(ball(8))
     surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
     nodes = np.flatnonzero(mesh.topology.boundary)
-    assert (surface.kind[nodes] == NodeClass.PATCH).all()
+    assert (surface.node_class[nodes] == NodeClass.PATCH).all()
     radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)
     assert radius.min() > 0.95
     assert radius.max() <= 1 + 1e-14

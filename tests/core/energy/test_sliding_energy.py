@@ -19,8 +19,8 @@ def along_the_surface(sliding, points, seed):
     step = random.uniform(-1, 1, mesh.points.shape) * mesh.free[:, None]
     nodes = sliding.nodes
     weights = sliding.surface.trees.closest(points[nodes], sliding.surface.group_of(nodes)).weights
-    weights[sliding.boundary.kind[nodes] == NodeClass.CURVE, 2] = 1
-    bases = sliding.bases(points[nodes])
+    weights[sliding.boundary.node_class[nodes] == NodeClass.CURVE, 2] = 1
+    bases = sliding.tangent_bases(points[nodes])
     step[nodes] = np.einsum("kij,klj,kl->ki", bases, bases, step[nodes])
     step[nodes[weights.min(axis=1) < 0.01]] = 0
     return step[mesh.free]

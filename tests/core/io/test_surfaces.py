@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary.closest_point import triangulated
+from hexmend.boundary.closest_point import triangulate
 from hexmend.errors import FileError
 from hexmend.io import read_surface
 from hexmend.io.surfaces import SURFACE_FORMATS
@@ -137,7 +137,7 @@ def test_polygons_and_triangles_beside_quads_keep_their_places(tmp_path):
     skin = read_surface(path)
     assert skin.volume() == pytest.approx(2.5 * np.sin(2 * np.pi / 5))
     assert (skin.edges.count == 2).all()
-    _, triangles, _ = triangulated(skin.points, skin.faces)
+    _, triangles, _ = triangulate(skin.points, skin.faces)
     assert triangles.max() < len(skin.points) + len(skin.faces)
 
 

@@ -77,7 +77,7 @@ def test_a_node_that_cannot_slide_is_named(wrong):
     x[3, 1] = wrong
     said = rf"node {sliding.nodes[3]} cannot slide: no place of the surface is closest to \[.*{wrong}.*pin it\."
     with pytest.raises(MeshError, match=said.replace("+", r"\+")):
-        sliding.put_back(x)
+        sliding.project(x)
 
 
 def test_its_figures_are_numbers():

@@ -11,7 +11,7 @@ from tests.core.boundary.solids import ball, slid
 class Wall:
     """A surface whose room ends at x = 1."""
 
-    def beyond(self, points):
+    def outside_band(self, points):
         return np.flatnonzero(points[:, 0] > 1)
 
 

@@ -78,10 +78,10 @@ def test_a_quad_that_is_turned_may_stay_so_and_be_turned_back():
     sliding, folded = SlidingBoundary(mesh), mesh.points.copy()
     node = int(np.flatnonzero((folded == [2, 2, 0]).all(axis=1))[0])
     folded[node, :2] += 1.4  # beyond the opposite corner of a quad
-    assert sliding.turned(mesh.points, folded).size == 1
-    assert not sliding.turned(folded, folded).size
-    assert not sliding.turned(folded, mesh.points).size
-    np.testing.assert_array_equal(sliding.unturned(mesh.points, folded), mesh.points)
+    assert sliding.flipped_quads(mesh.points, folded).size == 1
+    assert not sliding.flipped_quads(folded, folded).size
+    assert not sliding.flipped_quads(folded, mesh.points).size
+    np.testing.assert_array_equal(sliding.reject_flips(mesh.points, folded), mesh.points)
 
 
 @pytest.mark.slow

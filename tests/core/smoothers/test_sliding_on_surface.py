@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.boundary import NodeClass, SkinSurface, SlidingBoundary, surface_change
-from hexmend.boundary.closest_point import triangulated
+from hexmend.boundary.closest_point import triangulate
 from hexmend.cli.main import main
 from hexmend.errors import MeshError
 from hexmend.run import StoppingCriteria, smooth
@@ -23,7 +23,7 @@ from tests.core.grids import grid
 
 def skin_of(mesh, name="part.stl"):
     """The boundary of a mesh as triangles."""
-    points, triangles, _ = triangulated(mesh.points, mesh.topology.boundary_faces)
+    points, triangles, _ = triangulate(mesh.points, mesh.topology.boundary_faces)
     used, numbers = np.unique(triangles, return_inverse=True)
     return SkinSurface(points[used], numbers.reshape(-1, 3).astype(np.int32), name)
 
@@ -67,7 +67,7 @@ def test_nodes_are_put_on_the_surface_and_stay_on_it(name, solid, seed):
 def test_its_own_boundary_as_the_surface_is_the_same_as_none():
     mesh = slid(cylinder(16, 3), 0.2)
     own, on = SlidingBoundary(mesh), SlidingBoundary(mesh.sliding_on(skin_of(mesh)))
-    np.testing.assert_array_equal(own.kind, on.kind)
+    np.testing.assert_array_equal(own.node_class, on.node_class)
     method, stop = METHODS["local-nr"](boundary="slide"), StoppingCriteria(max_iterations=5)
     one, other = (smooth(of, method, stop).mesh.points for of in (mesh, mesh.sliding_on(skin_of(mesh))))
     np.testing.assert_allclose(one, other, atol=1e-6)
@@ -78,22 +78,22 @@ def test_edges_of_the_boundary_that_the_surface_does_not_have_are_smooth():
     mesh = coarse.sliding_on(target)
     before, after = SlidingBoundary(coarse), SlidingBoundary(mesh)
     height = coarse.points[:, 2]
-    side = (before.kind == NodeClass.CURVE) & (height > 0.1) & (height < 0.9)
+    side = (before.node_class == NodeClass.CURVE) & (height > 0.1) & (height < 0.9)
     assert side.any()
-    assert (after.kind[side] == NodeClass.PATCH).all()
-    rim = (before.kind == NodeClass.CURVE) & ~side
-    assert (after.kind[rim] == NodeClass.CURVE).all()
+    assert (after.node_class[side] == NodeClass.PATCH).all()
+    rim = (before.node_class == NodeClass.CURVE) & ~side
+    assert (after.node_class[rim] == NodeClass.CURVE).all()
 
 
 def test_the_distance_told_is_that_from_the_surface():
     mesh, target = ball(3), skin_of(ball(12), "ball.stl")
     result = smooth(mesh.sliding_on(target), METHODS["laplacian"](boundary="slide"), StoppingCriteria(max_iterations=3))
-    assert result.surface.of == "ball.stl"
-    assert "from ball.stl" in result.surface.words
-    nodes = result.surface.furthest  # a coarse boundary cuts off the ball's bends
+    assert result.surface.reference == "ball.stl"
+    assert "from ball.stl" in result.surface.sentence
+    nodes = result.surface.max_distance  # a coarse boundary cuts off the ball's bends
     assert 0.01 < nodes < 0.5
     assert result.surface == surface_change(mesh.sliding_on(target), result.mesh)
-    assert surface_change(mesh, result.mesh.sliding_on(skin_of(mesh))).furthest != nodes
+    assert surface_change(mesh, result.mesh.sliding_on(skin_of(mesh))).max_distance != nodes
 
 
 def test_all_stages_slide_on_it():

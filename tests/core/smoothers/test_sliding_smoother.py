@@ -37,7 +37,7 @@ SOLIDS = {
 def on_its_surface(sliding, points):
     """How far sliding nodes are from their own curves and patches, in mean edge lengths."""
     x = points[sliding.nodes]
-    return np.linalg.norm(sliding.put_back(x) - x, axis=1).max() / sliding.mesh.mean_edge_length
+    return np.linalg.norm(sliding.project(x) - x, axis=1).max() / sliding.mesh.mean_edge_length
 
 
 def turned(mesh, seed=0):
@@ -153,7 +153,7 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
     mesh = slid(grid(3), 0.3, seed=5)
     sliding = SlidingBoundary(mesh)
     moved = next(itertools.islice(METHODS["laplacian"](boundary="slide", update="simultaneous").steps(mesh), 1, None))
-    kind, part = sliding.boundary.kind, sliding.boundary.part
+    kind, part = sliding.boundary.node_class, sliding.boundary.part
     edges = {tuple(sorted(edge)) for edge in mesh.topology.edges[mesh.topology.edge_on_boundary].tolist()}
     curves = {tuple(sorted(edge)) for edge in sliding.boundary.segments.tolist()}
     for node in sliding.nodes:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import measure
 from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
@@ -67,7 +67,7 @@ class FeatureHistogram(Feature):
     def metric(self) -> str:
         """What is counted; q where the colours show a movement, which is none of one moment."""
         shown = self._view.look.scale.metric
-        return self._view.counted or ("q" if shown in MOVEMENTS else shown)
+        return self._view.counted or ("q" if shown in DISPLACEMENT_QUANTITIES else shown)
 
     def refresh(self) -> None:
         """Count the hexes as they are now."""
@@ -79,7 +79,7 @@ class FeatureHistogram(Feature):
             and look.quality_range.metric != look.scale.metric
         ):
             self._view.counted = look.quality_range.metric
-        self.session.smoothing.want({look.scale.metric, self.metric} - MOVEMENTS.keys())
+        self.session.smoothing.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()

@@ -8,7 +8,7 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
-from hexmend.boundary.displacement import MOVEMENTS, named
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend.parameters import Parameter
 from hexmend.quality import METRICS
 from hexmend_app.features.look.map_box import MapBox
@@ -59,7 +59,7 @@ class ColourPanel(QWidget):
         self._metric = QComboBox()
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for metric in (*metrics_offered(), *MOVEMENTS.values()):
+        for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values()):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
@@ -141,8 +141,8 @@ class ColourPanel(QWidget):
         if metric == self._scale.metric:
             return
         pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
-        if (metric in MOVEMENTS) != (self._scale.metric in MOVEMENTS):
-            mode = RangeMode.FITTED if metric in MOVEMENTS else RangeMode.FULL
+        if (metric in DISPLACEMENT_QUANTITIES) != (self._scale.metric in DISPLACEMENT_QUANTITIES):
+            mode = RangeMode.FITTED if metric in DISPLACEMENT_QUANTITIES else RangeMode.FULL
         if mode is RangeMode.PINNED and metric not in self._set:
             mode = RangeMode.FULL  # the values of one metric mean nothing for another
         if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
@@ -219,7 +219,7 @@ class ColourPanel(QWidget):
 
 def _about(name: str) -> str:
     """What a metric declares of itself, as rich text."""
-    metric = named(name)
+    metric = hex_quantity(name)
     which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
     full, acceptable = _range(metric.full_range), _range(metric.acceptable)
     lines = (

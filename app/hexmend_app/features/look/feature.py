@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend.boundary.displacement import MOVEMENTS, Displacement
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.look.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.scene.frame import Frame
@@ -131,7 +131,7 @@ class FeatureLook(Feature):
     def _movement(self) -> Displacement | None:
         """What the view shows of a movement, if anything."""
         look = self._view.look
-        wanted = look.scale.metric in MOVEMENTS or look.traces.arrows is not Arrows.NONE
+        wanted = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
         return self.session.references.movement(look.traces.since) if wanted else None
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend.boundary.displacement import MOVEMENTS, Displacement
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import Feature, Host, Panel, Place, Seen
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.kinds import of_kind
@@ -44,7 +44,7 @@ class FeatureMovement(Feature):
         """Say how far the mesh has moved."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        movement = look.scale.metric in MOVEMENTS
+        movement = look.scale.metric in DISPLACEMENT_QUANTITIES
         if not movement:
             self._metric = look.scale.metric
         self.panel.set_traces(look.traces)

@@ -7,7 +7,7 @@ import dataclasses
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
-from hexmend.boundary.displacement import MOVEMENTS, Counts
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.scene.layers.arrows import MOST
 from hexmend_app.state.look import Arrows, Since, Traces
 from hexmend_app.widgets.segmented import Segmented
@@ -27,18 +27,18 @@ _COLOURS = [
     ("", "Quality", "Colour by the metric that the panel of colours names."),
     (
         "moved-most",
-        MOVEMENTS["moved-most"].label,
+        DISPLACEMENT_QUANTITIES["moved-most"].label,
         "Colour each hex by the longest way that one of its nodes has gone.",
     ),
     (
         "q-change",
-        MOVEMENTS["q-change"].label,
+        DISPLACEMENT_QUANTITIES["q-change"].label,
         "Colour each hex by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
         "hexes have colours of their own.",
     ),
     (
         "surface-distance",
-        MOVEMENTS["surface-distance"].label,
+        DISPLACEMENT_QUANTITIES["surface-distance"].label,
         "Colour each hex by how far its boundary nodes are from the surface as it was: where the boundary slides.",
     ),
 ]
@@ -69,7 +69,7 @@ class MovementPanel(QWidget):
     -------
     traces_changed(Traces)
     colours_chosen(name)
-        Of `MOVEMENTS`, or "" for a metric.
+        Of `DISPLACEMENT_QUANTITIES`, or "" for a metric.
     newly_inverted_requested
         The user wants to see them.
     """
@@ -149,14 +149,14 @@ class MovementPanel(QWidget):
                 self.factor.setValue(traces.factor)
 
     def set_colours(self, name: str) -> None:
-        """Show what the colours show, by a name of `MOVEMENTS` or ""; without a signal."""
+        """Show what the colours show, by a name of `DISPLACEMENT_QUANTITIES` or ""; without a signal."""
         self.colours.set_value("moved-most" if name == "moved-mean" else name)
 
     def set_arrows(self, drawn: int, moved: int) -> None:
         """Say how many arrows are drawn, and how many nodes could have one."""
         self._drawn.setText(arrows_in_words(self._traces, drawn, moved))
 
-    def set_counts(self, counts: Counts | None, name: str, free: int) -> None:
+    def set_counts(self, counts: DisplacementCounts | None, name: str, free: int) -> None:
         """Say how large the movement since `name` is, of a mesh with so many free nodes; None for none."""
         self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
         why = "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
@@ -190,7 +190,7 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     return f"{these}, {times} true length."
 
 
-def _texts(counts: Counts, name: str, free: int) -> tuple[str, str, str, str]:
+def _texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
     way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
     slid = f", {counts.slid:,} of the boundary slid" if counts.slid else ""
     return (

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.boundary.features import DEGREES
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
 from hexmend_app.features.structure.structure_panel import StructurePanel
 
@@ -103,7 +103,7 @@ class FeatureStructure(Feature):
         now, smoother = session.document.now, session.order.smoother
         looked = self.panel.isVisible() or self._view.look.structure.kinds
         if looked and smoother is not None and not session.smoothing.busy:
-            session.classer.ask(now.mesh, now.figures, smoother.values().get("feature_angle", DEGREES))
+            session.classer.ask(now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE))
         classes = session.classer.of(now.mesh)
         error = session.classer.error
         if self._seen.another("classes", classes, error, session.document.start):

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
 from hexmend_app.scene.export.chart import histogram
@@ -72,12 +72,12 @@ def pictures(
     aside = round(_CHART * width) if chart else 0
     with Stage((width - aside, height - (1 if look.neutral else 2) * strip)) as stage:
         viewport = Viewport(Pane(stage.window), pen=pen_of(size))
-        seen_last: Moment | None = None
+        seen_last: ReferenceState | None = None
         for shot in shots:
             mesh, figures = shot.state.mesh, shot.state.figures
             if movement is not None:
                 before = seen_last if look.traces.since is Since.ITERATION else movement.before
-                now = Moment(mesh.points, figures, "the picture before")
+                now = ReferenceState(mesh.points, figures, "the picture before")
                 movement = Displacement(movement.mesh, before or now, mesh.points, figures)
                 seen_last = now
             first = viewport.frame is None

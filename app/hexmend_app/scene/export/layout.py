@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.boundary.displacement import MOVEMENTS, named
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend.errors import ParameterError
 from hexmend_app.scene.export.letters import Letters
 from hexmend_app.scene.export.subject import Subject
@@ -123,7 +123,11 @@ class Layout:
     def title(self) -> str:
         """What stands at the colour bar."""
         metric, movement = self.scene.colours.metric, self.subjects[0].movement
-        known = movement.title(metric) if metric in MOVEMENTS and movement is not None else named(metric).title
+        known = (
+            movement.title(metric)
+            if metric in DISPLACEMENT_QUANTITIES and movement is not None
+            else hex_quantity(metric).title
+        )
         return self.scene.bar.title or known
 
     @property

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from hexmend.boundary.displacement import MOVEMENTS, Displacement, Moment
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement, ReferenceState
 from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
@@ -79,12 +79,12 @@ def write_picture(
 
 def moving(scene: Scene) -> bool:
     """Whether a scene shows how a mesh has moved."""
-    return scene.colours.metric in MOVEMENTS or scene.movement.arrows is not Arrows.NONE
+    return scene.colours.metric in DISPLACEMENT_QUANTITIES or scene.movement.arrows is not Arrows.NONE
 
 
 def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Displacement:
     """The movement of a mesh, in edge lengths of the mesh as it was opened."""
-    then = Moment(since.points, measure(since.points, since.hexes), name)
+    then = ReferenceState(since.points, measure(since.points, since.hexes), name)
     return Displacement(opened, then, mesh.points, measure(mesh.points, mesh.hexes))
 
 
@@ -99,4 +99,6 @@ def _movement(
         return movement_since(since, name, first.mesh, opened)
     if len(subjects) == 1:
         raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
-    return Displacement(opened, Moment(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures)
+    return Displacement(
+        opened, ReferenceState(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures
+    )

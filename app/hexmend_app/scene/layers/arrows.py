@@ -6,7 +6,7 @@ import numpy as np
 import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
-from hexmend.boundary.displacement import NOTHING, Displacement
+from hexmend.boundary.displacement import ROUNDING, Displacement
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers.body import Body
 from hexmend_app.scene.layers.structure import uncut
@@ -114,7 +114,7 @@ class ArrowLayer:
             As strongly where something hides them.
         """
         distances = movement.distances
-        chosen = np.flatnonzero(nodes & (distances > NOTHING * movement.unit))
+        chosen = np.flatnonzero(nodes & (distances > ROUNDING * movement.unit))
         moved = chosen.size
         if not moved:
             self.hide()

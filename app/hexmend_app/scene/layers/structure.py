@@ -6,7 +6,7 @@ import numpy as np
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.boundary import NodeClass
-from hexmend.boundary.features import DEGREES
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import Structure as Found
@@ -180,7 +180,7 @@ class StructureLayers:
             return
         places = self._faces.places(points)
         if wanted.kinds and self._kinds is None:
-            self._kinds = node_kinds(self._mesh, DEGREES)
+            self._kinds = node_kinds(self._mesh, FEATURE_ANGLE)
         kinds = node_marks(self._mesh, points, figures, wanted, self._kinds)[self._faces.nodes]
         chosen = (kinds > 0) & uncut(self._look, places)
         for marks, these in ((self.nodes, chosen & (kinds != _LOCKED)), (self._locked, chosen & (kinds == _LOCKED))):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from hexmend.boundary.displacement import MOVEMENTS
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.errors import ParameterError
 from hexmend.quality import METRICS
 from hexmend_app.state.look import COLOUR_MAPS, ColourScale, Isolation, Look, RangeMode, ValueRange
@@ -141,7 +141,7 @@ class Colours(Table):
 
     def check(self) -> None:
         """A metric and a map that there are, and the lower value first."""
-        known_metric(self.metric, {**METRICS, **MOVEMENTS})
+        known_metric(self.metric, {**METRICS, **DISPLACEMENT_QUANTITIES})
         if self.map not in COLOUR_MAPS:
             raise ParameterError(f"map = {self.map!r} is unknown: expected one of {', '.join(COLOUR_MAPS)}")
         if isinstance(self.range, tuple) and not self.range[0] < self.range[1]:

@@ -24,12 +24,12 @@ class DeviationTracker:
     Attributes
     ----------
     distances : (s,) float64
-        See `SlidingBoundary.behind`.
+        See `SlidingBoundary.surface_deviation`.
     """
 
     def __init__(self, sliding: SlidingBoundary, points: np.ndarray):
         self.sliding, self.points = sliding, points
-        far, self._nodes, self._weights = sliding.behind_at_first
+        far, self._nodes, self._weights = sliding.initial_surface_deviation
         self.distances, self._away = far.copy(), np.zeros((far.size, 3))
         self._update(np.arange(far.size))
 
@@ -47,20 +47,24 @@ class DeviationTracker:
         """Return True if a distance exceeds `max_deviation` and what it was before nodes (k,) moved."""
         if (self.distances > np.maximum(before.distances, max_deviation)).any():
             return True
-        off = self.sliding.off(self.points, self.sliding.middles_at(nodes), max_deviation)
-        if not off.which.size:
+        off = self.sliding.boundary_deviation(self.points, self.sliding.midpoints_of(nodes), max_deviation)
+        if not off.indices.size:
             return False
-        was = self.sliding.off(before.points, off.which, max_deviation)
-        if was.which.size < off.which.size:
+        was = self.sliding.boundary_deviation(before.points, off.indices, max_deviation)
+        if was.indices.size < off.indices.size:
             return True
-        return bool((off.far > was.far).any())
+        return bool((off.distances > was.distances).any())
 
     def bounds(self, moves: np.ndarray, max_deviation: float) -> LinearConstraints:
         """Constraints on the distances while each node moves by moves (n,) at most, in the mesh's unit."""
         sliding = self.sliding
-        which = sliding.middles_at(np.flatnonzero(moves))
-        off = sliding.off(self.points, which, max_deviation - moves[sliding.middles[which]].max(axis=1, initial=0.0))
-        models = lower_bounds(off.nodes, max_deviation - off.far, -off.weights[:, :, None] * off.away[:, None])
+        which = sliding.midpoints_of(np.flatnonzero(moves))
+        off = sliding.boundary_deviation(
+            self.points, which, max_deviation - moves[sliding.midpoints[which]].max(axis=1, initial=0.0)
+        )
+        models = lower_bounds(
+            off.nodes, max_deviation - off.distances, -off.weights[:, :, None] * off.directions[:, None]
+        )
         reach = moves[self._nodes].max(axis=1, initial=0.0)
         near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > max_deviation))
         slopes = self._weights[near, :, None] * self._away[near, None]
@@ -68,10 +72,10 @@ class DeviationTracker:
 
     def _update(self, which: np.ndarray) -> None:
         """Find what is closest to some places of the surface, beginning with what was closest at first."""
-        at_first, nodes, weights = self.sliding.behind_at_first
-        off = self.sliding.behind(self.points, which, room=-1.0)
+        at_first, nodes, weights = self.sliding.initial_surface_deviation
+        off = self.sliding.surface_deviation(self.points, which, limit=-1.0)
         self._nodes, self._weights = self._nodes.copy(), self._weights.copy()
         self.distances[which], self._away[which] = at_first[which], 0.0
         self._nodes[which], self._weights[which] = nodes[which], weights[which]
-        self.distances[off.which], self._away[off.which] = off.far, off.away
-        self._nodes[off.which], self._weights[off.which] = off.nodes, off.weights
+        self.distances[off.indices], self._away[off.indices] = off.distances, off.directions
+        self._nodes[off.indices], self._weights[off.indices] = off.nodes, off.weights

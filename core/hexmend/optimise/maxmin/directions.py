@@ -66,7 +66,7 @@ def step_directions(
     leads = aims
     if slides.any():
         on = np.flatnonzero(slides)
-        bases = sliding.bases(x[on], nodes[on])
+        bases = sliding.tangent_bases(x[on], nodes[on])
         around = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
         of_around = np.repeat(on, len(_AROUND))
         there = np.linalg.norm(around, axis=1) > 0.5  # on a curve those along it, each once
@@ -74,7 +74,7 @@ def step_directions(
         around, of_around = around[there], of_around[there]
         far = np.maximum(radius * size[of_around, None], np.finfo(float).tiny)  # nodes may coincide
         start = x[of_around]
-        led = (sliding.put_back(start + far * around, nodes[of_around]) - start) / far
+        led = (sliding.project(start + far * around, nodes[of_around]) - start) / far
         of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
     order = np.argsort(of, kind="stable")
     scale = size[of[order], None]

@@ -31,7 +31,7 @@ class Envelope:
 
     def __init__(self, n_nodes: int, sliding: SlidingBoundary | None):
         self.sliding = sliding
-        self.max_deviation = np.inf if sliding is None else sliding.room
+        self.max_deviation = np.inf if sliding is None else sliding.tolerance
         self.released = np.zeros(n_nodes, dtype=bool)
         self.flips_allowed = False
         self._tracker: DeviationTracker | None = None
@@ -60,9 +60,9 @@ class Envelope:
             return points
         slide = nodes[self.slides(nodes)]
         if slide.size:
-            points[slide] = self.sliding.put_back(points[slide], slide)
+            points[slide] = self.sliding.project(points[slide], slide)
         # Away from the surface its normals say little, so that released nodes are not judged by them.
-        return self.sliding.unturned(before, points, self.released if self.flips_allowed else None)
+        return self.sliding.reject_flips(before, points, self.released if self.flips_allowed else None)
 
     def bounds(self, points: np.ndarray, moves: np.ndarray) -> LinearConstraints:
         """Linear constraints that keep the boundary in its band while each node moves by moves (n,) at most."""
@@ -89,7 +89,7 @@ class Envelope:
         """The larger of the distances of the boundary at points (n, 3) from the surface, and of the surface from it."""
         if self.sliding is None:
             return 0.0
-        return max(float(places.far.max(initial=0.0)) for places in self._deviations(points, 0.0))
+        return max(float(places.distances.max(initial=0.0)) for places in self._deviations(points, 0.0))
 
     def infeasible_nodes(self, points: np.ndarray) -> np.ndarray:
         """Nodes at which the boundary at points (n, 3) is outside its band, ascending, (k,) int."""
@@ -102,7 +102,8 @@ class Envelope:
     def _deviations(self, points: np.ndarray, room: float) -> tuple[Deviations, Deviations]:
         """Places of the boundary further than `room` from the surface, and of the surface from the boundary."""
         sliding = self.sliding
-        return sliding.off(points, np.arange(len(sliding.middles)), room), sliding.behind(points, room=room)
+        midpoints = np.arange(len(sliding.midpoints))
+        return sliding.boundary_deviation(points, midpoints, room), sliding.surface_deviation(points, limit=room)
 
     def _track(self, points: np.ndarray) -> DeviationTracker:
         if self._tracker is None or self._tracker.points is not points:

@@ -174,7 +174,7 @@ class MaxMinOptimiser:
         holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
         nodes = holding[envelope.slides(holding)]
         if not nodes.size and active.least <= 0:
-            nodes = holding[sliding.yields[holding] & ~mesh.free[holding]]
+            nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
             fixed = mesh.fixed.copy()
             fixed[nodes] = False
             self.corners.set_mesh(mesh.with_fixed(fixed))

@@ -58,7 +58,7 @@ class GETMe(SlidingSmoother):
             moved = points.copy()
             kernels.weighted_means(places, self.weigh(quality.q), hex_mesh, nodes, moved)
             if sliding is not None:
-                moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+                moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
             points, quality, relaxed = _without_harm(mesh, points, quality, moved, sliding)
             now = standing(quality)
             idle = 0 if np.any(now > best + RISE) else idle + 1
@@ -86,12 +86,14 @@ def _without_harm(
     """The moved points, relaxed where a hex that was sound would be inverted; their quality; how many were relaxed."""
     after = measure(moved, mesh.hexes)
     harmed = np.flatnonzero(after.inverted & ~quality.inverted).astype(np.int32)
-    if not harmed.size and (sliding is None or not sliding.refused(points, moved).size):
+    if not harmed.size and (sliding is None or not sliding.rejected_nodes(points, moved).size):
         return moved, after, 0
     relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~quality.inverted, harmed, moved)
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
-    moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
+    moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
     # A relaxed step that is put back may harm again: then it is not taken at all.
-    moved = sliding.held(points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted])
+    moved = sliding.reject_moves(
+        points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted]
+    )
     return moved, measure(moved, mesh.hexes), relaxed

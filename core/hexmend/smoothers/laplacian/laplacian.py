@@ -67,5 +67,5 @@ class Laplacian(SlidingSmoother):
         kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
         if sliding is None:
             return moved
-        moved[sliding.nodes] = sliding.put_back(moved[sliding.nodes])
-        return sliding.held(points, moved)
+        moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
+        return sliding.reject_moves(points, moved)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.errors import ParameterError
 from hexmend_app.scene.colours import INVERTED, table
 from hexmend_app.scene.export.sheet import draw_sheet
@@ -201,7 +201,7 @@ def test_panels_share_a_range_that_is_fitted():
 def test_what_has_moved_is_drawn_from_the_first_mesh_on():
     before, after = grid(3), scrambled(grid(3), 0.4)
     first, second = subjects(before, after)
-    then = Moment(before.points, first.figures, "before")
+    then = ReferenceState(before.points, first.figures, "before")
     first = Subject("a", before, first.figures, Displacement(before, then, before.points, first.figures))
     scene = Scene(movement=Traces(arrows=Arrows.ALL), page=Page(pixels=(600, 300)), panels=(Panel(mesh=2),), **BARE)
     still = Scene(page=scene.page, panels=scene.panels, **BARE)

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from hexmend.boundary.displacement import Displacement, Moment
+from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
 from hexmend_app.scene.layers import arrows as layer
@@ -17,7 +17,7 @@ from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
 from tests.core.grids import grid, scrambled
 
 MESH = grid(6)
-THEN = Moment(MESH.points, measure(MESH.points, MESH.hexes), "then")
+THEN = ReferenceState(MESH.points, measure(MESH.points, MESH.hexes), "then")
 NOW = scrambled(MESH, 0.5).points
 FIGURES = measure(NOW, MESH.hexes)
 CUT = PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0))

@@ -33,7 +33,7 @@ def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
         anew = DeviationTracker(sliding, points)
         assert (tracker.distances >= anew.distances - 1e-12).all()
         if not step:  # what is closest to a place at first is that place
-            went = np.isin(sliding.middles, moved).any(axis=1)
+            went = np.isin(sliding.midpoints, moved).any(axis=1)
             np.testing.assert_allclose(tracker.distances[went], anew.distances[went], atol=1e-12)
 
 
@@ -46,15 +46,15 @@ def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed,
     assert not before.after_move(mesh.points, sliding.nodes).exceeds(before, sliding.nodes, room)
     for points, moved in wandering(mesh, sliding.nodes, seed):
         after = before.after_move(points, moved)
-        furthest = max(off.far.max(initial=0.0) for off in both_ways(sliding, points))
-        was = max(off.far.max(initial=0.0) for off in both_ways(sliding, before.points))
+        furthest = max(off.distances.max(initial=0.0) for off in both_ways(sliding, points))
+        was = max(off.distances.max(initial=0.0) for off in both_ways(sliding, before.points))
         if was <= room:
             assert after.exceeds(before, moved, room) == (furthest > room)
         before = after
 
 
 def both_ways(sliding, points):
-    return sliding.off(points, np.arange(len(sliding.middles))), sliding.behind(points)
+    return sliding.boundary_deviation(points, np.arange(len(sliding.midpoints))), sliding.surface_deviation(points)
 
 
 @settings(max_examples=10)

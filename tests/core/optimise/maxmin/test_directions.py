@@ -29,10 +29,10 @@ def test_sliding_nodes_go_along_their_patch_or_curve_and_stay_on_it(mesh):
     ways = step_directions(x, size, radius, nodes, sliding.slides(nodes), sliding)
     assert (np.diff(ways.owner) >= 0).all()
     count = {NodeClass.CURVE: 2, NodeClass.PATCH: 8}
-    expected = [count.get(NodeClass(kind), 6) for kind in sliding.kind[nodes]]
+    expected = [count.get(NodeClass(kind), 6) for kind in sliding.node_class[nodes]]
     np.testing.assert_array_equal(np.bincount(ways.owner, minlength=nodes.size), expected)
     on = np.flatnonzero(sliding.slides(nodes)[ways.owner])
     of = ways.owner[on]
     there = x[of] + radius * ways.effective[on]
-    np.testing.assert_allclose(sliding.put_back(there, nodes[of]), there, atol=1e-9)
+    np.testing.assert_allclose(sliding.project(there, nodes[of]), there, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(ways.displacements[on], axis=1), size[of])

@@ -44,8 +44,8 @@ def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
     points = envelope.project(sliding.mesh.points, outside.copy(), nodes)
     np.testing.assert_array_equal(points[lifted], outside[lifted])
     others = nodes[1:]
-    np.testing.assert_allclose(sliding.put_back(points[others], others), points[others], atol=1e-9)
-    assert sliding.turned(sliding.mesh.points, points).size == 0
+    np.testing.assert_allclose(sliding.project(points[others], others), points[others], atol=1e-9)
+    assert sliding.flipped_quads(sliding.mesh.points, points).size == 0
 
 
 def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):

@@ -166,14 +166,14 @@ def test_coinciding_nodes_are_no_end(seed, one, other):
 def test_the_boundary_slides_in_its_room(seed, solid, share):
     mesh = slid({"ball": ball(3), "cylinder": cylinder(16, 3)}[solid], 0.25, seed)
     room = share * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, room=room)
+    sliding = SlidingBoundary(mesh, tolerance=room)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     before = raising.corners.least
     steps, _ = raised(raising)
     assert (np.diff([before, *(step.least for step in steps)]) > 0).all()
     assert raising.envelope.largest_deviation(raising.points) <= room * (1 + 1e-9)
     change = surface_change(mesh, mesh.with_points(raising.points))
-    assert change.furthest <= room * (1 + 1e-9)
+    assert change.max_distance <= room * (1 + 1e-9)
     np.testing.assert_array_equal(raising.points[sliding.mesh.fixed], mesh.points[sliding.mesh.fixed])
     on = raising.points[sliding.nodes]
-    np.testing.assert_allclose(sliding.put_back(on), on, atol=1e-9)
+    np.testing.assert_allclose(sliding.project(on), on, atol=1e-9)

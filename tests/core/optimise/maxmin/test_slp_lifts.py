@@ -46,7 +46,7 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
 
 def test_nothing_is_lifted_off_a_surface_without_room():
     mesh = slid(ball(3), 0.3, 1)
-    sliding = SlidingBoundary(mesh, room=0.0)
+    sliding = SlidingBoundary(mesh, tolerance=0.0)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
     raising.envelope.max_deviation = 0.0
@@ -72,7 +72,7 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
         pass
     assert raising.envelope.largest_deviation(raising.points) <= room * (1 + 1e-5)
     change = surface_change(mesh, mesh.with_points(raising.points))
-    assert change.furthest <= room * (1 + 1e-5)
+    assert change.max_distance <= room * (1 + 1e-5)
 
 
 def test_while_a_boundary_is_brought_into_its_room_its_distances_are_followed(monkeypatch):
@@ -102,7 +102,7 @@ def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_e
     """A corner of the solid, which has sharp edges, yields only where it would leave a hex without any volume."""
     mesh = grid(2)
     for least, yields in ((-0.1, True), (0.0, True), (0.1, False)):
-        sliding = SlidingBoundary(mesh, room=0.5)
+        sliding = SlidingBoundary(mesh, tolerance=0.5)
         raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
         raising.envelope.released[sliding.nodes] = True  # those of the edges and faces have left already
         assert raising.release(ActiveCorners(least, np.array([0]), np.array([0]))) == yields

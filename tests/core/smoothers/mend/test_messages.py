@@ -35,7 +35,7 @@ def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
 def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, room=room)
+    sliding = SlidingBoundary(mesh, tolerance=room)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     assert isinstance(limit, ActiveCorners)
@@ -49,7 +49,7 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
 
 def test_what_is_no_better_off_the_surface_is_given_up():
     mesh = ball(3)
-    sliding = SlidingBoundary(mesh, room=1e-9)
+    sliding = SlidingBoundary(mesh, tolerance=1e-9)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
@@ -72,7 +72,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
 def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
     mesh = slid(ball(3), 0.3, 1)
     room = 0.01 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, room=room)
+    sliding = SlidingBoundary(mesh, tolerance=room)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     config = replace(MAXMIN, acceptable=0.7)
@@ -90,7 +90,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
 def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, room=room)
+    sliding = SlidingBoundary(mesh, tolerance=room)
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
     limit = ActiveCorners(other.corners.least, np.array([0]), np.array([0]))
     walk = release_from_surface(off, room, MaxMinResult(other, limit), replace(MAXMIN, acceptable=0.3))

@@ -75,7 +75,7 @@ def test_without_a_limit_nodes_stay_on_their_curves_and_patches(solid, goal, amp
     sliding = SlidingBoundary(mesh)
     result = smooth(mesh, Mend(goal=goal, boundary="slide", surface_tolerance="unlimited"), SHORT)
     on = result.mesh.points[sliding.nodes]
-    away = np.linalg.norm(sliding.put_back(on) - on, axis=1)
+    away = np.linalg.norm(sliding.project(on) - on, axis=1)
     assert away.max() < 1e-9 * mesh.mean_edge_length
     kept = sliding.mesh.fixed
     np.testing.assert_array_equal(result.mesh.points[kept], mesh.points[kept])
@@ -126,7 +126,7 @@ def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
     mesh = rough(seed)
     result = smooth(mesh, Mend(boundary="slide", goal="scaled-jacobian"), StoppingCriteria(max_iterations=600))
     assert result.after.inverted <= result.before.inverted
-    assert not SlidingBoundary(mesh).turned(mesh.points, result.mesh.points).size
+    assert not SlidingBoundary(mesh).flipped_quads(mesh.points, result.mesh.points).size
     assert surface_change(mesh, result.mesh).max <= 0.3 * (1 + 1e-4)
     assert result.limits is None or result.kept == result.iterations
     assert ("hold each other" in result.message) <= (result.kept == result.iterations)
