@@ -25,7 +25,7 @@ class InstallationError(HexmendError, ImportError):
     """A part of Hexmend that is not installed, or not built."""
 
 
-class ShortageError(HexmendError):
+class InsufficientMemoryError(HexmendError):
     """A run that needs more memory than there is."""
 
 

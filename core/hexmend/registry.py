@@ -75,7 +75,7 @@ class Registry(Mapping[str, T], Generic[T]):
         return self._entries
 
 
-def load_others(group: str, kind: str, take: Callable[[str, object], object]) -> None:
+def load_entry_points(group: str, kind: str, take: Callable[[str, object], object]) -> None:
     """Load what other distributions add; what cannot be loaded or taken is told of, and the others go on.
 
     Parameters

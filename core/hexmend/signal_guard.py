@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     Function = TypeVar("Function", bound=Callable)
 
 #: Their code, by which a signal's handler finds them among the frames that it has interrupted.
-UNINTERRUPTED: set[CodeType] = set()
+UNINTERRUPTED_CODE: set[CodeType] = set()
 
 #: Called after each of them, in order to raise what has waited.
 ON_RETURN: list[Callable[[], object]] = []
@@ -30,7 +30,7 @@ def uninterrupted(function: Function) -> Function:
     callable
         The function; the exception is raised when it returns.
     """
-    UNINTERRUPTED.add(function.__code__)
+    UNINTERRUPTED_CODE.add(function.__code__)
 
     def guarded(*args: Any, **options: Any) -> Any:
         answer = function(*args, **options)
@@ -54,7 +54,7 @@ def is_interruptible(frame: FrameType | None) -> bool:
     """
     while frame is not None:
         code = frame.f_code
-        if code in UNINTERRUPTED or code.co_filename.startswith("<frozen importlib"):
+        if code in UNINTERRUPTED_CODE or code.co_filename.startswith("<frozen importlib"):
             return False
         frame = frame.f_back
     return True

@@ -8,7 +8,7 @@ from typing import Any
 from hexmend.errors import ParameterError
 
 #: Letters of a text, and dots in a key: a parser takes the square of these in memory.
-LARGEST, DEEPEST = 1_000_000, 8
+MAX_CHARACTERS, MAX_KEY_PARTS = 1_000_000, 8
 
 #: Strings of several lines and of one, and comments; one that has no end goes as far as a parser looks for it.
 _STRING_OR_COMMENT = re.compile(
@@ -21,10 +21,10 @@ _STRING_OR_COMMENT = re.compile(
 )
 
 #: The dots of a key with too many parts.
-_DEEP_KEY = re.compile(rf'(?:\.[ \t]*+(?:[\w-]++|"")?[ \t]*+){{{DEEPEST + 1}}}')
+_DEEP_KEY = re.compile(rf'(?:\.[ \t]*+(?:[\w-]++|"")?[ \t]*+){{{MAX_KEY_PARTS + 1}}}')
 
 
-def parsed(text: str, what: str, largest: int = LARGEST) -> dict[str, Any]:
+def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str, Any]:
     """The data of a TOML text.
 
     Parameters
@@ -42,9 +42,9 @@ def parsed(text: str, what: str, largest: int = LARGEST) -> dict[str, Any]:
 
     Examples
     --------
-    >>> parsed("a = [1, 2]", "a recipe")
+    >>> parse_toml("a = [1, 2]", "a recipe")
     {'a': [1, 2]}
-    >>> parsed("a = ", "a recipe")
+    >>> parse_toml("a = ", "a recipe")
     Traceback (most recent call last):
     hexmend.errors.ParameterError: is not TOML: invalid value (at line 1, column 5, the end)
     """
@@ -69,4 +69,4 @@ def _check_size(text: str, what: str, largest: int) -> None:
     bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
     if deep := _DEEP_KEY.search(bare):
         number = bare.count("\n", 0, deep.start()) + 1
-        raise ParameterError(f"line {number} has a key of more than {DEEPEST} parts")
+        raise ParameterError(f"line {number} has a key of more than {MAX_KEY_PARTS} parts")

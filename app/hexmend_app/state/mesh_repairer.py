@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.doctor import AILMENTS, Finding, repair
+from hexmend.doctor import PROBLEMS, Finding, repair
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.state.deeds import Changed
 from hexmend_app.state.document import State
@@ -90,7 +90,7 @@ class MeshRepairer(QObject):
             self.cancelled.emit()
             return
         if mended:
-            title = "mend " + " and ".join(AILMENTS[one.kind].title.lower() for one in mended)
+            title = "mend " + " and ".join(PROBLEMS[one.kind].title.lower() for one in mended)
             document.commit(title, state)
             self._session.commands.done.emit(Changed(title, before, document.now, repair, (self._kinds,)))
         self.ended.emit(mended)

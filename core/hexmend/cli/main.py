@@ -118,7 +118,7 @@ def _own_commands() -> dict[str, Callable[[], Command]]:
 def _run(load: Callable[[], Command], words: list[str]) -> int:
     import argparse
 
-    from hexmend.errors import FileError, HexmendError, MeshError, ShortageError
+    from hexmend.errors import FileError, HexmendError, InsufficientMemoryError, MeshError
     from hexmend.terminal_text import printable
 
     try:
@@ -135,7 +135,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
             return command.run(args)
     except HexmendError as error:
         print(f"hexmend: {printable(str(error))}", file=sys.stderr)
-        return 3 if isinstance(error, FileError | MeshError | ShortageError) else 2
+        return 3 if isinstance(error, FileError | MeshError | InsufficientMemoryError) else 2
     except MemoryError:
         print("hexmend: memory does not suffice: close other programs, or take a smaller mesh", file=sys.stderr)
         return 3

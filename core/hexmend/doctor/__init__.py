@@ -3,7 +3,7 @@
 >>> from hexmend.gallery import make
 >>> examine(make("cube", size=8))
 ()
->>> sorted(AILMENTS)[:3]
+>>> sorted(PROBLEMS)[:3]
 ['coincident-nodes', 'crowded-faces', 'degenerate-hexes']
 """
 
@@ -11,15 +11,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from hexmend.aliases import exports
 from hexmend.doctor import cells, connection, nodes, winding  # noqa: F401  (they register themselves)
-from hexmend.doctor.problem import AILMENTS, Ailment, Finding
+from hexmend.doctor.problem import PROBLEMS, Finding, Problem
 from hexmend.mesh.mesh import Mesh
 
-__all__ = ["AILMENTS", "Ailment", "Finding", "examine", "repair"]
+__all__ = ["PROBLEMS", "Finding", "Problem", "examine", "repair"]
 
 
-def _ordered() -> list[Ailment]:
-    return sorted(AILMENTS.values(), key=lambda one: one.rank)
+def _ordered() -> list[Problem]:
+    return sorted(PROBLEMS.values(), key=lambda one: one.rank)
 
 
 def examine(mesh: Mesh, quick: bool = False) -> tuple[Finding, ...]:
@@ -57,7 +58,7 @@ def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, .
     """
     mended = []
     for name in only:
-        AILMENTS[name]
+        PROBLEMS[name]
     asked = [one for one in _ordered() if not only or one.name in only]
     changed = True
     while changed:  # merging nodes may make duplicates, and so on
@@ -69,3 +70,6 @@ def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, .
                 mesh, changed = after, True
                 mended.append(found)
     return mesh, tuple(mended)
+
+
+__getattr__ = exports(__name__)

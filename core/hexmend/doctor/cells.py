@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import Ailment, Finding, ailment, counted
-from hexmend.doctor.removal import collapsed, with_hexes
+from hexmend.doctor.problem import Finding, Problem, count_phrase, register_problem
+from hexmend.doctor.removal import has_repeated_node, keep_hexes
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
@@ -31,20 +31,20 @@ _WEDGES = {
 }
 
 
-@ailment
-class DuplicateHexes(Ailment):
+@register_problem
+class DuplicateHexes(Problem):
     """Hexes on the nodes of others."""
 
     name, title = "duplicate-hexes", "Duplicate hexes"
     rank = 3
     action = "keep the first of each"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
-            self.name, where.size, f"{counted(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
+            self.name, where.size, f"{count_phrase(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
             "Remove the duplicates.", True, where,
         )  # fmt: skip
 
@@ -52,32 +52,32 @@ class DuplicateHexes(Ailment):
         rows = np.sort(mesh.hexes, axis=1)
         again = _repeated(rows)
         _, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-        return with_hexes(mesh, ~again, stands_for=first[which.reshape(-1)])
+        return keep_hexes(mesh, ~again, stands_for=first[which.reshape(-1)])
 
 
-@ailment
-class DegenerateHexes(Ailment):
+@register_problem
+class DegenerateHexes(Problem):
     """Hexes that use a node twice: edges are collapsed, and corners there can never be good."""
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
     action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        return np.flatnonzero(collapsed(mesh.hexes))
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(has_repeated_node(mesh.hexes))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         wedges, flat = _wedges(mesh, where)
         kinds = f"{len(wedges):,} of them are wedges, {len(flat):,} flat" if len(wedges) + len(flat) else ""
         return Finding(
             self.name, where.size,
-            f"{counted(where.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
+            f"{count_phrase(where.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
             "Make them wedges, or mesh them anew.", 0 < len(wedges) + len(flat) < mesh.n_hexes, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        wedges, flat = _wedges(mesh, self.where(mesh))
+        wedges, flat = _wedges(mesh, self.locate(mesh))
         gone = np.array([*wedges, *flat], dtype=np.int64)
         if not gone.size or gone.size == mesh.n_hexes:
             return mesh
@@ -92,7 +92,7 @@ class DegenerateHexes(Ailment):
             data = {name: np.asarray(values)[which] for name, values in mesh.hex_data.items()}
             sets = {name: np.flatnonzero(np.isin(which, members)) for name, members in mesh.hex_sets.items()}
             cells = (*cells, Cells("wedge", nodes, data, {name: rows for name, rows in sets.items() if rows.size}))
-        return with_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
+        return keep_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
 
 
 def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], list[int]]:

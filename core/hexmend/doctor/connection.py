@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import parts_of
 
 
-@ailment
-class CrowdedFaces(Ailment):
+@register_problem
+class NonManifoldFaces(Problem):
     """Faces that more than two hexes share."""
 
     name, title = "crowded-faces", "Non-manifold faces"
     rank = 8
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if not mesh.topology.n_nonmanifold_faces:
-            return NOWHERE
+            return NONE_FOUND
         faces = np.sort(mesh.hexes[:, FACES], axis=2).reshape(-1, 4)
         _, which, times = np.unique(faces, axis=0, return_inverse=True, return_counts=True)
         return np.unique(np.flatnonzero(times[which.reshape(-1)] > 2) // 6)
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         count = mesh.topology.n_nonmanifold_faces
         return Finding(
             self.name, count,
@@ -33,20 +33,20 @@ class CrowdedFaces(Ailment):
         )  # fmt: skip
 
 
-@ailment
-class Parts(Ailment):
+@register_problem
+class DisconnectedParts(Problem):
     """Parts of hexes that hang together with no other, by cells of other kinds neither."""
 
     name, title = "parts", "Parts apart"
     rank = 9
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if mesh.topology.parts < 2:
-            return NOWHERE
+            return NONE_FOUND
         part = parts_of(mesh, others=True)
         return np.flatnonzero(part != np.bincount(part).argmax())
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         sizes = np.bincount(parts_of(mesh, others=True))
         more = len(sizes) - 1
         return Finding(

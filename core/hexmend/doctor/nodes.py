@@ -4,88 +4,88 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
-from hexmend.doctor.removal import collapsed, used_by_anything, with_nodes
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, count_phrase, register_problem
+from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
 #: Nodes are in one place if they are no further apart than this, in mean edge lengths.
-NEAR = 1e-6
+MERGE_DISTANCE = 1e-6
 
 
-@ailment
-class CoincidentNodes(Ailment):
+@register_problem
+class CoincidentNodes(Problem):
     """Nodes in one place: blocks that were never merged, if boundary faces lie on each other there."""
 
     name, title = "coincident-nodes", "Coincident nodes"
     rank = 4
     action = "merge them, so that faces on each other become one"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        if quick and not _repeated(mesh.points[used_by_anything(mesh)] + 0.0):  # -0 and 0 are one place
-            return NOWHERE
-        return np.flatnonzero(_merged(mesh) != np.arange(mesh.n_nodes))
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        if quick and not _count_repeated(mesh.points[referenced_nodes(mesh)] + 0.0):  # -0 and 0 are one place
+            return NONE_FOUND
+        return np.flatnonzero(_merge_targets(mesh) != np.arange(mesh.n_nodes))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        faces = np.sort(_merged(mesh)[mesh.topology.boundary_faces], axis=1)
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        faces = np.sort(_merge_targets(mesh)[mesh.topology.boundary_faces], axis=1)
         pairs = len(faces) - len(np.unique(faces, axis=0))
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
         return Finding(
             self.name, where.size,
-            f"{counted(where.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
+            f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
                 "" if blocks else " Hexes that should be joined may be apart there."
             ),
             "Merge them, unless parts are meant to slide on each other.", True, nodes=where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        target = _merged(mesh)
-        return with_nodes(mesh, np.unique(target, return_inverse=True)[1].reshape(-1))
+        target = _merge_targets(mesh)
+        return renumber_nodes(mesh, np.unique(target, return_inverse=True)[1].reshape(-1))
 
 
-@ailment
-class UnusedNodes(Ailment):
+@register_problem
+class UnusedNodes(Problem):
     """Nodes of no cell."""
 
     name, title = "unused-nodes", "Unused nodes"
     rank = 6
     action = "remove them"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        return np.flatnonzero(~used_by_anything(mesh))
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+        return np.flatnonzero(~referenced_nodes(mesh))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
             self.name, where.size,
-            f"{counted(where.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
+            f"{count_phrase(where.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
             "Remove them.", True, nodes=where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        used = used_by_anything(mesh)
-        return with_nodes(mesh, np.where(used, np.cumsum(used) - 1, -1))
+        used = referenced_nodes(mesh)
+        return renumber_nodes(mesh, np.where(used, np.cumsum(used) - 1, -1))
 
 
-@ailment
-class HangingNodes(Ailment):
+@register_problem
+class HangingNodes(Problem):
     """Nodes in the middle of an edge or a face of hexes that do not use them: a fine block beside a coarse one."""
 
     name, title = "hanging-nodes", "Hanging nodes"
     rank = 7
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick:
-            return NOWHERE
+            return NONE_FOUND
         from scipy.spatial import cKDTree
 
         faces = mesh.topology.boundary_faces
         x = mesh.points[faces]
         middles = np.concatenate([(x + np.roll(x, -1, axis=1)).reshape(-1, 3) / 2, x.mean(axis=1)])
         nodes = np.flatnonzero(mesh.topology.boundary)
-        far, near = cKDTree(mesh.points[nodes]).query(middles, distance_upper_bound=_reach(mesh))
+        far, near = cKDTree(mesh.points[nodes]).query(middles, distance_upper_bound=_merge_distance(mesh))
         return np.unique(nodes[near[np.isfinite(far)]])
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
             self.name, where.size,
             f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
@@ -94,7 +94,7 @@ class HangingNodes(Ailment):
         )  # fmt: skip
 
 
-def _repeated(rows: np.ndarray) -> int:
+def _count_repeated(rows: np.ndarray) -> int:
     """How many rows (n, k) are the same as one before them.
 
     A number is made of each row, which equal rows share: where all numbers differ no row is repeated, and the rows
@@ -112,11 +112,11 @@ def _repeated(rows: np.ndarray) -> int:
     return len(rows) - len(np.unique(rows, axis=0))
 
 
-def _reach(mesh: Mesh) -> float:
-    return NEAR * (mesh.mean_edge_length or 1.0)
+def _merge_distance(mesh: Mesh) -> float:
+    return MERGE_DISTANCE * (mesh.mean_edge_length or 1.0)
 
 
-def _merged(mesh: Mesh) -> np.ndarray:
+def _merge_targets(mesh: Mesh) -> np.ndarray:
     """Where each node goes if those in one place become the first of them, (n,) int64.
 
     Nodes that a hex uses both stay apart: merging them would collapse it.
@@ -124,8 +124,8 @@ def _merged(mesh: Mesh) -> np.ndarray:
     from scipy.spatial import cKDTree
 
     n = mesh.n_nodes
-    used = np.flatnonzero(used_by_anything(mesh))
-    pairs = used[cKDTree(mesh.points[used]).query_pairs(_reach(mesh), output_type="ndarray")]
+    used = np.flatnonzero(referenced_nodes(mesh))
+    pairs = used[cKDTree(mesh.points[used]).query_pairs(_merge_distance(mesh), output_type="ndarray")]
     target = np.arange(n)
     if not len(pairs):
         return target
@@ -133,6 +133,6 @@ def _merged(mesh: Mesh) -> np.ndarray:
     first = np.full(group.max() + 1, n)
     np.minimum.at(first, group, np.arange(n))
     target = first[group]
-    broken = collapsed(target[mesh.hexes]) & ~collapsed(mesh.hexes)
+    broken = has_repeated_node(target[mesh.hexes]) & ~has_repeated_node(mesh.hexes)
     apart = np.isin(target, target[mesh.hexes[broken]])
     return np.where(apart, np.arange(n), target)

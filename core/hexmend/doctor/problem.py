@@ -12,7 +12,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
 #: No hexes, or no nodes.
-NOWHERE = np.empty(0, np.int64)
+NONE_FOUND = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,8 +40,8 @@ class Finding:
     message: str
     remedy: str = ""
     mendable: bool = False
-    hexes: np.ndarray = field(default_factory=lambda: NOWHERE)
-    nodes: np.ndarray = field(default_factory=lambda: NOWHERE)
+    hexes: np.ndarray = field(default_factory=lambda: NONE_FOUND)
+    nodes: np.ndarray = field(default_factory=lambda: NONE_FOUND)
 
     def to_dict(self, most: int = 10) -> dict[str, Any]:
         """The finding for other programs, with its first places."""
@@ -55,12 +55,12 @@ class Finding:
             "nodes": self.nodes[:most].tolist(),
         }
 
-    def places(self, most: int = 5) -> str:
+    def location_text(self, most: int = 5) -> str:
         """The first places in words.
 
-        >>> Finding("unused-nodes", 7, "", nodes=np.arange(7)).places(3)
+        >>> Finding("unused-nodes", 7, "", nodes=np.arange(7)).location_text(3)
         'nodes 0, 1, 2, ...'
-        >>> Finding("flipped-hexes", 1, "", hexes=np.array([12])).places()
+        >>> Finding("flipped-hexes", 1, "", hexes=np.array([12])).location_text()
         'hex 12'
         """
         name, numbers = ("hex", self.hexes) if len(self.hexes) else ("node", self.nodes)
@@ -70,15 +70,15 @@ class Finding:
         return f"{plural} {', '.join(str(int(k)) for k in numbers[:most])}{', ...' if len(numbers) > most else ''}"
 
 
-def counted(count: int, one: str, several: str) -> str:
+def count_phrase(count: int, one: str, several: str) -> str:
     """
-    >>> counted(1, "hex is", "hexes are"), counted(2000, "hex is", "hexes are")
+    >>> count_phrase(1, "hex is", "hexes are"), count_phrase(2000, "hex is", "hexes are")
     ('1 hex is', '2,000 hexes are')
     """
     return f"{count:,} {one if count == 1 else several}"
 
 
-class Ailment(ABC):
+class Problem(ABC):
     """A kind of trouble: how it is found and, if it can be, mended."""
 
     #: The key in AILMENTS, and what the viewer calls it.
@@ -91,16 +91,16 @@ class Ailment(ABC):
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
         """What there is of it; None for nothing. `quick`: only what can be found without a search in space."""
-        where = self.where(mesh, quick)
-        return self.told(mesh, where) if where.size else None
+        where = self.locate(mesh, quick)
+        return self.describe(mesh, where) if where.size else None
 
     @abstractmethod
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         """The hexes, or the nodes, that have it, ascending, (k,) int64."""
 
     @abstractmethod
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        """What there is of it: `where` is what the method of that name gives, and not empty."""
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
+        """What there is of it: `locate` is what the method of that name gives, and not empty."""
 
     def mend(self, mesh: Mesh) -> Mesh:
         """The mesh without it, as far as that goes."""
@@ -108,10 +108,10 @@ class Ailment(ABC):
 
 
 #: Every ailment by name.
-AILMENTS: Registry[Ailment] = Registry("ailment")
+PROBLEMS: Registry[Problem] = Registry("problem")
 
 
-def ailment(cls: type[Ailment]) -> type[Ailment]:
+def register_problem(cls: type[Problem]) -> type[Problem]:
     """Class decorator: register an ailment under its name."""
-    AILMENTS.add(cls.name, cls())
+    PROBLEMS.add(cls.name, cls())
     return cls

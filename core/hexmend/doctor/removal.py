@@ -8,7 +8,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 
 
-def with_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:
+def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:
     """The mesh of some of its hexes; all nodes stay.
 
     Parameters
@@ -30,13 +30,13 @@ def with_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = Non
     return mesh.rebuilt(
         hexes=mesh.hexes[rows],
         hex_data={name: np.asarray(values)[rows] for name, values in mesh.hex_data.items()},
-        hex_sets=_kept_sets(mesh.hex_sets, place),
+        hex_sets=_renumbered_sets(mesh.hex_sets, place),
         side_sets={name: faces[faces[:, 0] >= 0] for name, faces in sides.items() if (faces[:, 0] >= 0).any()},
         mid_nodes=None if mesh.mid_nodes is None else mesh.mid_nodes[rows],
     )
 
 
-def with_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
+def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     """The mesh whose nodes are renumbered.
 
     Parameters
@@ -53,20 +53,20 @@ def with_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
         points=mesh.points[first],
         hexes=target[mesh.hexes],
         mid_nodes=mids,
-        pinned=None if mesh.pinned is None else _any(mesh.pinned, target, len(first)),
+        pinned=None if mesh.pinned is None else _any_by_target(mesh.pinned, target, len(first)),
         node_data={name: np.asarray(values)[first] for name, values in mesh.node_data.items()},
-        node_sets=_kept_sets(mesh.node_sets, target),
+        node_sets=_renumbered_sets(mesh.node_sets, target),
         cells=tuple(Cells(c.kind, target[c.nodes].astype(np.int32), c.data, c.sets) for c in mesh.cells),
     )
 
 
-def collapsed(hexes: np.ndarray) -> np.ndarray:
+def has_repeated_node(hexes: np.ndarray) -> np.ndarray:
     """True for each hex (m, 8) that uses a node twice, (m,) bool."""
     rows = np.sort(hexes, axis=1)
     return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
 
 
-def used_by_anything(mesh: Mesh) -> np.ndarray:
+def referenced_nodes(mesh: Mesh) -> np.ndarray:
     """True for each node that a hex, of whatever order, another cell or a named set uses, (n,) bool."""
     used = mesh.topology.used.copy()
     if mesh.mid_nodes is not None:
@@ -78,7 +78,7 @@ def used_by_anything(mesh: Mesh) -> np.ndarray:
     return used
 
 
-def _kept_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
+def _renumbered_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
     """Sets of those that stay, in their new numbers; a set of which nothing stays is left out."""
     answer = {}
     for name, members in sets.items():
@@ -89,7 +89,7 @@ def _kept_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
     return answer
 
 
-def _any(marks: np.ndarray, target: np.ndarray, count: int) -> np.ndarray:
+def _any_by_target(marks: np.ndarray, target: np.ndarray, count: int) -> np.ndarray:
     answer = np.zeros(count, dtype=bool)
     answer[target[marks & (target >= 0)]] = True
     return answer

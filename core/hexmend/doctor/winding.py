@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import NOWHERE, Ailment, Finding, ailment, counted
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, count_phrase, register_problem
 from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes, mirrored_parts
 from hexmend.quality import corner_determinants
 
 
-@ailment
-class MirroredParts(Ailment):
+@register_problem
+class MirroredParts(Problem):
     """Whole parts numbered left-handed; on reading they are turned unless the user wants them as they are."""
 
     name, title = "mirrored-parts", "Mirrored parts"
     rank = 0
     action = "number their hexes the other way"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(mirrored_parts(mesh))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         whole = "All hexes" if where.size == mesh.n_hexes else f"{where.size:,} hexes, which make whole parts,"
         return Finding(
             self.name, where.size, f"{whole} are inside out: their corners are numbered left-handed.",
@@ -33,22 +33,22 @@ class MirroredParts(Ailment):
         return mirror_hexes(mesh, mirrored_parts(mesh))
 
 
-@ailment
-class FlippedHexes(Ailment):
+@register_problem
+class FlippedHexes(Problem):
     """Single hexes numbered left-handed among sound neighbours: no tangle, but a mistake of numbering."""
 
     name, title = "flipped-hexes", "Flipped hexes"
     rank = 2
     action = "number them the other way"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(self._which(mesh))
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
             self.name, where.size,
-            f"{counted(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other way, as "
-            "the neighbours are.",
+            f"{count_phrase(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other "
+            "way, as the neighbours are.",
             "Number them the other way: nodes stay where they are.", True, where,
         )  # fmt: skip
 
@@ -62,12 +62,14 @@ class FlippedHexes(Ailment):
         rows = np.flatnonzero(inside_out)
         neighbours = mesh.topology.face_neighbours[rows]
         inner = neighbours >= 0
-        fine = np.where(inner, (sound | inside_out)[neighbours] & _apart(mesh, rows, neighbours), True).all(axis=1)
+        fine = np.where(inner, (sound | inside_out)[neighbours] & _on_opposite_sides(mesh, rows, neighbours), True).all(
+            axis=1
+        )
         inside_out[rows] = fine & (inner & sound[neighbours]).any(axis=1)
         return inside_out
 
 
-def _apart(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
+def _on_opposite_sides(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     """Whether hexes (k,) and their neighbours (k, 6) lie on two sides of the face that they share, (k, 6) bool."""
     faces = mesh.points[mesh.hexes[rows][:, FACES]]
     middle = faces.mean(axis=2)
@@ -77,31 +79,31 @@ def _apart(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
     return ((own - middle) * normal).sum(axis=2) * ((other - middle) * normal).sum(axis=2) < 0
 
 
-@ailment
-class VoxelOrder(Ailment):
+@register_problem
+class VoxelOrder(Problem):
     """Corners in the order of VTK's voxel under the type of a hexahedron: the hexes are twisted."""
 
     name, title = "voxel-order", "Voxels labelled as hexahedra"
     rank = 1
     action = "put their corners in the order of hexahedra"
 
-    def where(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
+    def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if mesh.mid_nodes is not None:
-            return NOWHERE
+            return NONE_FOUND
         # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
         alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
         twisted = np.flatnonzero(alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1))
         return twisted[(corner_determinants(mesh.points, mesh.hexes[twisted][:, VOXEL_ORDER]) > 0).all(axis=1)]
 
-    def told(self, mesh: Mesh, where: np.ndarray) -> Finding:
+    def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return Finding(
             self.name, where.size,
-            f"{counted(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of voxels "
-            "(VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, where,
+            f"{count_phrase(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of "
+            "voxels (VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, where,
         )  # fmt: skip
 
     def mend(self, mesh: Mesh) -> Mesh:
-        which = self.where(mesh)
+        which = self.locate(mesh)
         hexes = mesh.hexes.copy()
         hexes[which] = hexes[which][:, VOXEL_ORDER]
         return mesh.rebuilt(hexes=hexes)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 #: Where the largest number of a matrix is smaller than this, single precision has no digits for the others.
-_SMALL = 1e-25
+_SINGLE_UNDERFLOW = 1e-25
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class AssembledHessian(SymmetricOperator):
         self.order = couplings.order
         self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
 
-    def cleared(self) -> AssembledHessian:
+    def reset(self) -> AssembledHessian:
         """The same room for another matrix, all zero; this one is gone."""
         self.off.fill(0)
         self.diagonal.fill(0)
@@ -70,9 +70,9 @@ class AssembledHessian(SymmetricOperator):
         off = np.zeros((couplings.blocks + 1, 9), dtype)
         return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
 
-    def too_small(self) -> bool:
+    def underflows(self) -> bool:
         """Whether the blocks are so small that single precision rounds them or loses them."""
-        return float(np.abs(self.diagonal).max(initial=0.0)) < _SMALL
+        return float(np.abs(self.diagonal).max(initial=0.0)) < _SINGLE_UNDERFLOW
 
     def normalised(self, dtype: type) -> AssembledHessian:
         """The same matrix with blocks of another precision, the largest number on the diagonal between 1/2 and 1."""
@@ -132,7 +132,7 @@ class AssembledHessian(SymmetricOperator):
         return CGResult(solution, count, end == kernels.NEGATIVE_CURVATURE)
 
     @property
-    def own_blocks(self) -> np.ndarray:
+    def diagonal_blocks(self) -> np.ndarray:
         """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
         return np.ldexp(self.diagonal[self.order].astype(np.float64), self.exponent)
 
@@ -144,7 +144,7 @@ class AssembledHessian(SymmetricOperator):
         slots = np.arange(self.order.size)
         rows, off = np.repeat(slots, np.diff(start)), self.off[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
-        blocks = np.concatenate([full(self.diagonal), off, off.transpose(0, 2, 1)])
+        blocks = np.concatenate([unpack_symmetric(self.diagonal), off, off.transpose(0, 2, 1)])
         free = np.argsort(self.order)  # the number of each slot's node among the free nodes
         row = 3 * free[i][:, None, None] + np.arange(3)[:, None]
         column = 3 * free[j][:, None, None] + np.arange(3)
@@ -153,6 +153,6 @@ class AssembledHessian(SymmetricOperator):
         return coo_array((blocks.ravel(), (row.ravel(), column.ravel())), shape=self.shape).tocsr()
 
 
-def full(blocks: np.ndarray) -> np.ndarray:
+def unpack_symmetric(blocks: np.ndarray) -> np.ndarray:
     """Symmetric blocks (k, 6) as matrices (k, 3, 3)."""
     return blocks[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)

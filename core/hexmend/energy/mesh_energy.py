@@ -199,9 +199,9 @@ class Hessian(SymmetricOperator):
         """
         couplings = self.energy.couplings
         fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
-        matrix = room.cleared() if fits else AssembledHessian.zero(couplings, dtype)
+        matrix = room.reset() if fits else AssembledHessian.zero(couplings, dtype)
         self._assemble(matrix)
-        if dtype == np.float32 and matrix.too_small():
+        if dtype == np.float32 and matrix.underflows():
             wide = AssembledHessian.zero(couplings, np.float64)
             self._assemble(wide)
             return wide.normalised(dtype)

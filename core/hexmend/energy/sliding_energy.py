@@ -7,12 +7,12 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy.assembled_hessian import AssembledHessian, full
+from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 
 #: How far nodes are led to see where that is, in mean edge lengths.
-_NEAR = 1e-5
+_PROBE_LENGTH = 1e-5
 
 
 class SlidingEnergy(MeshEnergy):
@@ -51,7 +51,7 @@ class SlidingEnergy(MeshEnergy):
         gradient = super().gradient(x, delta)
         rows, nodes, unit = self._rows, self.sliding.nodes, self.unit
         size = np.linalg.norm(step[rows], axis=1)
-        far = _NEAR / np.maximum(size, np.finfo(float).tiny)[:, None]
+        far = _PROBE_LENGTH / np.maximum(size, np.finfo(float).tiny)[:, None]
         aims = (x[nodes] + far * step[rows]) * unit
         leads = (self.sliding.project(aims) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])
@@ -86,7 +86,7 @@ class SlidingEnergy(MeshEnergy):
         return seen[1]
 
     @cached_property
-    def touched(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The blocks above an assembled Hessian's diagonal of nodes that slide, and the slots of both, (b,) each."""
         couplings = self.couplings
         slides = np.zeros(couplings.nodes.size, dtype=bool)
@@ -124,10 +124,10 @@ class SlidingHessian(Hessian):
         along = energy.projectors(self.x).astype(dtype)
         of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()
         of_slot[slots] = along
-        at, row, column = energy.touched
+        at, row, column = energy.sliding_blocks
         blocks = of_slot[row] @ matrix.off[at].reshape(-1, 3, 3) @ of_slot[column]
         matrix.off[at] = blocks.reshape(-1, 9)
-        own = along @ full(matrix.diagonal[slots]) @ along
+        own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
         size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
         size = np.where(size > 0, size, 1)[:, None, None]  # neither the least nor the greatest eigenvalue
         own += size * (np.eye(3, dtype=dtype) - along)

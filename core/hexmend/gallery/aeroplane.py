@@ -3,8 +3,8 @@
 Lengths are in about the fuselage's length. x runs aft from the nose, y to starboard, z up; the fuselage's axis is
 y = z = 0.
 
-A part gives the `boxes` that it fills in the grid and `onto`, which takes points of the boxes' surfaces to its own
-surface. Parts come in order: a point that two share, at a wing's root, goes where the later takes it.
+A part gives the `boxes` that it fills in the grid and `map_to_surface`, which takes points of the boxes' surfaces to its
+own surface. Parts come in order: a point that two share, at a wing's root, goes where the later takes it.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Fuselage:
         aft = np.clip((x - self.tail) / (1 - self.tail), 0, None)
         return self.radius * ellipse * (1 - self.narrowing * aft**2)
 
-    def onto(self, points: np.ndarray) -> np.ndarray:
+    def map_to_surface(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 3), squares about the axis having become circles, and the two ends caps."""
         x, y, z = points.T
         square = np.maximum(np.abs(y), np.abs(z)) / self.radius
@@ -87,7 +87,7 @@ class Wing:
         aft = 1 - (1 - self.edge) * np.clip((c - self.crest) / (1 - self.crest), 0, 1) ** 1.5
         return np.where(c < self.crest, fore, aft)
 
-    def onto(self, points: np.ndarray) -> np.ndarray:
+    def map_to_surface(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 3) of the box sheared, tapered, given a profile, its root on the fuselage, its edges rounded."""
         out, across = points[:, self.axis], points[:, 3 - self.axis] / HALF_BOX
         c = (points[:, 0] - self.leading) / self.root
@@ -113,12 +113,12 @@ FIN = Wing(axis=2, leading=0.79, root=0.14, tip=0.135, sweep=0.09, span=0.21)
 PARTS = (FUSELAGE, WINGS, TAILPLANE, FIN)
 
 
-def onto_aeroplane(points: np.ndarray) -> np.ndarray:
+def map_onto_aeroplane(points: np.ndarray) -> np.ndarray:
     """Take points of the boxes' surfaces to the aeroplane's, (n, 3) float64."""
     placed = points.copy()
     for part in PARTS:
         for low, high in part.boxes:
             here = ((points > low - 1e-9) & (points < high + 1e-9)).all(axis=1)
-            placed[here] = part.onto(points[here])
+            placed[here] = part.map_to_surface(points[here])
     placed[:, 2] += 0.03 * np.clip((placed[:, 0] - FUSELAGE.tail) / (1 - FUSELAGE.tail), 0, None) ** 2
     return placed

@@ -16,7 +16,7 @@ def box_hexes(nx: int, ny: int, nz: int) -> np.ndarray:
     return np.column_stack([number[place].ravel() for place in places])
 
 
-def extruded(quads: np.ndarray, nodes: int, layers: int) -> np.ndarray:
+def extrude(quads: np.ndarray, nodes: int, layers: int) -> np.ndarray:
     """Hexes above the quads of a plane, layer upon layer; (layers * quads, 8) int64.
 
     Parameters

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.gallery.blocks import extruded
+from hexmend.gallery.blocks import extrude
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
-from hexmend.gallery.pentagon import divided, fan, pentagon
+from hexmend.gallery.pentagon import fan, pentagon, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 
@@ -38,7 +38,7 @@ DIVISIONS = {
 #: Of other sizes: layers over the cube root of the hexes, boundary nodes over the square root of the quads.
 LAYERS, BOUNDARY = 1.25, 4.4
 #: The fewest and the most quads of an unstructured mesh; more come by dividing its quads, fewer by dividing five.
-FEWEST, MOST = 45, 600
+MIN_UNSTRUCTURED, MAX_UNSTRUCTURED = 45, 600
 
 
 @gallery_mesh
@@ -57,7 +57,7 @@ class FiveSide(GalleryMesh):
     taper: float = parameter(0.33, low=0.01, high=10, help="Size of the top over that of the bottom.")
 
     def regular(self) -> Mesh:
-        plane, quads, layers = _plane(self.size)
+        plane, quads, layers = _quad_mesh(self.size)
         level = np.linspace(0, 1, layers + 1)
         angle, scale = np.deg2rad(self.turn) * level, 1 + (self.taper - 1) * level
         c, s = np.cos(angle) * scale, np.sin(angle) * scale
@@ -68,22 +68,22 @@ class FiveSide(GalleryMesh):
         n = len(plane)
         return Mesh(
             points,
-            extruded(quads, n, layers),
+            extrude(quads, n, layers),
             hex_data={"layer": np.repeat(np.arange(1, layers + 1), len(quads))},
             node_sets={"bottom": np.arange(n), "top": np.arange(layers * n, (layers + 1) * n)},
         )
 
 
-def _plane(size: int) -> tuple[np.ndarray, np.ndarray, int]:
+def _quad_mesh(size: int) -> tuple[np.ndarray, np.ndarray, int]:
     """Points and quads of the pentagon, and how many layers of them make about so many hexes."""
     if size in DIVISIONS:
         its = DIVISIONS[size]
         return *pentagon(its.quads, its.boundary, its.jitter, its.seed), its.layers
     wanted = size / max(1, round(LAYERS * size ** (1 / 3)))
-    if wanted < FEWEST:
-        plane = divided(*fan(), max(1, round((wanted / 5) ** 0.5)))
+    if wanted < MIN_UNSTRUCTURED:
+        plane = subdivide(*fan(), max(1, round((wanted / 5) ** 0.5)))
     else:
-        times = int(np.ceil((wanted / MOST) ** 0.5))
+        times = int(np.ceil((wanted / MAX_UNSTRUCTURED) ** 0.5))
         coarse = wanted / times**2
-        plane = divided(*pentagon(round(coarse), 2 * round(BOUNDARY / 2 * coarse**0.5)), times)
+        plane = subdivide(*pentagon(round(coarse), 2 * round(BOUNDARY / 2 * coarse**0.5)), times)
     return *plane, max(1, round(size / len(plane[1])))

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, parameter
-from hexmend.registry import Registry, load_others
+from hexmend.registry import Registry, load_entry_points
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,10 @@ class GalleryMesh(Parametrised, ABC):
         """The mesh."""
         mesh = self.regular()
         mesh = mesh.replace(name=f"{self.name}-{mesh.n_hexes}")
-        return scrambled(mesh, self.scramble, self.seed) if self.scramble > 0 else mesh
+        return scramble_nodes(mesh, self.scramble, self.seed) if self.scramble > 0 else mesh
 
 
-def scrambled(mesh: Mesh, amplitude: float, seed: int) -> Mesh:
+def scramble_nodes(mesh: Mesh, amplitude: float, seed: int) -> Mesh:
     """Displace each free node uniformly within a ball of `amplitude` times the mean length of its edges."""
     ring, points = mesh.topology.rings, mesh.points
     owner = np.repeat(np.arange(mesh.n_nodes), np.diff(ring.start))
@@ -63,7 +63,7 @@ GROUP = "hexmend.gallery"
 
 def load_plugins() -> None:
     """Load the gallery meshes of other distributions."""
-    load_others(GROUP, "gallery mesh", _take)
+    load_entry_points(GROUP, "gallery mesh", _take)
 
 
 def _take(name: str, found: object) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def paired(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray) -> np.ndarray | None:
+def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray) -> np.ndarray | None:
     """A perfect matching of triangles that share an edge: of all the one whose quads have the best angles.
 
     The least sum of (angle - 90°)^2 over the corners of all quads, as an integer program. It is solved to
@@ -42,7 +42,7 @@ def paired(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray) -> np.n
     takes = coo_array((ones, (sides[one].T.ravel(), edges)), (len(points), k)).tocsr()
     short = (np.diff(takes.indptr) + 1) // 2 > spare  # of two edges side by side only one can go
     found = milp(
-        np.square(angles(points, quads) - np.pi / 2).sum(axis=1),
+        np.square(corner_angles(points, quads) - np.pi / 2).sum(axis=1),
         integrality=np.ones(k),
         bounds=Bounds(0, 1),
         constraints=[LinearConstraint(covers, 1, 1), LinearConstraint(takes[short], 0, spare[short])],
@@ -51,7 +51,7 @@ def paired(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray) -> np.n
     return None if found.x is None else quads[found.x > 0.5]
 
 
-def angles(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
+def corner_angles(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """Angles at the corners of quads, from 0 to 2 pi, (k, 4) float64."""
     corner = points[quads]
     ahead, behind = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner

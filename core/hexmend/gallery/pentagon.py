@@ -9,7 +9,7 @@ from itertools import count
 
 import numpy as np
 
-from hexmend.gallery.pairing import angles, paired
+from hexmend.gallery.pairing import corner_angles, pair_triangles
 
 #: The corners, counter-clockwise, on a circle about the origin with the radius 1.
 CORNERS = np.column_stack([np.cos(0.4 * np.pi * np.arange(5)), np.sin(0.4 * np.pi * np.arange(5))])
@@ -48,26 +48,26 @@ def pentagon(quads: int, boundary: int, jitter: float = 0.4, seed: int = 0) -> t
     >>> points.shape, quads.shape
     ((281, 2), (245, 4))
     """
-    rim, paved = _ring(boundary)
+    rim, paved = _paved_ring(boundary)
     ring = rim[boundary:]
     for attempt in count(seed):
-        points = _relaxed(ring, _lattice(len(ring), quads - boundary // 2 + 1 - len(ring), jitter, attempt))
+        points = _relax(ring, _lattice(len(ring), quads - boundary // 2 + 1 - len(ring), jitter, attempt))
         triangles = _triangles(points)
-        degree = np.bincount(np.unique(np.sort(_sides(triangles), axis=1), axis=0).ravel())
+        degree = np.bincount(np.unique(np.sort(_polygon_edges(triangles), axis=1), axis=0).ravel())
         degree[: len(ring)] += 1  # the edge to the boundary
-        matched = paired(points, triangles, degree - 3)
+        matched = pair_triangles(points, triangles, degree - 3)
         if matched is None:
             continue
         found = np.concatenate([paved, matched + boundary])
         points = np.concatenate([rim[:boundary], points])
-        smooth = _tutte(points, found, boundary)
+        smooth = _tutte_embedding(points, found, boundary)
         for placed in ((points + smooth) / 2, smooth):
-            if angles(placed, found).max() < np.pi:
+            if corner_angles(placed, found).max() < np.pi:
                 return placed, found
     raise AssertionError("unreachable")
 
 
-def divided(points: np.ndarray, quads: np.ndarray, times: int) -> tuple[np.ndarray, np.ndarray]:
+def subdivide(points: np.ndarray, quads: np.ndarray, times: int) -> tuple[np.ndarray, np.ndarray]:
     """A mesh whose quads are grids of times by times quads, bilinear; arrays as of `pentagon`."""
     v, u = (grid[..., None] for grid in np.meshgrid(*[np.linspace(0, 1, times + 1)] * 2, indexing="ij"))
     a, b, c, d = (points[quads[:, i], None, None] for i in range(4))
@@ -92,7 +92,7 @@ def _polygon(corners: np.ndarray, segments: np.ndarray) -> np.ndarray:
     return np.column_stack([np.interp(at, np.arange(6), [*column, column[0]]) for column in corners.T])
 
 
-def _ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
+def _paved_ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
     """Nodes of the boundary, then those of the ring's inside; and its quads, of which one is in each corner."""
     segments = np.diff(np.round(np.arange(6) * boundary / 5).astype(int))
     depth = 1 - 10 * np.tan(np.pi / 5) / boundary  # of the ring's inside over the pentagon: a ring of squares
@@ -135,7 +135,7 @@ def _triangles(points: np.ndarray) -> np.ndarray:
     return triangles[area > 1e-6 * area.mean()]
 
 
-def _relaxed(ring: np.ndarray, points: np.ndarray) -> np.ndarray:
+def _relax(ring: np.ndarray, points: np.ndarray) -> np.ndarray:
     """The ring's nodes and the points, these moved to the centroids of the triangles around them, so many times."""
     points = np.concatenate([ring, points])
     for _ in range(SWEEPS):
@@ -153,17 +153,17 @@ def _double_area(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return ax * by - ay * bx
 
 
-def _sides(cells: np.ndarray) -> np.ndarray:
+def _polygon_edges(cells: np.ndarray) -> np.ndarray:
     """The sides of polygons with k corners, (k m, 2)."""
     return np.concatenate([cells[:, [i, (i + 1) % cells.shape[1]]] for i in range(cells.shape[1])])
 
 
-def _tutte(points: np.ndarray, quads: np.ndarray, boundary: int) -> np.ndarray:
+def _tutte_embedding(points: np.ndarray, quads: np.ndarray, boundary: int) -> np.ndarray:
     """Put each node that is not of the boundary, the first ones, into the mean of those it shares a side with."""
     from scipy.sparse import coo_array, diags_array
     from scipy.sparse.linalg import spsolve
 
-    sides = np.unique(np.sort(_sides(quads), axis=1), axis=0)
+    sides = np.unique(np.sort(_polygon_edges(quads), axis=1), axis=0)
     ends = np.concatenate([sides, sides[:, ::-1]]).T
     beside = coo_array((np.ones(len(ends[0])), ends), (len(points), len(points))).tocsr()
     laplacian = (diags_array(beside.sum(axis=1)) - beside).tocsr()[boundary:]

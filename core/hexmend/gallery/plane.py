@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.gallery.aeroplane import PARTS, onto_aeroplane
-from hexmend.gallery.blocks import box_hexes, extruded
+from hexmend.gallery.aeroplane import PARTS, map_onto_aeroplane
+from hexmend.gallery.blocks import box_hexes, extrude
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
@@ -56,28 +56,28 @@ class Plane(GalleryMesh):
     )
 
     def regular(self) -> Mesh:
-        plan = _nearest(self.size)
+        plan = _fit_division(self.size)
         grid = plan.grid
         core = Topology(plan.core.astype(np.int32), len(grid))
         faces = core.boundary_faces
         outer = ((grid == grid[0]) | (grid == grid[-1]))[faces].all(axis=1).any(axis=1)
 
         # The shell: from the core's outside straight to the box, layers growing.
-        wall, quads = _numbered(faces[outer])
+        wall, quads = _compact(faces[outer])
         share = np.cumsum(GROWTH ** (np.arange(plan.shell) / plan.scale))[:, None, None]
         shell_points = (grid[wall] + share / share[-1] * (plan.on_box[wall] - grid[wall])).reshape(-1, 3)
         points = np.concatenate([grid, shell_points])
         shell_nodes = np.concatenate([wall, np.arange(len(grid), len(points))])
-        shell = shell_nodes[extruded(quads, len(wall), plan.shell)]
+        shell = shell_nodes[extrude(quads, len(wall), plan.shell)]
         box = shell_nodes[-len(wall) :]
 
         # The coat: from where the core's inside will be, off the aeroplane, to the aeroplane's surface.
-        skin, quads = _numbered(faces[~outer])
-        surface = onto_aeroplane(grid[skin])
-        step = THICKNESS * _off(surface, quads)
+        skin, quads = _compact(faces[~outer])
+        surface = map_onto_aeroplane(grid[skin])
+        step = THICKNESS * _offset_step(surface, quads)
         coat_points = (surface + np.arange(plan.coat)[::-1, None, None] * step).reshape(-1, 3)
         coat_nodes = np.concatenate([skin, len(points) + np.arange(len(coat_points))])
-        coat = coat_nodes[extruded(quads, len(skin), plan.coat)]
+        coat = coat_nodes[extrude(quads, len(skin), plan.coat)]
         aeroplane = coat_nodes[-len(skin) :]
 
         # The pull: the core's inside goes to its place, and nodes near it follow.
@@ -85,9 +85,9 @@ class Plane(GalleryMesh):
         move[skin] = surface + plan.coat * step - grid[skin]
         held[skin] = held[box] = True
         around = np.concatenate([core.hexes, shell])
-        points += _spread(move, held, around, round(self.follow * plan.scale**2))
+        points += _diffuse(move, held, around, round(self.follow * plan.scale**2))
 
-        used, hexes = _numbered(np.concatenate([around, coat]))  # nodes within the aeroplane are left out
+        used, hexes = _compact(np.concatenate([around, coat]))  # nodes within the aeroplane are left out
         return Mesh(
             np.concatenate([points, coat_points])[used],
             hexes,
@@ -96,7 +96,7 @@ class Plane(GalleryMesh):
 
 
 @dataclass(frozen=True)
-class _Plan:
+class _Division:
     """How finely the three pieces are divided: `scale` times as finely, in each direction, as above.
 
     As cells come in whole numbers, so that the core grows by leaps, the shell makes up for it within a quarter.
@@ -143,13 +143,13 @@ class _Plan:
     @property
     def grid(self) -> np.ndarray:
         """Nodes of the whole grid, x first, (n, 3) float64."""
-        return _product(self.planes)
+        return _tensor_product(self.planes)
 
     @property
     def on_box(self) -> np.ndarray:
         """Places of the grid's nodes if the grid filled the box, finer towards the middle of each side."""
         steps = (np.linspace(-1, 1, len(p)) for p in self.planes)
-        return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * _product([0.85 * w + 0.15 * w**3 for w in steps])
+        return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * _tensor_product([0.85 * w + 0.15 * w**3 for w in steps])
 
     @property
     def core(self) -> np.ndarray:
@@ -175,26 +175,26 @@ class _Plan:
         return max(0.03, abs((self.within + self.shell * self.wall) / self.size - 1))
 
 
-def _nearest(size: int) -> _Plan:
+def _fit_division(size: int) -> _Division:
     """The division for about so many hexes: of those that come near enough the one with the most fitting scale."""
     scale = (size / HEXES) ** (1 / 3)
     factors = sorted(np.linspace(0.5, 1.25, 76), key=lambda factor: abs(np.log(factor)))
-    return min((_Plan(scale * factor, size) for factor in factors), key=lambda plan: plan.error)
+    return min((_Division(scale * factor, size) for factor in factors), key=lambda plan: plan.error)
 
 
-def _product(axes: list[np.ndarray] | tuple[np.ndarray, ...]) -> np.ndarray:
+def _tensor_product(axes: list[np.ndarray] | tuple[np.ndarray, ...]) -> np.ndarray:
     """Points of the tensor product of three axes, the first running fastest, (n, 3)."""
     z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
     return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
 
 
-def _numbered(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _compact(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The nodes that cells use, ascending, and the cells in terms of their places in that list."""
     nodes, places = np.unique(cells, return_inverse=True)
     return nodes, places.reshape(cells.shape)
 
 
-def _off(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
+def _offset_step(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """A step off a surface at each node: along the mean normal, as long as the quads around are wide.
 
     Parameters
@@ -207,21 +207,21 @@ def _off(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     normal = -np.cross(c - a, d - b)
     double_area = np.linalg.norm(normal, axis=1)
     corners = quads.ravel()
-    mean = _summed(corners, np.repeat(normal / double_area[:, None], 4, axis=0), len(points))
+    mean = _sum_at_nodes(corners, np.repeat(normal / double_area[:, None], 4, axis=0), len(points))
     width = np.bincount(corners, np.repeat(np.sqrt(double_area / 2), 4)) / np.bincount(corners)
     return mean * (width / np.linalg.norm(mean, axis=1))[:, None]
 
 
-def _spread(move: np.ndarray, held: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
+def _diffuse(move: np.ndarray, held: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
     """Let each node that is not held make the mean move of its edge neighbours, so many times."""
     ring = Topology(hexes.astype(np.int32), len(move)).rings
     degree = np.diff(ring.start)
     node, count = np.repeat(np.arange(len(move)), degree), np.maximum(degree, 1)[:, None]
     for _ in range(sweeps):
-        move = np.where(held[:, None], move, _summed(node, move[ring.items], len(move)) / count)
+        move = np.where(held[:, None], move, _sum_at_nodes(node, move[ring.items], len(move)) / count)
     return move
 
 
-def _summed(at: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
+def _sum_at_nodes(at: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
     """The sum of the rows of values (k, 3) that belong to each of n nodes, (n, 3); row i belongs to node at[i]."""
     return np.column_stack([np.bincount(at, column, n) for column in values.T])

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.arrays import norm
 from hexmend.energy import Hessian
-from hexmend.energy.assembled_hessian import AssembledHessian, full
+from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.optimise.blas_threads import one_blas_thread
 from hexmend.optimise.linear_solvers import LinearSolver
 
@@ -136,7 +136,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     start = np.ones(hessian.shape[0])  # ARPACK's own would be random
     matrix = hessian.assembled()
-    size = float(np.abs(matrix.own_blocks).max(initial=0.0))
+    size = float(np.abs(matrix.diagonal_blocks).max(initial=0.0))
     if size == 0:
         return 0.0, 0.0
     exponent = int(np.frexp(size)[1])  # ARPACK takes very small numbers for 0
@@ -155,7 +155,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     greatest = top(LinearOperator(hessian.shape, matvec=product, dtype=np.float64))
     if greatest is None:
-        return 0.0, float(np.linalg.eigvalsh(full(matrix.own_blocks)).max())
+        return 0.0, float(np.linalg.eigvalsh(unpack_symmetric(matrix.diagonal_blocks)).max())
     distance = top(LinearOperator(hessian.shape, matvec=lambda v: greatest * v - product(v), dtype=np.float64))
     least = 0.0 if distance is None else greatest - distance
     return float(np.ldexp(least, exponent)), float(np.ldexp(greatest, exponent))

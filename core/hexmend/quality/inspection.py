@@ -10,8 +10,7 @@ from hexmend.errors import MeshError
 from hexmend.kernels.objective import gradient
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.validation import as_index as checked_number
-from hexmend.mesh.validation import as_reals
+from hexmend.mesh.validation import as_index, as_reals
 from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
 from hexmend.quality.metric import METRICS
 
@@ -64,7 +63,7 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     >>> one.nodes.size, round(one.values["q"], 6), one.inverted
     (8, 1.0, False)
     """
-    number = checked_number(number, mesh.n_hexes, "hex")
+    number = as_index(number, mesh.n_hexes, "hex")
     nodes = mesh.hexes[number]
     hexes = np.ascontiguousarray(nodes[None])
     figures = measure(mesh.points, hexes)
@@ -126,7 +125,7 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     >>> one.kind, one.ring.size, round(one.energy, 9)
     ('free', 8, 0.0)
     """
-    number = checked_number(number, mesh.n_nodes, "describe_node")
+    number = as_index(number, mesh.n_nodes, "node")
     corners = mesh.topology.node_corners
     places = corners.items[corners.start[number] : corners.start[number + 1]]
     ring = places // 8

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.mesh.validation import as_hexes, as_points
 from hexmend.quality.measure import ElementQuality
-from hexmend.registry import Registry, load_others
+from hexmend.registry import Registry, load_entry_points
 
 #: Values (m,) from points (n, 3), hexes (m, 8) and the figures measured of them.
 Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
@@ -95,7 +95,7 @@ GROUP = "hexmend.metrics"
 
 def load_plugins() -> None:
     """Load the metrics of other distributions."""
-    load_others(GROUP, "metric", _take)
+    load_entry_points(GROUP, "metric", _take)
 
 
 def _take(name: str, metric: object) -> None:

@@ -28,7 +28,7 @@ from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import from_values, hint
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.smoothers.sliding_smoother import UNLIMITED
-from hexmend.toml_text import parsed
+from hexmend.toml_text import parse_toml
 
 #: The number of the format that is written; lower ones can be read.
 FORMAT = 2
@@ -123,7 +123,7 @@ def from_toml(text: str) -> Recipe:
     ParameterError
         Naming line and column where it is no TOML, else the stage, the key and what was expected there.
     """
-    data = in_this_format(parsed(text, "a recipe"))
+    data = in_this_format(parse_toml(text, "a recipe"))
     check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):

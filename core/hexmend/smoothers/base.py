@@ -15,7 +15,7 @@ from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
-from hexmend.registry import Registry, load_others
+from hexmend.registry import Registry, load_entry_points
 
 #: What a smoother's `steps` gives.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
@@ -107,7 +107,7 @@ GROUP = "hexmend.smoothers"
 
 def load_plugins() -> None:
     """Load the smoothers of other distributions."""
-    load_others(GROUP, "method", _take)
+    load_entry_points(GROUP, "method", _take)
 
 
 def _take(name: str, found: object) -> None:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend import io
 from hexmend.cli.main import main
-from hexmend.doctor import AILMENTS, examine, repair
+from hexmend.doctor import PROBLEMS, examine, repair
 from hexmend.doctor.cells import _WEDGES
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE, VOXEL_ORDER
@@ -80,7 +80,7 @@ def test_trouble_is_found_and_counted_with_its_places(mesh, kind, count, mendabl
     assert finding.remedy
     assert finding.mendable is mendable
     assert len(finding.hexes) + len(finding.nodes) > 0
-    assert finding.places()
+    assert finding.location_text()
 
 
 def test_a_sound_mesh_has_no_findings():
@@ -214,8 +214,8 @@ def test_flat_hexes_do_not_keep_a_part_from_being_turned(degrees):
 
 
 def test_names_and_titles_are_of_their_own():
-    assert len({one.title for one in AILMENTS.values()}) == len(AILMENTS)
-    assert len({one.rank for one in AILMENTS.values()}) == len(AILMENTS)
+    assert len({one.title for one in PROBLEMS.values()}) == len(PROBLEMS)
+    assert len({one.rank for one in PROBLEMS.values()}) == len(PROBLEMS)
 
 
 def test_info_says_where_and_by_which_command(tmp_path, capsys):

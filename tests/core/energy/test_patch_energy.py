@@ -70,7 +70,7 @@ def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
     delta = unit / (scale * energy.unit) ** 3
     x, ratio = energy.to_edge_units(mesh.points), scale * energy.unit
     np.testing.assert_allclose(np.multiply(gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
-    block = energy.hessian(x, delta).assembled(np.float64).own_blocks[k]
+    block = energy.hessian(x, delta).assembled(np.float64).diagonal_blocks[k]
     np.testing.assert_allclose(np.multiply(own, ratio**2), block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
 
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from hexmend.gallery import make
 from hexmend.gallery.five_side import DIVISIONS
-from hexmend.gallery.pairing import angles, paired
-from hexmend.gallery.pentagon import CORNERS, divided, fan, pentagon
+from hexmend.gallery.pairing import corner_angles, pair_triangles
+from hexmend.gallery.pentagon import CORNERS, fan, pentagon, subdivide
 from hexmend.mesh.structure import find_structure
 from hexmend.quality import summarise
 
@@ -59,9 +59,9 @@ def test_a_pentagon_has_the_quads_asked_for_and_they_are_convex(quads, share, ji
     assert len(found) == quads
     assert len(points) == quads + boundary // 2 + 1
     np.testing.assert_array_equal(outline(found), np.arange(boundary))
-    assert angles(points, found).min() > 0
-    assert angles(points, found).max() < np.pi
-    np.testing.assert_allclose(angles(points, found).sum(axis=1), 2 * np.pi)
+    assert corner_angles(points, found).min() > 0
+    assert corner_angles(points, found).max() < np.pi
+    np.testing.assert_allclose(corner_angles(points, found).sum(axis=1), 2 * np.pi)
     assert area(points, found) == pytest.approx(2.5 * np.sin(0.4 * np.pi))
     valence = np.bincount(found.ravel())
     assert (valence[boundary:] >= 3).all()
@@ -79,10 +79,10 @@ def test_a_pentagon_is_the_same_each_time_and_another_with_another_seed():
 @pytest.mark.parametrize("times", [1, 2, 5])
 def test_quads_are_divided_and_the_outline_stays(times):
     for coarse in (fan(), pentagon(60, 34)):
-        points, quads = divided(*coarse, times)
+        points, quads = subdivide(*coarse, times)
         assert len(quads) == len(coarse[1]) * times**2
         assert len(outline(quads)) == times * len(outline(coarse[1]))
-        assert angles(points, quads).max() < np.pi
+        assert corner_angles(points, quads).max() < np.pi
         assert area(points, quads) == pytest.approx(area(*coarse))
 
 
@@ -117,14 +117,14 @@ def test_irregular_edges_stand_upright_and_end_on_the_boundary():
 def test_triangles_of_squares_are_paired_to_squares():
     points = np.array([(i // 2, i % 2) for i in range(10)], dtype=float)
     triangles = np.array([c for a, b in pairwise(range(0, 10, 2)) for c in ((a, b, b + 1), (a, b + 1, a + 1))])
-    quads = paired(points, triangles, np.full(10, 9))
-    np.testing.assert_allclose(angles(points, quads), np.pi / 2)
+    quads = pair_triangles(points, triangles, np.full(10, 9))
+    np.testing.assert_allclose(corner_angles(points, quads), np.pi / 2)
     assert np.unique(quads, axis=0).shape == (4, 4)
 
 
 def test_triangles_without_a_perfect_matching_are_not_paired():
     points = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (-1, 1)], dtype=float)
     triangles = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4)])
-    assert paired(points, triangles, np.full(5, 9)) is None
-    assert paired(points, triangles[:2], np.full(5, 9)) is not None
-    assert paired(points, triangles[:2], np.zeros(5)) is None  # node 0 would lose an edge
+    assert pair_triangles(points, triangles, np.full(5, 9)) is None
+    assert pair_triangles(points, triangles[:2], np.full(5, 9)) is not None
+    assert pair_triangles(points, triangles[:2], np.zeros(5)) is None  # node 0 would lose an edge

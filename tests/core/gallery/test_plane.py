@@ -6,7 +6,7 @@ import pytest
 import hexmend as hx
 from hexmend.doctor import examine
 from hexmend.gallery import make
-from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, onto_aeroplane
+from hexmend.gallery.aeroplane import FUSELAGE, HALF_BOX, PARTS, TAILPLANE, WINGS, map_onto_aeroplane
 from hexmend.gallery.plane import BOX
 from hexmend.quality import measure, summarise
 from hexmend.run import StoppingCriteria
@@ -80,12 +80,12 @@ def test_the_aeroplane_has_wings_a_tailplane_and_a_fin(plane):
 
 def test_surfaces_are_where_the_parts_say():
     side = np.array([[0.5, FUSELAGE.radius, 0.5 * FUSELAGE.radius]])
-    assert np.hypot(*onto_aeroplane(side)[0, 1:]) == pytest.approx(FUSELAGE.radius)
+    assert np.hypot(*map_onto_aeroplane(side)[0, 1:]) == pytest.approx(FUSELAGE.radius)
     tip = np.array([[WINGS.leading, -WINGS.span, HALF_BOX]])
-    assert onto_aeroplane(tip)[0, :2] == pytest.approx([WINGS.leading + WINGS.sweep, -WINGS.span])
+    assert map_onto_aeroplane(tip)[0, :2] == pytest.approx([WINGS.leading + WINGS.sweep, -WINGS.span])
     corners = np.concatenate([box for part in PARTS for box in part.boxes])
-    mirrored = onto_aeroplane(corners * [1, -1, 1]) * [1, -1, 1]
-    np.testing.assert_allclose(onto_aeroplane(corners), mirrored, atol=1e-12)
+    mirrored = map_onto_aeroplane(corners * [1, -1, 1]) * [1, -1, 1]
+    np.testing.assert_allclose(map_onto_aeroplane(corners), mirrored, atol=1e-12)
 
 
 def test_nodes_that_follow_further_invert_fewer_hexes():

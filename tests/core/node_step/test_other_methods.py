@@ -40,7 +40,7 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
             energy.value(energy.to_edge_units(step_of_all.points), step.delta), rel=1e-12
         )
         np.testing.assert_allclose(step.gradient, energy.gradient(x, step.delta)[row], rtol=1e-8, atol=1e-9)
-        block = energy.hessian(x, step.delta).assembled(np.float64).own_blocks[row]
+        block = energy.hessian(x, step.delta).assembled(np.float64).diagonal_blocks[row]
         np.testing.assert_allclose(step.hessian[np.triu_indices(3)], block, rtol=1e-7, atol=1e-8 * np.abs(block).max())
         assert step.trials[-1].energy < step.trials[-1].bound
         assert step.trials[-1].alpha == step.alpha

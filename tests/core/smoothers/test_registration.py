@@ -53,7 +53,7 @@ def announce(monkeypatch, module, *found):
         for one in found:
             take("any", one)
 
-    monkeypatch.setattr(module, "load_others", load)
+    monkeypatch.setattr(module, "load_entry_points", load)
     module.load_plugins()
 
 

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend.doctor import AILMENTS, Finding
+from hexmend.doctor import PROBLEMS, Finding
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.style import explain, icon, note
 
@@ -83,22 +83,22 @@ class DoctorPanel(QWidget):
 
     def _add(self, row: int, one: Finding) -> None:
         text = QLabel(
-            f"<b>{escape(AILMENTS[one.kind].title)}.</b> {escape(one.message)} {escape(one.remedy)}"
-            + (f"<br>{escape(one.places()).capitalize()}" if one.places() else "")
+            f"<b>{escape(PROBLEMS[one.kind].title)}.</b> {escape(one.message)} {escape(one.remedy)}"
+            + (f"<br>{escape(one.location_text()).capitalize()}" if one.location_text() else "")
         )
         text.setTextFormat(Qt.TextFormat.RichText)
         text.setWordWrap(True)
         text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._rows.addWidget(text, row, 0)
-        title = AILMENTS[one.kind].title
-        if one.places():
+        title = PROBLEMS[one.kind].title
+        if one.location_text():
             show = QPushButton(icon("eye-outline"), "Show")
             explain(show, f"Show: {title}", "Show nothing but these hexes and their neighbours; Esc brings all back.")
             show.clicked.connect(lambda _=False, row=row: self.show_requested.emit(row))
             self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)
         if one.mendable:
             mend = QPushButton(icon("bandage"), "Mend")
-            action = AILMENTS[one.kind].action
+            action = PROBLEMS[one.kind].action
             explain(mend, f"Mend: {title}", f"{action[:1].upper()}{action[1:]}. Undo takes it back.")
             mend.clicked.connect(lambda _=False, kind=one.kind: self.mend_requested.emit([kind]))
             self._rows.addWidget(mend, row, 2, Qt.AlignmentFlag.AlignTop)

@@ -15,7 +15,7 @@ import hexmend.run.recipe as recipes
 from hexmend.errors import FileError, ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
-from hexmend.toml_text import parsed
+from hexmend.toml_text import parse_toml
 from hexmend_app.state.scene import png
 from hexmend_app.state.scene.camera import MOST, Panel
 from hexmend_app.state.scene.scene import Scene
@@ -132,7 +132,7 @@ def read_carried(path: str | os.PathLike[str]) -> Carried:
     if _SCENE not in found or _ABOUT not in found:
         raise FileError(Path(path), "this picture carries no scene", "Open the mesh that it shows.")
     try:
-        scene, about = from_toml(found[_SCENE]), made(_About, parsed(found[_ABOUT], "its meshes"))
+        scene, about = from_toml(found[_SCENE]), made(_About, parse_toml(found[_ABOUT], "its meshes"))
         recipe = recipes.from_toml(found[_RECIPE]) if _RECIPE in found else None
         if not about.meshes:
             raise ParameterError("there is no mesh")

@@ -10,7 +10,7 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 from hexmend.io.storage.toml_files import read_toml, write_toml
-from hexmend.toml_text import parsed
+from hexmend.toml_text import parse_toml
 from hexmend_app.state.scene.camera import Camera
 from hexmend_app.state.scene.scene import Scene
 from hexmend_app.state.scene.table import Table, keys, made, plain
@@ -55,7 +55,7 @@ def from_toml(text: str) -> Scene:
     ParameterError
         Naming line and column where it is no TOML, else the table, the key and what was expected there.
     """
-    return made(Scene, parsed(text, "a scene", LARGEST))
+    return made(Scene, parse_toml(text, "a scene", LARGEST))
 
 
 def camera_text(camera: Camera) -> str:
@@ -73,7 +73,7 @@ def camera_from(text: str) -> Camera:
     text = text.strip().removeprefix("camera").lstrip(" =")
     if not text.startswith("{") or "\n" in text:
         raise ParameterError('a camera is no line of braces: expected one such as { from = "iso", up = "z" }')
-    return made(Camera, parsed(f"camera = {text}", "a camera").get("camera"), ("camera",))
+    return made(Camera, parse_toml(f"camera = {text}", "a camera").get("camera"), ("camera",))
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hexmend.errors import FileError, ShortageError
+from hexmend.errors import FileError, InsufficientMemoryError
 from hexmend.io.storage.atomic import check_writable
 from hexmend.run.memory import available, shortage
 
@@ -36,7 +36,7 @@ def check_memory(
 
     Raises
     ------
-    ShortageError
+    InsufficientMemoryError
         For the method that needs the most.
     """
     free = available()
@@ -45,7 +45,7 @@ def check_memory(
         return
     worst = max(shortages, key=lambda one: one.needed)
     if not args.force:
-        raise ShortageError(f"{worst.problem} {worst.remedy(*remedies, 'run it all the same (--force)')}")
+        raise InsufficientMemoryError(f"{worst.problem} {worst.remedy(*remedies, 'run it all the same (--force)')}")
     print(f"hexmend: warning: {worst.problem}", file=sys.stderr)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from hexmend.io.base.format import Format
-from hexmend.registry import load_others
+from hexmend.registry import load_entry_points
 
 #: Entries name a `Format`.
 GROUP = "hexmend.formats"
@@ -21,5 +21,5 @@ def plugin_formats() -> tuple[Format, ...]:
             raise TypeError(f"{format!r} is no hexmend.io.Format")
         found.append(format)
 
-    load_others(GROUP, "format", take)
+    load_entry_points(GROUP, "format", take)
     return tuple(found)

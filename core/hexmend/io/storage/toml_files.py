@@ -11,12 +11,12 @@ from hexmend.errors import FileError, ParameterError
 from hexmend.io.base.text import read_text
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
-from hexmend.toml_text import LARGEST
+from hexmend.toml_text import MAX_CHARACTERS
 
 T = TypeVar("T")
 
 
-def read_toml(path: str | os.PathLike[str], what: str, made: Callable[[str], T], largest: int = LARGEST) -> T:
+def read_toml(path: str | os.PathLike[str], what: str, made: Callable[[str], T], largest: int = MAX_CHARACTERS) -> T:
     """What a function makes of the text of a file.
 
     Parameters

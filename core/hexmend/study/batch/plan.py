@@ -21,7 +21,7 @@ from hexmend.run.recipe import check_keys, in_this_format, table_in
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
-from hexmend.toml_text import parsed
+from hexmend.toml_text import parse_toml
 
 #: Cases of one study.
 MOST = 10_000
@@ -96,7 +96,7 @@ def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
     >>> [case.name for case in plan.cases][:3]
     ['laplacian', 'local-sd p=2 max_iterations=50', 'local-sd p=2 max_iterations=100']
     """
-    data = in_this_format(parsed(text, "a recipe"))
+    data = in_this_format(parse_toml(text, "a recipe"))
     check_keys("the study", data, ("format", "title", "methods", "method", "stop", "task", "boundary"))
     if not isinstance(title := data.get("title", title), str):
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")

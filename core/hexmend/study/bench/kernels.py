@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.energy import BlockSparsity, MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
-from hexmend.gallery.gallery_mesh import scrambled
+from hexmend.gallery.gallery_mesh import scramble_nodes
 from hexmend.kernels import elements, local, objective, scalar_reference, set_threads, threads
 from hexmend.kernels.line_search import LineSearch
 from hexmend.run import StoppingCriteria, smooth
@@ -108,7 +108,7 @@ def _preconditioners() -> dict[str, Any]:
     for size in _SIZES:
         # Near the optimum, where the Hessian is definite: elsewhere the solver ends at the first negative curvature.
         optimum = smooth(make("five-side", size=size), "mend", StoppingCriteria(max_iterations=1000)).mesh
-        mesh = scrambled(optimum, _MOVED, seed=0)
+        mesh = scramble_nodes(optimum, _MOVED, seed=0)
         energy = MeshEnergy(mesh)
         x = energy.to_edge_units(mesh.points)
         right = -energy.gradient(x).ravel()

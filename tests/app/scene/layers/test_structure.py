@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass
-from hexmend.gallery.blocks import extruded
-from hexmend.gallery.pentagon import divided, fan
+from hexmend.gallery.blocks import extrude
+from hexmend.gallery.pentagon import fan, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.scene.frame import Frame
@@ -35,10 +35,10 @@ from tests.core.mesh.test_structure import tetrahedron
 
 def five_blocks(segments, layers):
     """A pentagonal prism of five blocks that meet in the axis, as high as 1.5."""
-    plane, quads = divided(*fan(), segments)
+    plane, quads = subdivide(*fan(), segments)
     height = np.repeat(np.linspace(0, 1.5, layers + 1), len(plane))
     points = np.column_stack([np.tile(plane, (layers + 1, 1)), height])
-    return Mesh(points, extruded(quads, len(plane), layers))
+    return Mesh(points, extrude(quads, len(plane), layers))
 
 
 FIVE = five_blocks(3, 11)

@@ -42,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
     if summary.locked_inverted:
         _print_locked(mesh, quality, summary.locked_inverted)
     if second_order is not None:
-        print(f"Second order: {second_order.words}.")
+        print(f"Second order: {second_order.phrase}.")
     if args.metrics:
         print_spreads(metrics)
     _print_problems(args, mesh)

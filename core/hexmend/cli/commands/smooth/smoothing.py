@@ -65,9 +65,9 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
     print(result.message)
     for time, summary in second_order.items():
         if summary is not None:
-            print(f"Second order, {time}: {summary.words}.")
+            print(f"Second order, {time}: {summary.phrase}.")
     if result.surface is not None:
-        print(result.surface.words)
+        print(result.surface.sentence)
     print(f"Written to {args.output}.")
     if advice is not None:
         print(advice.left)
