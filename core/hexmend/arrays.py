@@ -1,4 +1,4 @@
-"""Arrays that do not change, and sums over long ones that are the same with any number of threads."""
+"""Immutable arrays, and inner products that do not depend on the number of threads."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ import numpy as np
 
 
 class _Memory:
-    """Memory of an array that only this object refers to, given out for reading alone.
+    """Owner of an array's memory that exposes it read-only.
 
-    NumPy refuses to make an array writable whose memory is of an object that is neither an array nor a buffer. An array
-    that owns its memory, or has it from `bytes`, proves nothing: it may have been writable before, and views made then
-    still are.
+    NumPy refuses to make an array writable if its memory belongs to an object that is neither an array nor a buffer. A
+    read-only array that owns its memory is no proof: it may have been writable, and views made then still are.
     """
 
     __slots__ = ("__array_interface__", "_owner")
@@ -21,7 +20,7 @@ class _Memory:
 
 
 def is_immutable(array: np.ndarray) -> bool:
-    """True for an array that `as_immutable` made and for views of it: nobody can write to them, now or later.
+    """Return True for arrays made by `as_immutable` and views of them, which can never be written to.
 
     >>> values = np.zeros(2)
     >>> is_immutable(values), is_immutable(as_immutable(values))
@@ -34,9 +33,9 @@ def is_immutable(array: np.ndarray) -> bool:
 
 
 def as_immutable(array: np.ndarray) -> np.ndarray:
-    """The array if it is immutable, otherwise a contiguous copy that is; the given array stays as it is.
+    """Return the array itself if it is immutable, else an immutable contiguous copy.
 
-    Copies of arrays of Python objects are read-only, but never count as immutable.
+    Copies of arrays of Python objects are read-only, but do not count as immutable.
     """
     if is_immutable(array):
         return array
@@ -48,10 +47,10 @@ def as_immutable(array: np.ndarray) -> np.ndarray:
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> float:
-    """Inner product of two arrays of one shape.
+    """Compute the inner product of two arrays of one shape.
 
-    Not by BLAS, which shares out vectors of 10,000 numbers already: its sums depend on the number of its threads, and
-    these wait by spinning, on cores that the kernels want.
+    BLAS is avoided: it uses threads for vectors of 10,000 numbers already, so that its sums depend on their number, and
+    its idle threads spin on cores that the kernels need.
 
     >>> dot(np.ones((2, 3)), np.full((2, 3), 0.5))
     3.0
@@ -60,5 +59,5 @@ def dot(a: np.ndarray, b: np.ndarray) -> float:
 
 
 def norm(a: np.ndarray) -> float:
-    """Euclidean length of an array of any shape; see `dot`."""
+    """Compute the Euclidean norm of an array of any shape; see `dot`."""
     return float(np.sqrt(dot(a, a)))

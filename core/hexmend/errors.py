@@ -1,7 +1,7 @@
-"""What can go wrong, said so that the reader knows what to do.
+"""Errors that Hexmend raises on purpose.
 
-Every message names the thing, the value, what was expected and the remedy. The library raises; only the command line
-and the viewer talk.
+Every message names the object, the value, the expectation and the remedy. The library raises; only the command line and
+the viewer print.
 """
 
 from __future__ import annotations
@@ -10,36 +10,36 @@ from pathlib import Path
 
 
 class HexmendError(Exception):
-    """Root of every error that Hexmend raises on purpose."""
+    """Base class of every error that Hexmend raises on purpose."""
 
 
 class MeshError(HexmendError):
-    """A mesh that cannot be what it claims to be: a node number out of range, a coordinate that is no number."""
+    """Invalid mesh data, such as a node number out of range or a coordinate that is not finite."""
 
 
 class ParameterError(HexmendError):
-    """A parameter's name or value that its declaration does not admit."""
+    """Name or value of a parameter that its declaration does not allow."""
 
 
 class InstallationError(HexmendError, ImportError):
-    """A part of Hexmend that is not installed, or not built."""
+    """Part of Hexmend that is not installed, or not built."""
 
 
 class InsufficientMemoryError(HexmendError):
-    """A run that needs more memory than there is."""
+    """Run that needs more memory than is available."""
 
 
 class FileError(HexmendError):
-    """A file that cannot be read, written or used.
+    """File that cannot be read, written or used.
 
     Parameters
     ----------
     path : path-like
-        The file; the message begins with its name.
+        Path of the file; the message begins with its name.
     problem : str
-        What is wrong and where in the file: the line, the section, the cell.
+        Description of the problem and its location in the file: line, section or cell.
     remedy : str
-        What the reader can do about it, as a sentence.
+        Advice as a sentence.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a figure of a mesh or of a run declares of itself: what it is called, how it is written, which way is better."""
+"""Declared quantities of meshes and runs, and formatting of their values."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Quantity:
-    """A figure; every table, form and chart that shows it takes its words from here.
+    """Declaration of a quantity, used by every table, form and chart that shows it.
 
     Parameters
     ----------
     key : str
-        Its name in records.
+        Name in records.
     label : str
-        As it stands in the middle of a line, such as a table's.
+        Name in running text and tables.
     help : str
-        What it is, in sentences.
+        Description in sentences.
     text : callable
-        How its value is written.
+        Function that formats a value.
     better : int
-        1 where higher values are better, -1 where lower ones are, 0 where neither is.
+        1 if higher values are better, -1 if lower ones are, 0 if neither.
     part_of : str
-        The key of the figure that it is a part of; "" for none.
+        Key of the quantity of which it is a part; "" for none.
     """
 
     key: str
@@ -36,7 +36,7 @@ class Quantity:
 
     @property
     def title(self) -> str:
-        """The label as it begins a line.
+        """Label with a capital at the beginning of a line.
 
         >>> [Quantity("", label, "", format_count).title for label in ("free nodes", "q min", "µs per node")]
         ['Free nodes', 'q min', 'µs per node']
@@ -45,13 +45,14 @@ class Quantity:
         return self.label if len(first) < 3 else self.label[0].upper() + self.label[1:]
 
     def of(self, record: Mapping[str, Any]) -> str:
-        """The text of the figure in a record, a dash where there is none or it is infinite."""
+        """Format the value in a record; a dash stands for a missing or infinite one."""
         value = record.get(self.key)
         return "–" if value is None else self.text(value)
 
 
 def format_count(value: int) -> str:
-    """
+    """Format a whole number with separators of thousands.
+
     >>> format_count(31760)
     '31,760'
     """
@@ -59,7 +60,8 @@ def format_count(value: int) -> str:
 
 
 def format_quality(value: float) -> str:
-    """
+    """Format a quality with four decimals.
+
     >>> format_quality(0.56741)
     '0.5674'
     """
@@ -67,7 +69,7 @@ def format_quality(value: float) -> str:
 
 
 def format_significant(value: float, digits: int = 4) -> str:
-    """So many significant figures, never with an exponent.
+    """Format a number with some significant digits, never with an exponent.
 
     >>> [format_significant(value) for value in (0.0012345, 19.522, 83960.9, 0)]
     ['0.001234', '19.52', '83,960', '0']
@@ -76,7 +78,7 @@ def format_significant(value: float, digits: int = 4) -> str:
 
 
 def format_objective(value: float) -> str:
-    """With the digits in which two optima may differ.
+    """Format an objective with the digits in which two optima may differ.
 
     >>> format_objective(157.80185041)
     '157.8019'
@@ -85,7 +87,7 @@ def format_objective(value: float) -> str:
 
 
 def format_milliseconds(seconds: float) -> str:
-    """Seconds as milliseconds.
+    """Format seconds as milliseconds.
 
     >>> format_milliseconds(0.01463)
     '14.63'
@@ -94,7 +96,7 @@ def format_milliseconds(seconds: float) -> str:
 
 
 def format_microseconds(seconds: float) -> str:
-    """Seconds as microseconds.
+    """Format seconds as microseconds.
 
     >>> format_microseconds(6.755e-4)
     '675.5'

@@ -1,4 +1,4 @@
-"""Registries: things that announce themselves by name and are found by it."""
+"""Registries of named entries, and loading of entries from other distributions."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Registry(Mapping[str, T], Generic[T]):
     Parameters
     ----------
     kind : str
-        What an entry is called in an error message ("method", "format").
-    others : callable, optional
-        Adds entries from elsewhere. Called once, as soon as a name is asked for that is not there or all of them are:
-        who uses what is there does not pay for the search.
+        Name of an entry in error messages ("method", "format").
+    load_more : callable, optional
+        Adds entries of other distributions. It is called once, when an unknown name or all entries are requested, so
+        that access to known entries does not wait for the search.
 
     Examples
     --------
@@ -36,14 +36,14 @@ class Registry(Mapping[str, T], Generic[T]):
     hexmend.errors.ParameterError: there is no shape 'cub': did you mean cube? (known: cube)
     """
 
-    def __init__(self, kind: str, others: Callable[[], None] | None = None):
+    def __init__(self, kind: str, load_more: Callable[[], None] | None = None):
         self.kind = kind
-        self._others = others
-        self._asked = threading.RLock()
+        self._load_more = load_more
+        self._lock = threading.RLock()
         self._entries: dict[str, T] = {}
 
     def add(self, name: str, entry: T) -> T:
-        """Register `entry`; two entries of one name are a programming error, a `ValueError`."""
+        """Register an entry and return it; raises `ValueError` for a name that is registered already."""
         if name in self._entries:
             raise ValueError(f"{self.kind} {name!r} is registered twice")
         self._entries[name] = entry
@@ -68,31 +68,31 @@ class Registry(Mapping[str, T], Generic[T]):
         return len(self._all())
 
     def _all(self) -> dict[str, T]:
-        with self._asked:  # a second thread waits until the first has found them all
-            if self._others is not None:
-                add, self._others = self._others, None
-                add()
+        with self._lock:  # a second thread waits until the first has loaded them
+            if self._load_more is not None:
+                load, self._load_more = self._load_more, None
+                load()
         return self._entries
 
 
 def load_entry_points(group: str, kind: str, take: Callable[[str, object], object]) -> None:
-    """Load what other distributions add; what cannot be loaded or taken is told of, and the others go on.
+    """Load the entry points of other distributions; those that fail are left out with a warning in the log.
 
     Parameters
     ----------
     group : str
-        The entry-point group.
+        Entry-point group.
     kind : str
-        What an entry is called in a message.
+        Name of an entry in messages.
     take : callable
-        Given each entry's name and what it names; raises for what is not wanted.
+        Function of each entry's name and loaded object; raises for an object of another type.
     """
-    from importlib.metadata import entry_points  # which reads what is said of every distribution there is
+    from importlib.metadata import entry_points  # slow: it reads the metadata of every distribution
 
     for entry in sorted(entry_points(group=group), key=lambda entry: entry.name):
         try:
             take(entry.name, entry.load())
-        except (Exception, SystemExit) as error:  # whatever is wrong with it, the rest of the program is not to blame
+        except (Exception, SystemExit) as error:  # a faulty plug-in must not stop the program
             of = entry.dist.name if entry.dist else "an unknown distribution"
-            said = " ".join(f"{type(error).__name__}: {error}".split())
-            log.warning("hexmend: the %s %s of %s is left out: %s", kind, entry.name, of, said)
+            reason = " ".join(f"{type(error).__name__}: {error}".split())
+            log.warning("hexmend: the %s %s of %s is left out: %s", kind, entry.name, of, reason)

@@ -1,4 +1,4 @@
-"""Functions that no signal may leave by an exception, because what they began would stay half done."""
+"""Functions that a signal must not interrupt by an exception, because they would leave work half done."""
 
 from __future__ import annotations
 
@@ -10,47 +10,47 @@ if TYPE_CHECKING:
 
     Function = TypeVar("Function", bound=Callable)
 
-#: Their code, by which a signal's handler finds them among the frames that it has interrupted.
+#: Code of these functions, by which a signal handler recognises them among the frames that it has interrupted.
 UNINTERRUPTED_CODE: set[CodeType] = set()
 
-#: Called after each of them, in order to raise what has waited.
+#: Called after each of these functions, to raise an exception that has been deferred.
 ON_RETURN: list[Callable[[], object]] = []
 
 
 def uninterrupted(function: Function) -> Function:
-    """Let `KeyboardInterrupt` wait for the end of a function in the program `hexmend`.
+    """Defer `KeyboardInterrupt` to the end of a function, in the program `hexmend`; a decorator.
 
     Parameters
     ----------
     function : callable
-        A function of Python that does not take long.
+        Python function that takes little time.
 
     Returns
     -------
     callable
-        The function; the exception is raised when it returns.
+        Function with the same result; a deferred exception is raised when it returns.
     """
     UNINTERRUPTED_CODE.add(function.__code__)
 
     def guarded(*args: Any, **options: Any) -> Any:
-        answer = function(*args, **options)
+        result = function(*args, **options)
         for call in ON_RETURN:
             call()
-        return answer
+        return result
 
-    for name in ("__module__", "__name__", "__qualname__", "__doc__"):  # `functools` would have to be loaded
+    for name in ("__module__", "__name__", "__qualname__", "__doc__"):  # `functools.wraps` would cost an import
         setattr(guarded, name, getattr(function, name))
     guarded.__wrapped__ = function
     return guarded
 
 
 def is_interruptible(frame: FrameType | None) -> bool:
-    """Return True if an exception that is raised in this frame reaches the frames below it.
+    """Return True if an exception raised in a frame reaches its callers: not in imports or uninterrupted functions.
 
     Parameters
     ----------
     frame : frame or None
-        Where a signal has come. In an import and in a function that is `uninterrupted` the exception would be lost.
+        Frame that a signal has interrupted.
     """
     while frame is not None:
         code = frame.f_code

@@ -1,4 +1,4 @@
-"""TOML from people and from anywhere, as plain data: bounded, and with every problem said by line and column."""
+"""Parsing of TOML text of unknown origin: bounded in size, with problems located by line and column."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 
 from hexmend.errors import ParameterError
 
-#: Letters of a text, and dots in a key: a parser takes the square of these in memory.
+#: Largest number of characters of a text, and of parts of a key: a parser needs memory quadratic in the latter.
 MAX_CHARACTERS, MAX_KEY_PARTS = 1_000_000, 8
 
-#: Strings of several lines and of one, and comments; one that has no end goes as far as a parser looks for it.
+#: Strings of several lines and of one, and comments; an unterminated one extends as far as a parser would read.
 _STRING_OR_COMMENT = re.compile(
     r'"""(?:\\.|[^"\\]|"(?!""))*+(?:"{3,5})?'
     r"|'''(?:[^']|'(?!''))*+(?:'{3,5})?"
@@ -20,25 +20,29 @@ _STRING_OR_COMMENT = re.compile(
     re.DOTALL,
 )
 
-#: The dots of a key with too many parts.
+#: Dots of a key with too many parts.
 _DEEP_KEY = re.compile(rf'(?:\.[ \t]*+(?:[\w-]++|"")?[ \t]*+){{{MAX_KEY_PARTS + 1}}}')
 
 
 def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str, Any]:
-    """The data of a TOML text.
+    """Parse a TOML text.
 
     Parameters
     ----------
     text : str
     what : str
-        What it is to be, such as "a recipe".
+        Name of the expected content in messages, such as "a recipe".
     largest : int
-        Letters that it may have.
+        Largest number of characters.
+
+    Returns
+    -------
+    dict
 
     Raises
     ------
     ParameterError
-        Where it is none, or is larger or deeper than such texts are: it names the line.
+        For text that is not TOML, too long or nested too deeply; the message names the line.
 
     Examples
     --------
@@ -55,7 +59,7 @@ def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str,
         return tomllib.loads(text)
     except RecursionError:
         raise ParameterError(f"is nested too deeply to be {what}") from None
-    except ValueError as error:  # tomllib's own, and that of a number with thousands of digits
+    except ValueError as error:  # tomllib's error, or that of a number with thousands of digits
         lines = text.splitlines() or [""]
         end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
         said = str(error).replace("at end of document", end)
@@ -65,7 +69,7 @@ def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str,
 def _check_size(text: str, what: str, largest: int) -> None:
     if len(text) > largest:
         raise ParameterError(f"has {len(text):,} letters: expected {what}, of {largest:,} at most")
-    # Strings may hold anything, and may be keys themselves: each is taken for an empty one, of as many lines.
+    # Strings may contain anything and may be keys: each is replaced by an empty one with as many lines.
     bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
     if deep := _DEEP_KEY.search(bare):
         number = bare.count("\n", 0, deep.start()) + 1

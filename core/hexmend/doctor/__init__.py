@@ -1,4 +1,4 @@
-"""The import doctor: finds what is wrong with a mesh that can be read, explains it, and mends what can be mended.
+"""Import doctor: finds problems of a mesh that can be read, explains them, and repairs those that it can.
 
 >>> from hexmend.gallery import make
 >>> examine(make("cube", size=8))
@@ -20,52 +20,55 @@ __all__ = ["PROBLEMS", "Finding", "Problem", "examine", "repair"]
 
 
 def _ordered() -> list[Problem]:
-    return sorted(PROBLEMS.values(), key=lambda one: one.rank)
+    return sorted(PROBLEMS.values(), key=lambda problem: problem.rank)
 
 
 def examine(mesh: Mesh, quick: bool = False) -> tuple[Finding, ...]:
-    """All that is wrong with a mesh, in the order in which it should be mended.
+    """Find the problems of a mesh, in the order in which they should be repaired.
 
     Parameters
     ----------
     mesh : Mesh
     quick : bool
-        Only what takes a time linear in the size of the mesh, but for two sorts: nodes that hang, or lie beside others
-        but not on them, are not looked for.
+        Leave out searches in space: hanging nodes, and coincident nodes that are not exactly in one place.
+
+    Returns
+    -------
+    tuple of Finding
     """
-    return tuple(found for one in _ordered() if (found := one.find(mesh, quick)) is not None)
+    return tuple(found for problem in _ordered() if (found := problem.find(mesh, quick)) is not None)
 
 
 def repair(mesh: Mesh, only: Sequence[str] = ()) -> tuple[Mesh, tuple[Finding, ...]]:
-    """Mend what can be mended.
+    """Repair the problems of a mesh that can be repaired.
 
     Parameters
     ----------
     mesh : Mesh
     only : sequence of str
-        Names of ailments; all if there is none.
+        Names of problems; all by default.
 
     Returns
     -------
     mesh : Mesh
     mended : tuple of Finding
-        What was found and mended, in that order.
+        Findings that were repaired, in that order.
 
     Raises
     ------
     ParameterError
-        For an ailment that there is not.
+        For an unknown problem.
     """
     mended = []
     for name in only:
-        PROBLEMS[name]
-    asked = [one for one in _ordered() if not only or one.name in only]
+        PROBLEMS[name]  # raises for an unknown one
+    chosen = [problem for problem in _ordered() if not only or problem.name in only]
     changed = True
-    while changed:  # merging nodes may make duplicates, and so on
+    while changed:  # one repair may cause another problem, as merged nodes make duplicate hexes
         changed = False
-        for one in asked:
-            found = one.find(mesh)
-            after = one.mend(mesh) if found is not None and found.mendable else mesh
+        for problem in chosen:
+            found = problem.find(mesh)
+            after = problem.mend(mesh) if found is not None and found.mendable else mesh
             if after is not mesh:
                 mesh, changed = after, True
                 mended.append(found)

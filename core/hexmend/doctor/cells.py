@@ -1,4 +1,4 @@
-"""Hexes that stand on each other's nodes, or on fewer than eight."""
+"""Problems of hexes: duplicates, and hexes with repeated nodes."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 
-#: Which corners of a hex make the six of a wedge where the edges between the other pairs are collapsed: for each pair
-#: of opposite edges of a face, the wedge's corners in the order of VTK.
+#: Corners of a hex that form a wedge, in VTK's order, for each pair of opposite edges of a face that are collapsed.
 _WEDGES = {
     ((a, b), (c, d)): order
     for (a, b), (c, d), order in (
@@ -33,7 +32,7 @@ _WEDGES = {
 
 @register_problem
 class DuplicateHexes(Problem):
-    """Hexes on the nodes of others."""
+    """Hexes with the same nodes as an earlier hex."""
 
     name, title = "duplicate-hexes", "Duplicate hexes"
     rank = 3
@@ -57,7 +56,7 @@ class DuplicateHexes(Problem):
 
 @register_problem
 class DegenerateHexes(Problem):
-    """Hexes that use a node twice: edges are collapsed, and corners there can never be good."""
+    """Hexes that use a node twice: their collapsed edges make good corners impossible."""
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
@@ -96,7 +95,7 @@ class DegenerateHexes(Problem):
 
 
 def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], list[int]]:
-    """The collapsed hexes that are wedges, with the wedges' nodes; and those on four nodes at most, which are flat."""
+    """Collapsed hexes that are wedges, with the wedges' nodes, and hexes of at most four nodes, which are flat."""
     wedges, flat = {}, []
     for h in which.tolist():
         nodes = mesh.hexes[h]
@@ -112,7 +111,7 @@ def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], 
 
 
 def _repeated(rows: np.ndarray) -> np.ndarray:
-    """True for each row (n, k) that is the same as one before it, (n,) bool."""
+    """True for rows (n, k) that are equal to an earlier row, (n,) bool."""
     order = np.lexsort(rows.T)
     same = (rows[order][1:] == rows[order][:-1]).all(axis=1)
     again = np.zeros(len(rows), dtype=bool)

@@ -1,4 +1,4 @@
-"""How hexes hang together."""
+"""Problems of connectivity: non-manifold faces and disconnected parts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend.mesh.orientation import parts_of
 
 @register_problem
 class NonManifoldFaces(Problem):
-    """Faces that more than two hexes share."""
+    """Faces of more than two hexes."""
 
     name, title = "crowded-faces", "Non-manifold faces"
     rank = 8
@@ -35,7 +35,7 @@ class NonManifoldFaces(Problem):
 
 @register_problem
 class DisconnectedParts(Problem):
-    """Parts of hexes that hang together with no other, by cells of other kinds neither."""
+    """Parts of the mesh that neither hexes nor other cells connect."""
 
     name, title = "parts", "Parts apart"
     rank = 9

@@ -1,4 +1,4 @@
-"""Nodes that lie on others, hang in the middle of a face, or belong to nothing."""
+"""Problems of nodes: coincident, hanging and unused nodes."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
-#: Nodes are in one place if they are no further apart than this, in mean edge lengths.
+#: Largest distance of coincident nodes, in mean edge lengths.
 MERGE_DISTANCE = 1e-6
 
 
 @register_problem
 class CoincidentNodes(Problem):
-    """Nodes in one place: blocks that were never merged, if boundary faces lie on each other there."""
+    """Nodes at one position; where boundary faces coincide as well, blocks have not been merged."""
 
     name, title = "coincident-nodes", "Coincident nodes"
     rank = 4
     action = "merge them, so that faces on each other become one"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        if quick and not _count_repeated(mesh.points[referenced_nodes(mesh)] + 0.0):  # -0 and 0 are one place
+        if quick and not _count_repeated(mesh.points[referenced_nodes(mesh)] + 0.0):  # -0 becomes 0
             return NONE_FOUND
         return np.flatnonzero(_merge_targets(mesh) != np.arange(mesh.n_nodes))
 
@@ -45,7 +45,7 @@ class CoincidentNodes(Problem):
 
 @register_problem
 class UnusedNodes(Problem):
-    """Nodes of no cell."""
+    """Nodes that no cell uses."""
 
     name, title = "unused-nodes", "Unused nodes"
     rank = 6
@@ -68,7 +68,7 @@ class UnusedNodes(Problem):
 
 @register_problem
 class HangingNodes(Problem):
-    """Nodes in the middle of an edge or a face of hexes that do not use them: a fine block beside a coarse one."""
+    """Nodes in the middle of an edge or face of hexes that do not use them, as between fine and coarse blocks."""
 
     name, title = "hanging-nodes", "Hanging nodes"
     rank = 7
@@ -95,10 +95,10 @@ class HangingNodes(Problem):
 
 
 def _count_repeated(rows: np.ndarray) -> int:
-    """How many rows (n, k) are the same as one before them.
+    """Count the rows (n, k) that are equal to an earlier row.
 
-    A number is made of each row, which equal rows share: where all numbers differ no row is repeated, and the rows
-    themselves need not be sorted, which takes ten times longer.
+    Rows are compared by hash first: if all hashes differ, no row is repeated, and sorting the rows themselves, which
+    takes ten times longer, is not needed.
     """
     bits = rows.view(f"u{rows.itemsize}").astype(np.uint64)
     bits ^= bits >> np.uint64(32)
@@ -117,9 +117,9 @@ def _merge_distance(mesh: Mesh) -> float:
 
 
 def _merge_targets(mesh: Mesh) -> np.ndarray:
-    """Where each node goes if those in one place become the first of them, (n,) int64.
+    """Number of the node into which each node is merged, the first at its position, (n,) int64.
 
-    Nodes that a hex uses both stay apart: merging them would collapse it.
+    Two nodes of one hex are not merged, because that would collapse the hex.
     """
     from scipy.spatial import cKDTree
 

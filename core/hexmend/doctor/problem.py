@@ -1,4 +1,4 @@
-"""What can be wrong with a mesh that can be read, and the registry in which ailments announce themselves."""
+"""Problems of meshes: their base class, their findings, and the registry of problems."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ import numpy as np
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
-#: No hexes, or no nodes.
+#: Empty array of hexes or nodes.
 NONE_FOUND = np.empty(0, np.int64)
 
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """Something to know of a mesh.
+    """Occurrence of a problem in a mesh.
 
     Parameters
     ----------
     kind : str
-        The name of the ailment.
+        Name of the problem.
     count : int
-        How many there are, of whatever the message counts.
+        Number of hexes, nodes, faces or parts that the message counts.
     message : str
-        A sentence.
+        Description as a sentence.
     remedy : str
-        What to do about it, as a sentence.
+        Advice as a sentence.
     mendable : bool
-        Whether `hexmend.doctor.repair` mends it.
+        True if `hexmend.doctor.repair` repairs it.
     hexes, nodes : (k,) int
-        Where it is.
+        Hexes or nodes that have the problem.
     """
 
     kind: str
@@ -44,7 +44,7 @@ class Finding:
     nodes: np.ndarray = field(default_factory=lambda: NONE_FOUND)
 
     def to_dict(self, most: int = 10) -> dict[str, Any]:
-        """The finding for other programs, with its first places."""
+        """Return the finding as plain data, with its first `most` hexes and nodes."""
         return {
             "kind": self.kind,
             "count": self.count,
@@ -56,7 +56,7 @@ class Finding:
         }
 
     def location_text(self, most: int = 5) -> str:
-        """The first places in words.
+        """Name the first hexes or nodes that have the problem.
 
         >>> Finding("unused-nodes", 7, "", nodes=np.arange(7)).location_text(3)
         'nodes 0, 1, 2, ...'
@@ -71,7 +71,8 @@ class Finding:
 
 
 def count_phrase(count: int, one: str, several: str) -> str:
-    """
+    """Put a count before the singular or plural of a phrase.
+
     >>> count_phrase(1, "hex is", "hexes are"), count_phrase(2000, "hex is", "hexes are")
     ('1 hex is', '2,000 hexes are')
     """
@@ -79,39 +80,39 @@ def count_phrase(count: int, one: str, several: str) -> str:
 
 
 class Problem(ABC):
-    """A kind of trouble: how it is found and, if it can be, mended."""
+    """Kind of problem of a mesh: its search, description and, where possible, repair."""
 
-    #: The key in AILMENTS, and what the viewer calls it.
+    #: Key in PROBLEMS, and title in the viewer.
     name: ClassVar[str]
     title: ClassVar[str]
-    #: The place in the order in which ailments are looked for and mended.
+    #: Position in the order of search and repair.
     rank: ClassVar[int]
-    #: What `repair` does about it, as words after "to"; "" where nothing can be done.
+    #: Action of `repair`, as words after "to"; "" if there is none.
     action: ClassVar[str] = ""
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
-        """What there is of it; None for nothing. `quick`: only what can be found without a search in space."""
+        """Find the problem in a mesh; None if it does not occur. `quick` leaves out searches in space."""
         where = self.locate(mesh, quick)
         return self.describe(mesh, where) if where.size else None
 
     @abstractmethod
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
-        """The hexes, or the nodes, that have it, ascending, (k,) int64."""
+        """Return the hexes or nodes that have the problem, ascending, (k,) int64."""
 
     @abstractmethod
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        """What there is of it: `locate` is what the method of that name gives, and not empty."""
+        """Describe the problem; `where` is the result of `locate` and not empty."""
 
     def mend(self, mesh: Mesh) -> Mesh:
-        """The mesh without it, as far as that goes."""
+        """Return the mesh with the problem repaired as far as possible."""
         return mesh
 
 
-#: Every ailment by name.
+#: Every kind of problem by name.
 PROBLEMS: Registry[Problem] = Registry("problem")
 
 
 def register_problem(cls: type[Problem]) -> type[Problem]:
-    """Class decorator: register an ailment under its name."""
+    """Register a problem under its name; a class decorator."""
     PROBLEMS.add(cls.name, cls())
     return cls

@@ -1,4 +1,4 @@
-"""Meshes with hexes or nodes fewer: what came with them is kept for those that stay."""
+"""Removal of hexes and merging of nodes; data and sets of the others are kept."""
 
 from __future__ import annotations
 
@@ -9,14 +9,19 @@ from hexmend.mesh.mesh import Mesh
 
 
 def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:
-    """The mesh of some of its hexes; all nodes stay.
+    """Return the mesh with some of its hexes; all nodes stay.
 
     Parameters
     ----------
     mesh : Mesh
     kept : (m,) bool
+        True for hexes to be kept.
     stands_for : (m,) int, optional
-        The hex whose place in sets each one takes, where that is another: of a duplicate the one that is kept.
+        Hex that replaces each hex in sets, such as the kept one of duplicates.
+
+    Returns
+    -------
+    Mesh
     """
     rows = np.flatnonzero(kept)
     place = np.full(mesh.n_hexes, -1)
@@ -37,12 +42,17 @@ def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = Non
 
 
 def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
-    """The mesh whose nodes are renumbered.
+    """Return the mesh with its nodes renumbered, merged or removed.
 
     Parameters
     ----------
+    mesh : Mesh
     target : (n,) int
-        Where each node goes; nodes that go to one place become one, the first of them, and -1 is left out.
+        New number of each node; nodes of one number are merged into the first of them, nodes of -1 removed.
+
+    Returns
+    -------
+    Mesh
     """
     kept, first = np.unique(target, return_index=True)
     first = first[kept >= 0]
@@ -61,25 +71,25 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
 
 
 def has_repeated_node(hexes: np.ndarray) -> np.ndarray:
-    """True for each hex (m, 8) that uses a node twice, (m,) bool."""
+    """Return True for hexes (m, 8) that use a node twice, (m,) bool."""
     rows = np.sort(hexes, axis=1)
     return (rows[:, 1:] == rows[:, :-1]).any(axis=1)
 
 
 def referenced_nodes(mesh: Mesh) -> np.ndarray:
-    """True for each node that a hex, of whatever order, another cell or a named set uses, (n,) bool."""
+    """Return True for nodes that a hex (as corner or mid-node), another cell or a named set uses, (n,) bool."""
     used = mesh.topology.used.copy()
     if mesh.mid_nodes is not None:
         used[mesh.mid_nodes[mesh.mid_nodes >= 0]] = True
     for cells in mesh.cells:
         used[cells.nodes] = True
-    for members in mesh.node_sets.values():  # a reference point, say
+    for members in mesh.node_sets.values():  # such as a reference point
         used[np.asarray(members, dtype=np.int64)] = True
     return used
 
 
 def _renumbered_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
-    """Sets of those that stay, in their new numbers; a set of which nothing stays is left out."""
+    """Sets in new numbers, without removed members and empty sets."""
     answer = {}
     for name, members in sets.items():
         there = place[np.asarray(members, dtype=np.int64)]

@@ -1,4 +1,4 @@
-"""Hexes whose corners are numbered in another order than that of VTK's hexahedron."""
+"""Problems of corner numbering: mirrored parts, flipped hexes, and voxels labelled as hexahedra."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend.quality import corner_determinants
 
 @register_problem
 class MirroredParts(Problem):
-    """Whole parts numbered left-handed; on reading they are turned unless the user wants them as they are."""
+    """Parts numbered left-handed; readers renumber them unless asked to keep the mesh as it is."""
 
     name, title = "mirrored-parts", "Mirrored parts"
     rank = 0
@@ -35,7 +35,7 @@ class MirroredParts(Problem):
 
 @register_problem
 class FlippedHexes(Problem):
-    """Single hexes numbered left-handed among sound neighbours: no tangle, but a mistake of numbering."""
+    """Single hexes numbered left-handed among valid neighbours: wrong numbering, not tangling."""
 
     name, title = "flipped-hexes", "Flipped hexes"
     rank = 2
@@ -70,7 +70,7 @@ class FlippedHexes(Problem):
 
 
 def _on_opposite_sides(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> np.ndarray:
-    """Whether hexes (k,) and their neighbours (k, 6) lie on two sides of the face that they share, (k, 6) bool."""
+    """True if hexes (k,) and their neighbours (k, 6) lie on opposite sides of their common face, (k, 6) bool."""
     faces = mesh.points[mesh.hexes[rows][:, FACES]]
     middle = faces.mean(axis=2)
     normal = np.cross(faces[:, :, 2] - faces[:, :, 0], faces[:, :, 3] - faces[:, :, 1])
@@ -81,7 +81,7 @@ def _on_opposite_sides(mesh: Mesh, rows: np.ndarray, neighbours: np.ndarray) -> 
 
 @register_problem
 class VoxelOrder(Problem):
-    """Corners in the order of VTK's voxel under the type of a hexahedron: the hexes are twisted."""
+    """Hexes with corners in the order of VTK's voxel, which makes them twisted."""
 
     name, title = "voxel-order", "Voxels labelled as hexahedra"
     rank = 1
@@ -90,7 +90,7 @@ class VoxelOrder(Problem):
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if mesh.mid_nodes is not None:
             return NONE_FOUND
-        # The faces x- and x+ of such a hex are none of its own, so that no neighbour shares them.
+        # In the wrong order x- and x+ are not faces of the hex, so that no neighbour shares them.
         alone = (mesh.topology.face_neighbours[:, :2] < 0).all(axis=1)
         twisted = np.flatnonzero(alone & (corner_determinants(mesh.points, mesh.hexes) <= 0).any(axis=1))
         return twisted[(corner_determinants(mesh.points, mesh.hexes[twisted][:, VOXEL_ORDER]) > 0).all(axis=1)]

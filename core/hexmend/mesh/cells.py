@@ -1,4 +1,4 @@
-"""Cells of other kinds than hexes, which a mesh carries through."""
+"""Cells other than hexes, which a mesh keeps unchanged from file to file."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 
 
 class CellKind(NamedTuple):
-    """A kind of cell that is no hex: its dimension, its number of nodes, in the order of VTK, and its number there."""
+    """Kind of a cell other than a hex: dimension, number of nodes (in VTK's order) and VTK cell type."""
 
     dimension: int
     nodes: int
     vtk: int
 
 
-#: Every kind of cell that is carried beside hexes.
+#: Supported kinds of cells other than hexes, by name.
 CELL_KINDS = {
     "vertex": CellKind(0, 1, 1),
     "line": CellKind(1, 2, 3),
@@ -38,15 +38,16 @@ CELL_KINDS = {
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cells of another kind that a file holds beside its hexes; carried through, never computed with.
+    """Cells of one kind other than hexes; they are kept for writing and take no part in computations.
 
     Parameters
     ----------
     kind : str
         One of `CELL_KINDS`.
     nodes : (k, width) int32
-        In the order of VTK.
+        Nodes of each cell, in VTK's order.
     data : mapping of name to (k, ...) array
+        Values of the cells.
     sets : mapping of name to (j,) int array
         Named groups of these cells.
     """
@@ -58,5 +59,5 @@ class Cells:
 
     @property
     def dimension(self) -> int:
-        """0 for vertices up to 3 for cells that fill space."""
+        """Dimension, from 0 for vertices to 3 for solid cells."""
         return CELL_KINDS[self.kind].dimension

@@ -1,4 +1,4 @@
-"""The mean length of the edges of a mesh: the unit in which moves and tolerances are counted."""
+"""Mean edge length of a mesh, the unit of steps and tolerances."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks of what a mesh carries besides its points and hexes, field by field."""
+"""Checks of the fields of a mesh other than points and hexes."""
 
 from __future__ import annotations
 
@@ -14,27 +14,42 @@ from hexmend.mesh.validation import as_array, as_bools, as_integers, check_node_
 
 
 def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
-    """The value of a field of a mesh, checked, its arrays immutable; of a field without a check the value itself.
+    """Check the value of a field of a mesh and make its arrays immutable; fields without a check are returned as is.
 
     Parameters
     ----------
     field : str
-        The name of a field of `hexmend.Mesh`.
+        Name of a field of `hexmend.Mesh`.
     value : object
     nodes, hexes : int
-        How many the mesh has.
+        Number of nodes and of hexes of the mesh.
+
+    Returns
+    -------
+    object
 
     Raises
     ------
     MeshError
-        Where it is of another type or shape, or names what does not exist.
+        For another type or shape, and for nodes, hexes or faces that do not exist.
     """
     check = _CHECKS.get(field)
     return value if check is None else check(value, nodes, hexes)
 
 
 def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
-    """The nodes of second order of so many hexes, numbers below `nodes` or -1, as (m, 19) int32.
+    """Check the mid-nodes of second-order hexes; see `hexmend.mesh.second_order`.
+
+    Parameters
+    ----------
+    mid_nodes : (m, 19) array-like of whole numbers
+        Node numbers, -1 where there is no node.
+    nodes, hexes : int
+        Number of nodes and of hexes of the mesh.
+
+    Returns
+    -------
+    (m, 19) int32
 
     Raises
     ------
@@ -49,7 +64,19 @@ def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
 
 
 def as_set(values: object, what: str, count: int) -> np.ndarray:
-    """A named set as an array of integers (k,), each from 0 to `count` - 1.
+    """Convert a named set to an array of integers (k,), each from 0 to `count` - 1.
+
+    Parameters
+    ----------
+    values : (k,) array-like of whole numbers
+    what : str
+        Name of the set in messages.
+    count : int
+        Number of items of which the set is a part.
+
+    Returns
+    -------
+    (k,) int
 
     Raises
     ------
@@ -64,7 +91,19 @@ def as_set(values: object, what: str, count: int) -> np.ndarray:
 
 
 def as_side_set(values: object, what: str, hexes: int) -> np.ndarray:
-    """A named set of faces as an array of integers (k, 2): a hex, and the number of one of its six faces.
+    """Convert a named set of faces to an array of integers: in each row a hex and one of its six faces.
+
+    Parameters
+    ----------
+    values : (k, 2) array-like of whole numbers
+    what : str
+        Name of the set in messages.
+    hexes : int
+        Number of hexes of the mesh.
+
+    Returns
+    -------
+    (k, 2) int
 
     Raises
     ------
@@ -91,7 +130,7 @@ def _check_members(array: np.ndarray, what: str, places: tuple[str, ...], counts
 
 
 def as_rows(values: object, what: str, count: int) -> np.ndarray:
-    """Data as an array of so many rows; `MeshError` where they are more or fewer."""
+    """Convert data to an array of `count` rows; raises `MeshError` for another number of rows."""
     array = as_array(values, what)
     if array.ndim == 0:
         raise MeshError(f"{what} is a single value: expected {count} rows")
@@ -101,7 +140,18 @@ def as_rows(values: object, what: str, count: int) -> np.ndarray:
 
 
 def check_cells(cells: object, nodes: int) -> Cells:
-    """Cells that are no hexes with int32 node numbers below `nodes`, their data and sets; all arrays immutable.
+    """Check cells other than hexes, with their data and sets.
+
+    Parameters
+    ----------
+    cells : Cells
+    nodes : int
+        Number of nodes of the mesh.
+
+    Returns
+    -------
+    Cells
+        With int32 node numbers; all arrays are immutable.
 
     Raises
     ------
@@ -141,14 +191,14 @@ def _cells(value: object, nodes: int, hexes: int) -> tuple[Cells, ...]:
 
 
 def _arrays(value: object, what: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
-    """Named arrays, each checked by a function of the array, its name in messages and a count, and immutable."""
+    """Check named arrays by a function of the array, its name in messages and a count; they become immutable."""
     if not isinstance(value, Mapping):
         raise MeshError(f"{what}: found {type(value).__name__}, expected a mapping of names to arrays")
     return {name: as_immutable(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
 
 
 def _table(what: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
-    """A check of named arrays, one row or member for each of the nodes or hexes."""
+    """Make a check of named arrays of the nodes or of the hexes."""
     return lambda value, nodes, hexes: _arrays(value, what, nodes if of_nodes else hexes, check)
 
 

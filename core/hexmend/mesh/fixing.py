@@ -1,4 +1,4 @@
-"""Which nodes are to stay, told one by one, by the names of sets, or by a region that alone is to move."""
+"""Pinning of nodes: by number, by named sets, or outside a region."""
 
 from __future__ import annotations
 
@@ -13,13 +13,19 @@ from hexmend.mesh.mesh import Mesh
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
-    """The mesh with some nodes pinned, or let go where `on` is false; the others' pins stay.
+    """Return the mesh with some nodes pinned or unpinned.
 
     Parameters
     ----------
     mesh : Mesh
     nodes : int or (k,) int
+        Numbers of nodes; the pins of other nodes stay.
     on : bool
+        Pin the nodes; false unpins them.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
@@ -39,18 +45,22 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
 
 
 def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
-    """The mesh whose nodes in some sets are pinned, besides those that are.
+    """Return the mesh with the nodes of named sets pinned as well.
 
     Parameters
     ----------
     mesh : Mesh
     names : str
-        Of node sets, or of sets of hexes or sides, all nodes of which are meant.
+        Names of node sets, or of hex or side sets, of which all nodes are pinned.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
     MeshError
-        For a set that there is not.
+        For a set that does not exist.
 
     Examples
     --------
@@ -65,14 +75,18 @@ def with_sets_fixed(mesh: Mesh, *names: str) -> Mesh:
 
 
 def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
-    """The mesh of which only the nodes of some hexes, and of so many rings around them, may move.
+    """Return the mesh with all nodes pinned but those of some hexes and of rings of hexes around them.
 
     Parameters
     ----------
     mesh : Mesh
     hexes : (k,) int
     rings : int
-        How often those that share a node with the ones before are taken in.
+        Number of rings; each adds the hexes that share a node with those before.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
@@ -85,7 +99,7 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
 
 
 def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
-    """The nodes of a set of nodes, hexes or sides, (k,) int; raises `MeshError` for a set that there is not."""
+    """Return the nodes of a node, hex or side set, (k,) int; raises `MeshError` for a set that does not exist."""
     if name in mesh.node_sets:
         return np.asarray(mesh.node_sets[name])
     if name in mesh.hex_sets:

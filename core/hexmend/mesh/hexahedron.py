@@ -1,4 +1,4 @@
-"""The reference hexahedron: how corners, edges, faces and corner tetrahedra are numbered.
+"""Reference hexahedron: numbering of corners, edges, faces and corner tetrahedra.
 
 Corners are numbered as VTK_HEXAHEDRON numbers them, from 0 (the thesis's Table 2.1 counts from 1)::
 
@@ -49,5 +49,5 @@ DIAGONALS = np.array([[0, 6], [1, 7], [2, 4], [3, 5]], dtype=np.int64)
 #: The six faces, (6, 4), each seen counter-clockwise from outside: x-, x+, y-, y+, z-, z+.
 FACES = np.array([[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]], dtype=np.int64)
 
-#: Where VTK_VOXEL (type 11) keeps the corners of a hexahedron: hexahedron = voxel[VOXEL_ORDER].
+#: Permutation from the corners of VTK_VOXEL (type 11) to those of a hexahedron: hexahedron = voxel[VOXEL_ORDER].
 VOXEL_ORDER = np.array([0, 1, 3, 2, 4, 5, 7, 6], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The mesh: points, hexahedra, which nodes are fixed, and what the file said besides, carried through."""
+"""Hexahedral mesh: points, hexes, fixed nodes, and the sets and data of its file."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite,
 
 
 class TargetSurface(Protocol):
-    """A surface that the boundary of a mesh can slide on; `hexmend.boundary.Skin` is one."""
+    """Surface on which the boundary of a mesh can slide, such as `hexmend.boundary.SkinSurface`."""
 
     points: np.ndarray
     faces: np.ndarray
@@ -36,10 +36,9 @@ class TargetSurface(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """A hexahedral mesh. Immutable: `with_points` returns a copy that shares everything else.
+    """Immutable hexahedral mesh; a change returns a copy that shares everything else.
 
-    Arrays are copied unless nobody can change them, so that the caller's own stay writable, and what becomes of them
-    later does not change the mesh.
+    Arrays are copied unless they are immutable: the caller's stay writable, and changes to them do not change the mesh.
 
     Parameters
     ----------
@@ -48,30 +47,30 @@ class Mesh:
     hexes : (m, 8) int32
         Corner nodes from 0, numbered as in `hexmend.mesh.hexahedron`; kept read-only.
     pinned : (n,) bool, optional
-        Nodes to be kept fixed besides those of the boundary.
+        Nodes that are fixed in addition to those of the boundary.
     node_data, hex_data : mapping of name to (n, ...) or (m, ...) array
         Ids, references and other values of the file.
     node_sets, hex_sets : mapping of name to (k,) int array
-        Named groups.
+        Named groups of nodes and hexes.
     cells : tuple of Cells
-        Cells of other kinds: boundary quads with references, feature edges, tetrahedra beside the hexes...
+        Cells of other kinds: boundary quads with references, feature edges, tetrahedra.
     name : str
-        What to call the mesh; the file's stem.
+        Name of the mesh; the file's stem.
     side_sets : mapping of name to (k, 2) int array
-        Named groups of faces: the hex, and which of `hexmend.mesh.hexahedron.FACES` it is.
+        Named groups of faces: the hex and the row of `hexmend.mesh.hexahedron.FACES`.
     mid_nodes : (m, 19) int32, optional
-        Further nodes of hexes of second order, -1 where there is none: see `hexmend.mesh.second_order`. They follow the
+        Mid-nodes of second-order hexes, -1 where there is none; see `hexmend.mesh.second_order`. They follow the
         corners.
     field_data : mapping of name to array or list of str
-        What belongs to the mesh as a whole.
+        Values of the mesh as a whole.
     notes : tuple of str
-        What was done to the mesh on reading, in sentences.
+        Changes made to the mesh on reading, as sentences.
 
     Raises
     ------
     MeshError
-        Where a coordinate is no finite number, a node number is not whole or out of range, a set names what does not
-        exist, or an array has the wrong shape or type. Numbers that are booleans, complex or text are refused.
+        For a coordinate that is not finite, a node number that is not whole or out of range, a set with members that
+        do not exist, and an array of another shape or type (numbers that are booleans, complex or text).
 
     Examples
     --------
@@ -103,23 +102,23 @@ class Mesh:
         hexes = as_hexes(self.hexes, len(points))
         if not len(hexes):
             raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
-        # A view: meshes share one array of hexes only where one was made of the other and has its topology.
+        # A view, so that meshes share an array of hexes only if one was derived from the other and has its topology.
         self._set(points=as_immutable(points), hexes=as_immutable(hexes).view())
-        self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
+        self._set_checked({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
         self._set(topology=Topology(self.hexes, len(points)))
 
     def __deepcopy__(self, memo: dict[int, object]) -> Mesh:
         return self  # it is immutable
 
     def __setstate__(self, state: Mapping[str, object]) -> None:
-        """Take over the state of a pickle, whose arrays are writable: they are made immutable again."""
+        """Restore a pickled state; its arrays are writable and are made immutable again."""
         self._set(**state)
         self._set(**{name: as_immutable(array) for name, array in state.items() if isinstance(array, np.ndarray)})
-        self._set(hexes=self.topology.hexes)  # which meshes of one lineage share
-        self._carry({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
+        self._set(hexes=self.topology.hexes)  # shared by meshes that are derived from each other
+        self._set_checked({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
 
-    def _carry(self, values: Mapping[str, object]) -> None:
-        """Check the values of some fields and keep them; points and hexes stay."""
+    def _set_checked(self, values: Mapping[str, object]) -> None:
+        """Check the values of fields other than points and hexes, and set them."""
         for name, value in values.items():
             if name not in ("points", "hexes"):
                 self._set(**{name: check_field(name, value, self.n_nodes, self.n_hexes)})
@@ -140,46 +139,50 @@ class Mesh:
 
     @cached_property
     def fixed(self) -> np.ndarray:
-        """True for each node that no method moves: boundary, pinned, and nodes that no hex uses; (n,) bool."""
+        """True for nodes that no method moves: of the boundary, pinned, or used by no hex; (n,) bool."""
         fixed = self.topology.boundary | ~self.topology.used
         return as_immutable(fixed if self.pinned is None else fixed | self.pinned)
 
     @cached_property
     def free(self) -> np.ndarray:
-        """True for each node that methods may move, (n,) bool."""
+        """True for nodes that methods may move, (n,) bool."""
         return as_immutable(~self.fixed)
 
     @cached_property
     def mean_edge_length(self) -> float:
-        """Mean length of the hexes' edges, each counted once a hex; see `hexmend.mesh.edge_length`."""
+        """Mean edge length; see `hexmend.mesh.edge_length.mean_edge_length`."""
         return mean_edge_length(self.points, self.hexes)
 
     def quality(self, metric: str = "q") -> np.ndarray:
-        """The values of a metric of `hexmend.METRICS`, (m,) float64: see `hexmend.quality.metric_values`."""
+        """Return the values of a metric of `hexmend.METRICS`, (m,) float64; see `hexmend.quality.metric_values`."""
         return provided("quality")(self, metric)
 
     def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:
-        """The numbers of the worst hexes by a metric, the worst first: see `hexmend.quality.worst_hexes`."""
+        """Return the numbers of the worst hexes by a metric, worst first; see `hexmend.quality.worst_hexes`."""
         return provided("worst_hexes")(self, count, metric)
 
     def _repr_html_(self) -> str:
-        """What a notebook shows of it."""
+        """Return the HTML that a notebook shows."""
         return html_of(self)
 
     def with_points(self, points: np.ndarray) -> Mesh:
-        """The same mesh with its nodes elsewhere; connectivity, topology, sets and data are shared.
+        """Return the mesh with other node positions; connectivity, topology, sets and data are shared.
 
-        Nodes of second order go where the corners of their hexes take them, whatever `points` says of them.
+        Mid-nodes of second-order hexes follow the corners; their rows of `points` are not read.
 
         Parameters
         ----------
         points : (n, 3) float64
-            Copied, unless nobody can change them, as those of another mesh or of an iteration.
+            Copied unless immutable, such as those of another mesh or of an iteration.
+
+        Returns
+        -------
+        Mesh
 
         Raises
         ------
         MeshError
-            For another shape or type, or where a coordinate is no finite number.
+            For another shape or type, and for a coordinate that is not finite.
         """
         points = points_like(points, self.points.shape)
         check_finite(points)
@@ -198,24 +201,28 @@ class Mesh:
 
     @property
     def target(self) -> TargetSurface | None:
-        """The surface that the boundary slides on where that is not the boundary itself; see `sliding_on`."""
+        """Surface on which the boundary slides if that is not the original boundary; see `sliding_on`."""
         return self.__dict__.get("_target")
 
     def sliding_on(self, surface: TargetSurface, *, check: bool = True) -> Mesh:
-        """The same mesh, whose boundary slides on another surface, such as `hexmend.read_surface` gives.
+        """Return the mesh with a surface on which its boundary slides, such as `hexmend.read_surface` gives.
 
-        Methods that let the boundary slide put its nodes on that surface first; others do as ever.
+        Methods that let the boundary slide first project its nodes onto that surface; other methods ignore it.
 
         Parameters
         ----------
-        surface : hexmend.boundary.Skin
+        surface : hexmend.boundary.SkinSurface
         check : bool
-            Whether it has to be near; one that a mesh had before need not be looked at again.
+            Check that the surface is near the boundary; not needed for one that the mesh had before.
+
+        Returns
+        -------
+        Mesh
 
         Raises
         ------
         MeshError
-            Where the surface is far from the boundary.
+            If the surface is far from the boundary.
         """
         if check:
             surface.check_near(self)
@@ -224,17 +231,21 @@ class Mesh:
         return copy
 
     def keeping_surface(self) -> Mesh:
-        """The same mesh, whose boundary slides on the surface of now wherever `with_points` puts its nodes."""
+        """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         copy = self._copy("fixed", "free")
         copy._set(_surface=self.surface_points)
         return copy
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
-        """The same mesh of which other nodes are fixed, whatever its boundary and pins say; all else is shared.
+        """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
 
         Parameters
         ----------
         fixed : (n,) bool
+
+        Returns
+        -------
+        Mesh
 
         Raises
         ------
@@ -246,14 +257,23 @@ class Mesh:
         return copy
 
     def replace(self, **changes: object) -> Mesh:
-        """A copy with other pins, data, sets or name (not points or hexes); all else is shared.
+        """Return a copy with other values of some fields, but not points or hexes; all else is shared.
+
+        Parameters
+        ----------
+        **changes
+            Values of fields by name.
+
+        Returns
+        -------
+        Mesh
 
         Raises
         ------
         MeshError
-            For points or hexes, and where an array has the wrong length.
+            For points or hexes, and for values that do not fit the mesh.
         TypeError
-            For what a mesh does not have.
+            For an unknown field.
         """
         if "points" in changes or "hexes" in changes:
             raise MeshError("replace() changes what is carried; use with_points() or rebuilt()")
@@ -261,18 +281,18 @@ class Mesh:
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
         copy = self._copy()
-        copy._carry(changes)
+        copy._set_checked(changes)
         return copy
 
     def rebuilt(self, **changes: object) -> Mesh:
-        """A mesh of its own with other points, hexes, or whatever else; what is not named is taken over."""
+        """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over."""
         mesh = Mesh(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init} | changes)
         if self.target is not None:
             mesh._set(_target=self.target)
         return mesh
 
     def _copy(self, *known: str) -> Mesh:
-        """A copy that shares everything, and what is known or was told under some names; nothing is checked."""
+        """Return a copy that shares all fields, the surfaces for sliding, and cached properties of some names."""
         copy = object.__new__(Mesh)
         copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
         names = ("_surface", "_target", *known)

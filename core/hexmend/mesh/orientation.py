@@ -1,4 +1,4 @@
-"""Hexes wound the other way: their corners are numbered left-handed, so that each is inside out."""
+"""Orientation of hexes: parts whose corners are numbered left-handed, so that each hex is inside out."""
 
 from __future__ import annotations
 
@@ -9,15 +9,23 @@ from hexmend.mesh.components import components_of_cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.second_order import MIRRORED_MID_NODES
 
-#: Corners of a hex whose lower and upper face are exchanged; and its faces.
+#: Corners, and faces, of a hex whose lower and upper face are exchanged.
 MIRRORED_CORNERS = np.array([4, 5, 6, 7, 0, 1, 2, 3])
 MIRRORED_FACES = np.array([0, 1, 2, 3, 5, 4])
 
 
 def with_consistent_orientation(mesh: Mesh) -> Mesh:
-    """The mesh with every part turned that is wound the other way, and a note that says so.
+    """Return the mesh with all left-handed parts renumbered right-handed, and a note that says so.
 
-    Single inverted hexes are never turned: they are what is to be mended.
+    Single inverted hexes are left as they are: smoothing has to repair them.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    Mesh
     """
     which = mirrored_parts(mesh)
     count = int(which.sum())
@@ -30,10 +38,18 @@ def with_consistent_orientation(mesh: Mesh) -> Mesh:
 
 
 def mirrored_parts(mesh: Mesh) -> np.ndarray:
-    """True for the hexes of every part that is wound the other way, (m,) bool.
+    """Find the hexes of left-handed parts.
 
-    Parts hang together by nodes. A part is wound the other way if some of its hexes have a negative volume and none a
-    positive one; flat hexes, whose volume is zero but for rounding, belong to the part and say nothing about it.
+    Parts are connected by nodes. A part is left-handed if some of its hexes have a negative volume and none a positive
+    one; flat hexes, whose volume is zero up to rounding, do not count.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    (m,) bool
     """
     determinants = np.empty((mesh.n_hexes, 8))
     elements.corner_determinants(mesh.points, mesh.hexes, determinants)
@@ -50,14 +66,14 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
 
 
 def _rounding(mesh: Mesh) -> np.ndarray:
-    """How far from zero the sum of the corner determinants of a flat hex may be, (m,) float64."""
+    """Bound of the rounding error in the sum of a hex's corner determinants, (m,) float64."""
     corners = mesh.points[mesh.hexes]
     size = np.linalg.norm(corners.max(axis=1) - corners.min(axis=1), axis=1)
     return 64 * np.finfo(np.float64).eps * np.abs(corners).max(axis=(1, 2)) * size**2
 
 
 def mirror_hexes(mesh: Mesh, which: np.ndarray) -> Mesh:
-    """The mesh with the lower and the upper face of some hexes, (m,) bool, exchanged: each is turned inside out."""
+    """Return the mesh with the lower and upper face of some hexes (m,) bool exchanged, which reverses the hexes."""
     hexes = mesh.hexes.copy()
     hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     mids = None

@@ -1,4 +1,4 @@
-"""Patches of a mesh that hold several free nodes, 5.2.5: built once, as arrays."""
+"""Patches of several free nodes that are smoothed together (thesis 5.2.5)."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ _SIZES = tuple(Parameter(name, int, 1, low, 2**31 - 1, None, "", "") for name, l
 
 @dataclass(frozen=True, eq=False)
 class Patches:
-    """Groups of free nodes that hang together, the hexes at them, and which of them know nothing of each other.
+    """Connected groups of free nodes with their hexes, coloured for parallel sweeps.
 
     Parameters
     ----------
     nodes : CSR
-        The nodes of each patch, ascending. Every free node is in one; with overlap in several.
+        Nodes of each patch, ascending. Every free node is in one patch; with overlap in several.
     chosen : CSR
-        The hexes at the nodes of each patch.
+        Numbers of the hexes at the nodes of each patch.
     hexes : (t, 8) int32
         Corners of those hexes, one patch after another.
     slots : (t, 8) int32
-        Where each corner is among the patch's nodes; -1 if it stays.
+        Index of each corner among the patch's nodes; -1 if it is fixed.
     colours : CSR
-        The patches in groups, so that two of one group share no hex.
+        Patches of each colour; two of one colour share no hex.
 
     Examples
     --------
@@ -58,10 +58,19 @@ def partition_patches(mesh: Mesh, size: int, overlap: int) -> Patches:
     ----------
     mesh : Mesh
     size : int
-        Nodes of a patch, taken breadth first from the lowest that is left, from node to node of a hex; fewer where no
-        more hang together.
+        Number of nodes of a patch, collected breadth first through hexes from the lowest remaining node; fewer where
+        no more are connected.
     overlap : int
-        Rings of free nodes around those, that a patch moves too.
+        Number of rings of free nodes around these that the patch moves as well.
+
+    Returns
+    -------
+    Patches
+
+    Raises
+    ------
+    ParameterError
+        For a size or overlap out of range.
     """
     size, overlap = (one.check(value) for one, value in zip(_SIZES, (size, overlap), strict=True))
     node_start, nodes, hex_start, chosen, slots = kernels.partition(mesh.topology.hex_mesh, mesh.free, size, overlap)

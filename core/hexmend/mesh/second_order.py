@@ -1,10 +1,10 @@
-"""Hexahedra of second order: the nodes that they have besides their corners, and how these follow them.
+"""Second-order hexahedra: numbering of their mid-nodes, which follow the corners, and their Jacobians.
 
 Numbered as VTK numbers types 25 (20 nodes) and 29 (27 nodes), after the corners 0 to 7::
 
-    8 to 19    the middles of the edges 01 12 23 30, 45 56 67 74, 04 15 26 37
-    20 to 25   those of the faces x-, x+, y-, y+, z-, z+
-    26         that of the hex
+    8 to 19    midpoints of the edges 01 12 23 30, 45 56 67 74, 04 15 26 37
+    20 to 25   centres of the faces x-, x+, y-, y+, z-, z+
+    26         centre of the hex
 
 `mid_nodes` (m, 19) int32 holds nodes 8 to 26 of each hex, -1 where it has none.
 """
@@ -16,52 +16,52 @@ import numpy as np
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.shape_functions import lagrange, serendipity
 
-#: The edges of nodes 8 to 19.
+#: Edges of nodes 8 to 19, (12, 2).
 MID_EDGES = np.array(
     [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]], dtype=np.int64
 )
 
-#: Places of nodes 8 to 26 in the unit cube, (19, 3).
+#: Positions of nodes 8 to 26 in the unit cube, (19, 3).
 MID_NODE_POSITIONS = np.concatenate(
     [UNIT_CUBE[MID_EDGES].mean(axis=1), UNIT_CUBE[FACES].mean(axis=1), UNIT_CUBE.mean(axis=0)[None]]
 )
 
-#: Shares of the corners in nodes 8 to 26, (19, 8): the trilinear functions of the corners there.
+#: Trilinear weights of the corners at nodes 8 to 26, (19, 8).
 MID_NODE_WEIGHTS = np.prod(
     np.where(UNIT_CUBE[None] == 1, MID_NODE_POSITIONS[:, None], 1 - MID_NODE_POSITIONS[:, None]), axis=2
 )
 
-#: Where nodes 8 to 26 are in a hex whose lower and upper face are exchanged.
+#: Permutation of nodes 8 to 26 in a hex whose lower and upper face are exchanged.
 MIRRORED_MID_NODES = np.array([4, 5, 6, 7, 0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 17, 16, 18])
 
-#: Places of all 27 nodes, and of the 3 x 3 x 3 Gauss points.
+#: Positions of all 27 nodes, and of the 3 x 3 x 3 Gauss points, in the unit cube.
 NODE_POSITIONS = np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS])
 _GAUSS_ABSCISSAE = np.array([0.5 - np.sqrt(0.15), 0.5, 0.5 + np.sqrt(0.15)])
 GAUSS_POINTS = np.stack(
     np.meshgrid(_GAUSS_ABSCISSAE, _GAUSS_ABSCISSAE, _GAUSS_ABSCISSAE, indexing="ij"), axis=-1
 ).reshape(-1, 3)
 
-#: Hexes of which Jacobians are computed at a time.
+#: Number of hexes whose Jacobians are computed at a time.
 _CHUNK_HEXES = 1 << 15
 
 
 def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """Places of all nodes once those of second order have followed the corners.
+    """Move the mid-nodes of second-order hexes with the corners.
 
-    A node moves as the trilinear map of the corners moves its place, so that an element that is carried as a whole
-    keeps its shape, and a node on a boundary whose corners stay does not move.
+    A mid-node is displaced by the trilinear interpolation of its corners' displacements: a hex that is moved as a whole
+    keeps its shape, and a mid-node whose corners stay does not move.
 
     Parameters
     ----------
     before, after : (n, 3) float64
-        Of `after` only the corners count.
+        Node positions; of `after` only the corners are read.
     hexes : (m, 8) int32
     mid_nodes : (m, 19) int32
 
     Returns
     -------
     (n, 3) float64
-        A copy of `after`.
+        Copy of `after` with the mid-nodes moved.
     """
     answer = after.copy()
     for corner in range(mid_nodes.shape[1]):
@@ -76,7 +76,7 @@ def move_mid_nodes(before: np.ndarray, after: np.ndarray, hexes: np.ndarray, mid
 
 
 def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray) -> np.ndarray:
-    """The least determinant of each hex's map from the unit cube, over its nodes and the Gauss points, scaled.
+    """Compute the least scaled Jacobian of second-order hexes over their nodes and the 3 x 3 x 3 Gauss points.
 
     Parameters
     ----------
@@ -87,8 +87,8 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarra
     Returns
     -------
     (m,) float64
-        The determinant by the lengths of its columns: 1 at right angles, 0 or less where the element is of no use. NaN
-        for hexes that have neither 20 nor 27 nodes.
+        Determinant of the map from the unit cube over the product of its columns' lengths: 1 for right angles, 0 or
+        less for an invalid hex, NaN for hexes with neither 20 nor 27 nodes.
     """
     answer = np.full(len(hexes), np.nan)
     more = (mid_nodes >= 0).sum(axis=1)
@@ -99,7 +99,7 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarra
             nodes = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
             least = np.full(len(some), np.inf)
             for gradient in gradients:
-                columns = gradient.T @ nodes  # the derivatives of the place, one by one
+                columns = gradient.T @ nodes  # derivatives of the position
                 sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
                 scaled = np.linalg.det(columns) / np.where(sizes > 0, sizes, 1)
                 least = np.minimum(least, scaled)

@@ -1,7 +1,6 @@
-"""The functions by which the nodes of a hex of second order place every point of it, and their derivatives.
+"""Shape functions of second-order hexes and their derivatives, in coordinates of the unit cube.
 
-Zienkiewicz, Taylor, *The Finite Element Method*, volume 1: "serendipity" functions of 20 nodes, Lagrange's of 27. All
-coordinates are those of the unit cube.
+Zienkiewicz and Taylor, *The Finite Element Method*, volume 1: serendipity functions of 20 nodes, Lagrange of 27.
 """
 
 from __future__ import annotations
@@ -10,19 +9,20 @@ import numpy as np
 
 
 def serendipity(at: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Functions of 20 nodes.
+    """Evaluate the serendipity functions of 20 nodes.
 
     Parameters
     ----------
     at : (k, 3) float64
-        Where.
+        Points of evaluation.
     places : (20, 3) float64
-        Of the nodes: corners, and middles of edges.
+        Positions of the nodes: corners and edge midpoints.
 
     Returns
     -------
-    (k, 20), (k, 20, 3) float64
-        Values, and derivatives by the unit cube's coordinates.
+    values : (k, 20) float64
+    gradients : (k, 20, 3) float64
+        Derivatives with respect to the coordinates of the unit cube.
     """
     x, c = 2 * at[:, None] - 1, 2 * places - 1  # from -1 to 1
     middle = c == 0
@@ -41,7 +41,7 @@ def serendipity(at: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def lagrange(at: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Functions of 27 nodes, products of parabolas; parameters and results as of `serendipity`, for 27 nodes."""
+    """Evaluate the Lagrange functions of 27 nodes; parameters and results are those of `serendipity`."""
     x, c = 2 * at[:, None] - 1, 2 * places - 1
     factors = np.where(c == 0, 1 - x**2, x * (x + c) / 2)
     slopes = np.where(c == 0, -2 * x, x + c / 2)

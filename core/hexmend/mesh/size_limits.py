@@ -1,4 +1,4 @@
-"""Limits of a mesh: how large and how small its coordinates may be, and how much of it 32 bits can number."""
+"""Limits of a mesh: range of its coordinates, and numbers of nodes and hexes that 32 bits can hold."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ import numpy as np
 
 from hexmend.errors import MeshError
 
-#: The largest coordinate and the least size of a mesh: beyond them fourth powers of lengths are no numbers.
+#: Largest coordinate and smallest extent of a mesh: beyond them fourth powers of lengths overflow or vanish.
 MAX_COORDINATE, MIN_EXTENT = 1e75, 1e-75
 
-#: Nodes have numbers of 32 bits, and so have corners, each of which is 8 * hex + corner.
+#: Node numbers have 32 bits, and so have corner numbers, 8 * hex + corner.
 MAX_NODES = 2**31 - 1
 MAX_HEXES = MAX_NODES // 8
 
-#: Items of compressed rows, such as the neighbours of all nodes, are numbered by 32 bits too.
+#: Items of compressed rows, such as the neighbours of all nodes, are counted with 32 bits too.
 MAX_ITEMS = MAX_NODES
 
 
 @contextmanager
 def overflow_as_mesh_error(what: str) -> Iterator[None]:
-    """Turn a kernel's `OverflowError`, about more items than it can number, into a `MeshError` that names them."""
+    """Turn a kernel's `OverflowError` about too many items into a `MeshError` that names them."""
     try:
         yield
     except OverflowError as error:
@@ -30,7 +30,7 @@ def overflow_as_mesh_error(what: str) -> Iterator[None]:
 
 
 def check_size(points: np.ndarray) -> None:
-    """Raise `MeshError` where points (n, 3) are so far apart, or so near, that volumes are no numbers."""
+    """Raise `MeshError` if points (n, 3) are so far apart, or so close, that volumes overflow or vanish."""
     if not len(points):
         return
     low, high = points.min(axis=0), points.max(axis=0)

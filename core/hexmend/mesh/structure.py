@@ -1,4 +1,4 @@
-"""The structure of a mesh: where its regular blocks join, and where its boundary is sharp."""
+"""Structure of a mesh: irregular edges and nodes, at which its regular blocks join, and sharp boundary edges."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 
-#: Neighbouring faces whose normals differ by more than this, in degrees, meet in a sharp edge.
+#: Default dihedral angle, in degrees, beyond which a boundary edge is sharp.
 SHARP_DEGREES = 30.0
 
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """The edges and nodes of a mesh that are not as in a grid.
+    """Irregular edges and nodes of a mesh, and its sharp boundary edges.
 
     Parameters
     ----------
     interior : (k, 2) int32
-        Nodes of the irregular interior edges, see `hexmend.mesh.topology.Topology.irregular_edges`.
+        Nodes of the irregular interior edges; see `hexmend.mesh.topology.Topology.irregular_edges`.
     interior_valence : (k,) int32
         Number of hexes around each.
     nodes : (j,) int64
         Interior nodes at which irregular interior edges end or fork.
     boundary : (b, 2) int32
-        Nodes of the boundary edges that not two hexes are around although the boundary is smooth there. (A sharp edge
-        wants one hex if it is convex, three if it is concave.)
+        Nodes of the irregular boundary edges at which the boundary is smooth: those without exactly two hexes. (Sharp
+        edges are expected to have one hex if convex, three if concave.)
     boundary_valence : (b,) int32
         Number of hexes around each.
     sharp : (s, 2) int32
@@ -42,7 +42,15 @@ class Structure:
 
 
 def find_structure(mesh: Mesh) -> Structure:
-    """Find the structure of a mesh; what depends on its connectivity alone is kept in its topology.
+    """Find the irregular edges and nodes of a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    Structure
 
     Examples
     --------
@@ -62,15 +70,20 @@ def find_structure(mesh: Mesh) -> Structure:
 
 
 def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DEGREES) -> np.ndarray:
-    """Edges in which two faces meet at an angle, or one or more than two faces meet at all, (e, 2) of nodes.
+    """Find edges at which two faces meet at an angle, or which have one face or more than two.
 
     Parameters
     ----------
     points : (n, 3) float64
     faces : (k, 4) int32
-        All counter-clockwise from the same side.
+        Consistently oriented faces.
     degrees : float
-        Angle between the normals of two faces beyond which their edge is sharp.
+        Dihedral angle beyond which an edge is sharp.
+
+    Returns
+    -------
+    (e, 2) int32
+        Nodes of each edge, lower node first.
     """
     edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
     key = _key(edges, len(points))
@@ -86,5 +99,5 @@ def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DE
 
 
 def _key(edges: np.ndarray, n: int) -> np.ndarray:
-    """One number for each edge (k, 2) of n nodes, lower node first."""
+    """Unique numbers of edges (k, 2) of n nodes, lower node first."""
     return edges[:, 0].astype(np.int64) * n + edges[:, 1]

@@ -1,4 +1,4 @@
-"""Named groups of hexes: what the window calls tags, and a mesh its hex sets."""
+"""Tags: named groups of hexes, stored as the hex sets of a mesh."""
 
 from __future__ import annotations
 
@@ -11,15 +11,20 @@ from hexmend.mesh.mesh import Mesh
 
 
 def with_tag(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
-    """The mesh with some hexes in a named group, or out of it where `on` is false.
+    """Return the mesh with hexes added to a tag or removed from it.
 
     Parameters
     ----------
     mesh : Mesh
     name : str
-        A group of which nothing is left is no more; one that there is not begins.
+        Name of the tag; a new one is created, an empty one removed.
     hexes : (k,) int
     on : bool
+        Add the hexes; false removes them.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
@@ -43,10 +48,10 @@ def with_tag(mesh: Mesh, name: str, hexes: Sequence[int] | np.ndarray, on: bool 
 
 
 def without_tag(mesh: Mesh, name: str) -> Mesh:
-    """The mesh without a named group."""
+    """Return the mesh without a tag."""
     return mesh.replace(hex_sets={key: hexes for key, hexes in mesh.hex_sets.items() if key != name})
 
 
 def with_tag_renamed(mesh: Mesh, name: str, other: str) -> Mesh:
-    """The mesh with a group under another name."""
+    """Return the mesh with a tag renamed."""
     return mesh.replace(hex_sets={other if key == name else key: hexes for key, hexes in mesh.hex_sets.items()})

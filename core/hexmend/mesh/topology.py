@@ -1,4 +1,4 @@
-"""Topology: what a mesh's connectivity alone determines, built once, when first asked for, as arrays."""
+"""Topology of a mesh: incidences that follow from its connectivity, each computed on first use."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hexmend.mesh.validation import as_bools, as_hexes
 
 @dataclass(frozen=True)
 class CSR:
-    """Rows of different lengths in one array: row i is `items[start[i]:start[i + 1]]`.
+    """Compressed sparse rows: row i is `items[start[i]:start[i + 1]]`.
 
     Parameters
     ----------
@@ -39,32 +39,32 @@ class CSR:
         return self.start.size - 1
 
     def of(self, rows: np.ndarray) -> np.ndarray:
-        """The items of several rows (k,), one row after another, (j,) int32."""
+        """Return the items of several rows (k,), one row after another, (j,) int32."""
         count = self.start[rows + 1] - self.start[rows]
         before = np.cumsum(count) - count
         return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
 
     def without(self, left_out: np.ndarray) -> CSR:
-        """The same rows without the items i of which left_out[i]; (n,) bool."""
+        """Return the rows without the items i for which left_out[i]; left_out is (n,) bool."""
         kept = ~left_out[self.items]
         start = np.concatenate([[0], np.cumsum(kept)])[self.start]
         return CSR(start.astype(np.int32), self.items[kept])
 
 
 class Topology:
-    """Incidences of a hexahedral mesh.
+    """Incidences of nodes, edges, faces and hexes of a mesh.
 
     Parameters
     ----------
     hexes : (m, 8) int32
-        Corner nodes, numbered as in `hexmend.mesh.hexahedron`; copied unless nobody can change them.
+        Corner nodes, numbered as in `hexmend.mesh.hexahedron`; copied unless immutable.
     n : int
         Number of nodes, used by a hex or not.
 
     Raises
     ------
     MeshError
-        Where the hexes are no (m, 8) whole numbers from 0 to n - 1.
+        If the hexes are not (m, 8) whole numbers from 0 to n - 1.
     """
 
     def __init__(self, hexes: np.ndarray, n: int):
@@ -77,7 +77,7 @@ class Topology:
 
     @cached_property
     def node_corners(self) -> CSR:
-        """Corners of hexes at each node: items are 8 * hex + corner."""
+        """Hex corners at each node; items are 8 * hex + corner."""
         return CSR(*incidence.node_corners(self.hexes, self.n))
 
     @property
@@ -99,12 +99,12 @@ class Topology:
 
     @property
     def face_neighbours(self) -> np.ndarray:
-        """The hex behind each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
+        """Neighbour across each face of `hexmend.mesh.hexahedron.FACES`, -1 on the boundary, (m, 6) int32."""
         return self._faces[0]
 
     @property
     def n_nonmanifold_faces(self) -> int:
-        """Faces that more than two hexes share, counted once a hex; a sound mesh has none. They count as boundary."""
+        """Number of faces shared by more than two hexes, counted once a hex; they are treated as boundary."""
         return self._faces[1]
 
     @cached_property
@@ -122,20 +122,24 @@ class Topology:
 
     @cached_property
     def layers(self) -> np.ndarray:
-        """How many hexes lie between each hex and the boundary, counted through faces, (m,) int32.
+        """Distance of each hex from the boundary, in hexes counted through faces, (m,) int32.
 
-        0 for a hex with a boundary face. Hexes from which no way leads to the boundary are in one last layer.
+        0 for a hex with a boundary face; hexes that are not connected to the boundary are in one last layer.
         """
         return incidence.layers(self.face_neighbours)
 
     def hexes_around(self, hexes: Iterable[int], rings: int) -> np.ndarray:
-        """True for some hexes and those around them, (m,) bool.
+        """Find some hexes and those in rings around them.
 
         Parameters
         ----------
         hexes : iterable of int
         rings : int
-            How often those that share a node with the ones before are taken in.
+            Number of rings; each adds the hexes that share a node with those before.
+
+        Returns
+        -------
+        (m,) bool
 
         Raises
         ------
@@ -148,7 +152,7 @@ class Topology:
 
     @cached_property
     def parts(self) -> int:
-        """Number of parts that hang together by nodes."""
+        """Number of components connected by nodes."""
         return int(components(self.n, self.hexes).max(initial=-1)) + 1 - int(np.count_nonzero(~self.used))
 
     @cached_property
@@ -166,7 +170,7 @@ class Topology:
 
     @property
     def edges(self) -> np.ndarray:
-        """Every edge once, lower node first, ascending, (e, 2) int32."""
+        """Unique edges, lower node first, ascending, (e, 2) int32."""
         return self._edges[0]
 
     @property
@@ -181,37 +185,40 @@ class Topology:
 
     @cached_property
     def irregular_edges(self) -> np.ndarray:
-        """Interior edges that not four hexes are around, as numbers of `edges`, (k,) int64.
+        """Interior edges without exactly four hexes, as numbers of `edges`, (k,) int64.
 
-        They form the singularity graph of the mesh. After Gao, Deng and Chen, "Hexahedral mesh re-parameterization from
-        aligned base-complex" (2015), an edge is regular where four hexes are around it, on the boundary two; the graph
-        drawn of a mesh is usually that of its inside, and so the two are kept apart here.
+        They form the singularity graph of the mesh: Gao, Deng and Chen, "Hexahedral mesh re-parameterization from
+        aligned base-complex" (2015). Boundary edges, regular with two hexes, are in `irregular_boundary_edges`.
         """
         return np.flatnonzero((self.edge_valence != 4) & ~self.edge_on_boundary)
 
     @cached_property
     def irregular_boundary_edges(self) -> np.ndarray:
-        """Boundary edges that not two hexes are around, as numbers of `edges`, (k,) int64.
+        """Boundary edges without exactly two hexes, as numbers of `edges`, (k,) int64.
 
-        By connectivity alone: the edges of a box are among them, with one hex each, and so is a concave one, with
-        three. `hexmend.mesh.structure` leaves out those at which the boundary is sharp.
+        They include the sharp edges of the boundary, with one hex if convex, three if concave, which
+        `hexmend.mesh.structure` leaves out.
         """
         return np.flatnonzero((self.edge_valence != 2) & self.edge_on_boundary)
 
     @cached_property
     def irregular_nodes(self) -> np.ndarray:
-        """Interior nodes at which irregular interior edges end or fork: not none and not two meet, (k,) int64."""
+        """Interior nodes at which one, three or more irregular interior edges meet, (k,) int64."""
         nodes, meeting = np.unique(self.edges[self.irregular_edges], return_counts=True)
         return nodes[(meeting != 2) & ~self.boundary[nodes]].astype(np.int64)
 
     def colouring(self, chosen: np.ndarray) -> CSR:
-        """The chosen nodes in groups, one a colour, so that no hex holds two nodes of one colour.
-
-        Nodes of a group can move at the same time without knowing of each other.
+        """Colour nodes so that no hex has two nodes of one colour; nodes of one colour can move in parallel.
 
         Parameters
         ----------
         chosen : (n,) bool
+            Nodes to be coloured.
+
+        Returns
+        -------
+        CSR
+            Nodes of each colour.
 
         Raises
         ------
@@ -224,15 +231,20 @@ class Topology:
         return CSR(*incidence.grouped(colour, count))
 
     def wavefronts(self, sequence: np.ndarray) -> CSR:
-        """The nodes of a sequence in groups, so that no hex holds two nodes of one group, and that group after group
-        those that share a hex are in the order of the sequence.
+        """Divide a sequence of nodes into groups whose nodes can be visited in parallel, group after group.
 
-        Visiting the nodes of each group at the same time does what visiting the sequence one by one does.
+        No hex has two nodes of one group, and nodes that share a hex keep their order: the result is that of visiting
+        the nodes one by one.
 
         Parameters
         ----------
         sequence : (k,) int32
-            Each node at most once.
+            Numbers of nodes, each at most once.
+
+        Returns
+        -------
+        CSR
+            Nodes of each group.
 
         Raises
         ------
@@ -243,13 +255,17 @@ class Topology:
         return CSR(*wavefronts.wavefronts(rows.start, rows.items, np.ascontiguousarray(nodes, np.int32)))
 
     def levels(self, start: np.ndarray) -> np.ndarray:
-        """How many edges lie between each node and the nearest of some, breadth first, (n,) int32.
-
-        0 for these themselves. Nodes from which no way leads to them are in one last level.
+        """Compute the distance of each node from the nearest of some start nodes, in edges.
 
         Parameters
         ----------
         start : (n,) bool
+            True for start nodes.
+
+        Returns
+        -------
+        (n,) int32
+            0 for start nodes; nodes that are not connected to them are in one last level.
 
         Raises
         ------

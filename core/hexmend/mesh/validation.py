@@ -1,4 +1,4 @@
-"""Checks of the arrays that make a mesh. Kernels use node numbers without another look, so nothing passes unchecked."""
+"""Checks of the arrays that make a mesh; kernels index with node numbers without checking them again."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from hexmend.arrays import is_immutable
 from hexmend.errors import MeshError
 from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 
-# Lowest and highest number in each immutable array that was checked, by its `id`, for as long as the array lives.
+# Minimum and maximum of each immutable array that was checked, by its `id`, for as long as the array lives.
 _known_ranges: dict[int, tuple[weakref.ref, int, int]] = {}
 
 
 def as_array(values: object, what: str) -> np.ndarray:
-    """Values as an array of any type; `MeshError` where they make none, as rows of different lengths."""
+    """Convert values to an array of any type; raises `MeshError` if that fails, as for rows of different lengths."""
     try:
         return np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
@@ -24,7 +24,17 @@ def as_array(values: object, what: str) -> np.ndarray:
 
 
 def as_reals(values: object, what: str) -> np.ndarray:
-    """Values as float64, contiguous; the same array where it is that already.
+    """Convert values to contiguous float64; an array that is that already is returned itself.
+
+    Parameters
+    ----------
+    values : array-like of real numbers
+    what : str
+        Name of the values in messages.
+
+    Returns
+    -------
+    array of float64
 
     Raises
     ------
@@ -40,15 +50,19 @@ def as_reals(values: object, what: str) -> np.ndarray:
 
 
 def as_integers(values: object, what: str, places: tuple[str, ...]) -> np.ndarray:
-    """Values as an array of integers; reals are taken where all of them are whole.
+    """Convert values to an array of integers; real numbers are accepted if all are whole.
 
     Parameters
     ----------
     values : array-like
     what : str
-        What to call them in a message.
+        Name of the values in messages.
     places : tuple of str
-        What to call their rows and columns: ("hex", "corner").
+        Names of their rows and columns in messages, such as ("hex", "corner").
+
+    Returns
+    -------
+    array of int
 
     Raises
     ------
@@ -71,7 +85,7 @@ def as_integers(values: object, what: str, places: tuple[str, ...]) -> np.ndarra
 
 
 def location(names: tuple[str, ...], at: tuple[int, ...]) -> str:
-    """Where a value is in an array, for a message.
+    """Describe the position of a value in an array, for a message.
 
     >>> location(("hex", "corner"), (3, 7))
     'hex 3, corner 7 (counted from 0)'
@@ -80,7 +94,18 @@ def location(names: tuple[str, ...], at: tuple[int, ...]) -> str:
 
 
 def as_bools(values: object, what: str, count: int) -> np.ndarray:
-    """Values as (count,) bool; zeros and ones are taken for them.
+    """Convert values to (count,) bool; zeros and ones are accepted.
+
+    Parameters
+    ----------
+    values : (count,) array-like
+    what : str
+        Name of the values in messages.
+    count : int
+
+    Returns
+    -------
+    (count,) bool
 
     Raises
     ------
@@ -100,7 +125,17 @@ def as_bools(values: object, what: str, count: int) -> np.ndarray:
 
 
 def as_points(points: object, what: str = "points") -> np.ndarray:
-    """Points as (n, 3) float64, contiguous; the same array where it is that already.
+    """Convert points to contiguous (n, 3) float64; an array that is that already is returned itself.
+
+    Parameters
+    ----------
+    points : (n, 3) array-like of real numbers
+    what : str
+        Name of the points in messages.
+
+    Returns
+    -------
+    (n, 3) float64
 
     Raises
     ------
@@ -119,7 +154,7 @@ def as_points(points: object, what: str = "points") -> np.ndarray:
 
 
 def points_like(points: object, shape: tuple[int, ...], what: str = "points") -> np.ndarray:
-    """Points as `as_points` gives them; `MeshError` where they are not of this shape, (n, 3)."""
+    """Convert points as `as_points` does; raises `MeshError` if they do not have the given shape (n, 3)."""
     array = as_points(points, what)
     if array.shape != shape:
         raise MeshError(f"{what} have shape {array.shape}: expected {shape}")
@@ -127,13 +162,17 @@ def points_like(points: object, shape: tuple[int, ...], what: str = "points") ->
 
 
 def as_hexes(hexes: object, nodes: int) -> np.ndarray:
-    """Hexes as (m, 8) int32, contiguous; the same array where it is that already.
+    """Convert hexes to contiguous (m, 8) int32; an array that is that already is returned itself.
 
     Parameters
     ----------
     hexes : (m, 8) array-like of whole numbers
     nodes : int
         Number of nodes.
+
+    Returns
+    -------
+    (m, 8) int32
 
     Raises
     ------
@@ -154,7 +193,17 @@ def as_hexes(hexes: object, nodes: int) -> np.ndarray:
 
 
 def as_faces(faces: object, nodes: int) -> np.ndarray:
-    """Faces of a surface, all triangles or all quads, as (k, 3) or (k, 4) int32, contiguous.
+    """Convert faces of a surface, all triangles or all quads, to contiguous int32.
+
+    Parameters
+    ----------
+    faces : (k, 3) or (k, 4) array-like of whole numbers
+    nodes : int
+        Number of nodes.
+
+    Returns
+    -------
+    (k, 3) or (k, 4) int32
 
     Raises
     ------
@@ -171,19 +220,25 @@ def as_faces(faces: object, nodes: int) -> np.ndarray:
 def check_node_numbers(
     numbers: np.ndarray, nodes: int, places: tuple[str, str] = ("hex", "corner"), low: int = 0
 ) -> None:
-    """Raise `MeshError` naming the first row of integers (k, width) that uses a node which is none of `nodes`.
+    """Check that node numbers exist.
 
     Parameters
     ----------
     numbers : (k, width) int array
     nodes : int
+        Number of nodes.
     places : (str, str)
-        What to call rows and columns.
+        Names of rows and columns in messages.
     low : int
-        The least number that is allowed.
+        Smallest number allowed.
+
+    Raises
+    ------
+    MeshError
+        For a number out of range; the message names the first row that has one.
     """
-    least, greatest = _range(numbers)
-    if least >= low and greatest < nodes:
+    lowest, highest = _range(numbers)
+    if lowest >= low and highest < nodes:
         return
     row, corner = np.argwhere((numbers < low) | (numbers >= nodes))[0].tolist()
     raise MeshError(
@@ -193,26 +248,34 @@ def check_node_numbers(
 
 
 def _range(numbers: np.ndarray) -> tuple[int, int]:
-    """The lowest and the highest of some integers, (0, -1) of none; of an immutable array found once."""
+    """Minimum and maximum of integers, (0, -1) without any; cached for immutable arrays."""
     known = _known_ranges.get(id(numbers))
     if known is not None and known[0]() is numbers:
         return known[1:]
     if not numbers.size:
         return 0, -1
-    least, greatest = int(numbers.min()), int(numbers.max())
+    lowest, highest = int(numbers.min()), int(numbers.max())
     if is_immutable(numbers):
         key = id(numbers)
-        _known_ranges[key] = weakref.ref(numbers, lambda _, pop=_known_ranges.pop: pop(key, None)), least, greatest
-    return least, greatest
+        _known_ranges[key] = weakref.ref(numbers, lambda _, pop=_known_ranges.pop: pop(key, None)), lowest, highest
+    return lowest, highest
 
 
 def as_index(value: object, count: int, what: str) -> int:
-    """The number of a node or hex as an int.
+    """Convert the number of a node or hex to an int.
+
+    Parameters
+    ----------
+    value : int
+    count : int
+        Number of nodes or hexes.
+    what : str
+        "node" or "hex", for messages.
 
     Raises
     ------
     MeshError
-        Unless it is a whole number from 0 to `count` - 1.
+        If it is not a whole number from 0 to `count` - 1.
     """
     expected = f"expected a whole number from 0 to {count - 1}"
     try:
@@ -225,7 +288,7 @@ def as_index(value: object, count: int, what: str) -> int:
 
 
 def check_finite(points: np.ndarray) -> None:
-    """Raise `MeshError` naming the first of points (n, 3) whose coordinates are not all finite."""
+    """Raise `MeshError` if a coordinate of points (n, 3) is not finite; the message names the first such point."""
     if not np.isfinite(points).all():
         i = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
         raise MeshError(f"node {i} (counted from 0) has the coordinates {points[i].tolist()}: expected finite numbers")

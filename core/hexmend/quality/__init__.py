@@ -1,7 +1,7 @@
-"""Quality of hexes and of meshes: the metrics, measuring, and the summary of a mesh.
+"""Quality of hexes and of meshes: metrics, measurement, statistics and summary.
 
-Every module of `hexmend.quality.metrics` is imported here and registers its metric in METRICS: the command line, the
-viewer, the docs and the tests take it from there.
+Every module of `hexmend.quality.metrics` is imported here and registers its metrics in METRICS, which the command line,
+the viewer, the documentation and the tests read.
 """
 
 import importlib

@@ -1,4 +1,4 @@
-"""Counting values by bins in one pass: while a million elements move, the window has no time for more."""
+"""Histogram counts in one pass, fast enough to follow a million hexes as they move."""
 
 from __future__ import annotations
 
@@ -17,19 +17,29 @@ def bin_counts(
     open_low: bool = False,
     open_high: bool = False,
 ) -> np.ndarray:
-    """How many values lie in each of so many equal bins, (bins + 3,) int64: after them above, below and inverted.
-
-    Values beyond an end that is not open belong to the bin there: they are so by rounding.
+    """Count values in equal bins.
 
     Parameters
     ----------
     values : (m,) float64
     inverted : (m,) bool
-        These have no place among the bins.
+        True for values that are counted apart.
     ends : (low, high)
-        What the bins span.
+        Range of the bins.
     bins : int
+        Number of bins.
     open_low, open_high : bool
+        Count values below or above the range apart; otherwise they are outside by rounding and fall in the end bin.
+
+    Returns
+    -------
+    (bins + 3,) int64
+        Counts of the bins, then of the values above, below and inverted.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type.
 
     Examples
     --------

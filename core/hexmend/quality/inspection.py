@@ -1,4 +1,4 @@
-"""One element and one node looked at closely, and which elements are the worst."""
+"""Details of one hex and of one node, and the ranking of the worst hexes."""
 
 from __future__ import annotations
 
@@ -17,24 +17,26 @@ from hexmend.quality.metric import METRICS
 
 @dataclass(frozen=True, eq=False)
 class HexDetails:
-    """What there is to know of one hex.
+    """Details of one hex.
 
     Parameters
     ----------
     number : int
     nodes : (8,) int32
+        Numbers of its nodes.
     points : (8, 3) float64
+        Positions of its nodes.
     fixed : (8,) bool
-        Which of its nodes smoothing leaves where they are.
+        True for fixed nodes.
     corners : (8,) float64
         q(T) of the corner tetrahedra, (2.8); 0 where sigma <= 0.
     values : dict
-        Of every metric, by name.
+        Value of every metric, by name.
     neighbours : (6,) int32
-        Across the faces x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
+        Hexes across the faces x-, x+, y-, y+, z-, z+ of the reference hexahedron; -1 for none.
     inverted : bool
     locked : bool
-        Whether fixed nodes keep it inverted.
+        True if fixed nodes alone keep the hex inverted.
     """
 
     number: int
@@ -49,7 +51,16 @@ class HexDetails:
 
 
 def describe_hex(mesh: Mesh, number: int) -> HexDetails:
-    """Look at a hex of a mesh.
+    """Collect the details of a hex.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    number : int
+
+    Returns
+    -------
+    HexDetails
 
     Raises
     ------
@@ -82,23 +93,24 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
 
 @dataclass(frozen=True, eq=False)
 class NodeDetails:
-    """What there is to know of one node.
+    """Details of one node.
 
     Parameters
     ----------
     number : int
     point : (3,) float64
+        Position.
     kind : {"free", "boundary", "pinned", "unused"}
-        Why smoothing moves it, or does not.
+        Reason why smoothing moves the node or does not.
     ring : (k,) int32
-        The hexes that it is a corner of.
+        Hexes that have the node as a corner.
     energy : float
-        Sum of eta(H)^2 over them, (3.3); +inf while one of them is inverted.
+        Sum of eta(H)^2 over these hexes, (3.3); +inf if one of them is inverted.
     downhill : (3,) float64
-        Minus the gradient of that energy by the node's place, in mean edge lengths of those hexes; 0 where the energy
-        is infinite.
+        Negative gradient of that energy with respect to the position, in mean edge lengths of these hexes; 0 if the
+        energy is infinite.
     pinned : bool
-        Whether it is, be it on the boundary or not.
+        True for a pinned node, also on the boundary.
     """
 
     number: int
@@ -111,7 +123,16 @@ class NodeDetails:
 
 
 def describe_node(mesh: Mesh, number: int) -> NodeDetails:
-    """Look at a node of a mesh.
+    """Collect the details of a node.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    number : int
+
+    Returns
+    -------
+    NodeDetails
 
     Raises
     ------
@@ -146,20 +167,30 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
 
 
 def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
-    """The worst hexes by a metric, (at most count,) int64, the worst first.
+    """Find the worst hexes by a metric.
 
-    Of equal ones, such as those whose q is 0, that of the lower scaled Jacobian comes first, then that of the lower
-    number. What has no value (nan) is the worst.
+    Among equal values, such as q = 0, the lower scaled Jacobian comes first, then the lower number. NaN is the worst.
 
     Parameters
     ----------
     values : (m,) float64
-        Of a metric.
+        Values of the metric.
     figures : ElementQuality
-        Of the same hexes.
+        Quality of the same hexes.
     count : int
+        Largest number of hexes to be returned.
     better : int
-        +1 where a higher value is better, -1 where a lower one is.
+        +1 if higher values are better, -1 if lower ones are.
+
+    Returns
+    -------
+    (at most count,) int64
+        Numbers of hexes, worst first.
+
+    Raises
+    ------
+    MeshError
+        For values of another shape or type.
     """
     keys = better * as_reals(values, "values")
     if keys.shape != figures.q.shape:
@@ -170,7 +201,7 @@ def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: 
 
 
 def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:
-    """The `count` of some hexes whose keys are least, in no order; of equal ones, those whose other keys are."""
+    """Select the `count` hexes with the least keys, in no order; ties are decided by the other keys."""
     if count >= numbers.size:
         return numbers
     mine = keys[numbers]

@@ -1,4 +1,4 @@
-"""Figures of every hex of a mesh, measured in one pass."""
+"""Quality of every hex of a mesh, measured in one pass."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from hexmend.mesh.validation import as_bools, as_hexes, as_points
 
 @dataclass(frozen=True, eq=False)
 class ElementQuality:
-    """Figures of every hex.
+    """Quality of every hex of a mesh.
 
     Parameters
     ----------
     q : (m,) float64
         q(H) in [0, 1], (2.10).
     sigma : (m,) float64
-        Least corner determinant, in the cube of the mesh's unit of length, (2.9).
+        Least corner determinant, (2.9), in the cube of the mesh's unit of length.
     scaled_jacobian : (m,) float64
-        In [-1, 1].
+        Scaled Jacobian, in [-1, 1].
     eta : (m,) float64
         Energy eta(H) at delta = 0, (B.20): 0 for a cube, +inf for an inverted hex.
     """
@@ -36,7 +36,7 @@ class ElementQuality:
 
     @cached_property
     def inverted(self) -> np.ndarray:
-        """True for each hex with a corner determinant that is not positive, (m,) bool."""
+        """True for hexes with a corner determinant that is not positive, (m,) bool."""
         return ~(self.sigma > 0)
 
     @cached_property
@@ -46,12 +46,16 @@ class ElementQuality:
 
 
 def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
-    """Measure every hex.
+    """Measure the quality of every hex.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
+
+    Returns
+    -------
+    ElementQuality
 
     Raises
     ------
@@ -72,12 +76,12 @@ def measure(points: np.ndarray, hexes: np.ndarray) -> ElementQuality:
 
 
 def fixed_tetrahedra(hexes: np.ndarray, fixed: np.ndarray) -> np.ndarray:
-    """True for each corner tetrahedron of hexes (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool."""
+    """Find the corner tetrahedra of hexes (m, 8) whose four nodes are all fixed, (m, 8) bool; fixed (n,) bool."""
     return fixed[hexes[:, CORNER_TETRAHEDRA]].all(axis=2)
 
 
 def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
-    """True for each corner tetrahedron with sigma <= 0 whose four nodes are all fixed.
+    """Find the corner tetrahedra with sigma <= 0 whose four nodes are all fixed.
 
     No method that keeps the fixed nodes can mend the hex of such a corner.
 
@@ -112,14 +116,19 @@ def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: n
 
 
 def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:
-    """sigma of the eight corner tetrahedra of hexes, (k, 8), (2.9): to the last bit what `measure` judges by.
+    """Compute sigma of the eight corner tetrahedra of hexes, (2.9), bit for bit as `measure` does.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
     which : (k,) int, optional
-        Numbers of hexes; all without it.
+        Numbers of hexes; all by default.
+
+    Returns
+    -------
+    (k, 8) float64
+        In the cube of the points' unit of length.
     """
     points = as_points(points)
     chosen = as_hexes(hexes, len(points))
@@ -131,14 +140,17 @@ def corner_determinants(points: np.ndarray, hexes: np.ndarray, which: np.ndarray
 
 
 def corner_qualities(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """q(T) = 3 sigma^(2/3)/|S|^2 of the eight corner tetrahedra of hexes, (k, 8), (2.8): 0 where sigma <= 0.
-
-    For the few hexes that are looked at; columns are in the order of the corners.
+    """Compute q(T) = 3 sigma^(2/3)/|S|^2 of the eight corner tetrahedra of hexes, (2.8).
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (k, 8) int
+
+    Returns
+    -------
+    (k, 8) float64
+        Columns are in the order of the corners; 0 where sigma <= 0.
 
     Examples
     --------

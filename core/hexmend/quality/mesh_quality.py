@@ -1,4 +1,4 @@
-"""Metrics of a mesh by their names: what `Mesh.quality` and `Mesh.worst` give."""
+"""Values and worst hexes of a metric by its name, for `Mesh.quality` and `Mesh.worst`."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _COUNT = Parameter("count", int, 10, 0, None, None, "", "")
 
 
 def metric_values(mesh: Mesh, metric: str = "q") -> np.ndarray:
-    """The values of a metric, one for each hex.
+    """Compute the values of a metric, one for each hex.
 
     Parameters
     ----------
     mesh : Mesh
     metric : str
-        A name of `METRICS`; an underscore counts as a dash.
+        Name in `METRICS`; underscores count as dashes.
 
     Returns
     -------
@@ -42,24 +42,25 @@ def metric_values(mesh: Mesh, metric: str = "q") -> np.ndarray:
 
 
 def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
-    """The numbers of the worst hexes by a metric, the worst first.
+    """Find the worst hexes by a metric.
 
     Parameters
     ----------
     mesh : Mesh
     count : int
-        How many; all where the mesh has fewer.
+        Largest number of hexes to be returned.
     metric : str
-        A name of `METRICS` of which a higher or a lower value is better; an underscore counts as a dash.
+        Name in `METRICS` of a metric that has a better end; underscores count as dashes.
 
     Returns
     -------
     (at most count,) int64
+        Numbers of hexes, worst first.
 
     Raises
     ------
     ParameterError
-        For a metric that does not exist or has no better end, and for a count that is no whole number from 0 on.
+        For a metric that does not exist or has no better end, and for a count that is not a whole number from 0.
 
     Examples
     --------

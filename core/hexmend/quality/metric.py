@@ -1,4 +1,4 @@
-"""What a quality metric declares of itself, and the registry of them."""
+"""Declaration of a quality metric, and the registry of metrics."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from hexmend.mesh.validation import as_hexes, as_points
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_entry_points
 
-#: Values (m,) from points (n, 3), hexes (m, 8) and the figures measured of them.
+#: Function that computes values (m,) from points (n, 3), hexes (m, 8) and their measured quality.
 Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
 
 
 @dataclass(frozen=True)
 class HexQuantity:
-    """What is declared of a figure that every hex has.
+    """Declaration of a quantity that every hex has.
 
     Parameters
     ----------
     name, title, formula, source : str
         The title is short enough for a colour bar.
     full_range : (low, high)
-        Values that it can take; a hex for which the formula has no value has the worse end of it.
+        Possible values; a hex for which the formula has no value gets the worse end.
     acceptable : (low, high)
-        Values that solvers are usually content with.
+        Values that are usually good enough for solvers.
     better : int
-        1 where higher values are better, -1 where lower ones are, 0 where neither is.
+        1 if higher values are better, -1 if lower ones are, 0 if neither.
     meaning : str
-        What a bad value means for a solver, in a sentence.
+        Consequence of a bad value for a solver, as a sentence.
     unit : str
-        "" for a mere number.
+        "" for a dimensionless quantity.
     """
 
     name: str
@@ -46,36 +46,41 @@ class HexQuantity:
     unit: str = ""
 
     def unacceptable(self, values: np.ndarray) -> np.ndarray:
-        """True for each of values (m,) worse than the acceptable range, or outside it where neither way is better."""
+        """Return True for values (m,) worse than the acceptable range, or outside it if no end is better; (m,) bool."""
         low, high = self.acceptable
         return ~(values >= low) & (self.better >= 0) | ~(values <= high) & (self.better <= 0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Metric(HexQuantity):
-    """A figure of every hex of one mesh.
+    """Quality metric of hexes.
 
     Parameters
     ----------
     of : callable
-        Gives the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and the `ElementQuality` measured of them.
-        None is NaN if the points are finite.
+        Computes the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and their `ElementQuality`. For finite
+        points no value is NaN.
     """
 
     of: Values
 
 
 def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
-    """Values by a kernel that writes several figures in one pass.
+    """Make a function that computes values by a kernel with several results.
 
     Parameters
     ----------
     kernel : callable
-        One of `hexmend.kernels`; it takes points, hexes and so many arrays (m,) as it writes.
+        Function of `hexmend.kernels`; its arguments are points, hexes and `rows` arrays (m,) for its results.
     rows, row : int
-        How many these are, and which of them is meant.
+        Number of results, and the index of the one that is used.
     worst : float
-        Stands for what is no number: of a hex so large that the squares of its lengths overflow.
+        Replaces NaN, the result for a hex so large that the squares of its lengths overflow.
+
+    Returns
+    -------
+    callable
+        Function for `Metric.of`.
     """
 
     def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
@@ -89,7 +94,7 @@ def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float
     return of
 
 
-#: The entry-point group through which other distributions add theirs: entries name a `Metric`.
+#: Entry-point group through which other distributions add metrics; an entry names a `Metric`.
 GROUP = "hexmend.metrics"
 
 

@@ -1,18 +1,26 @@
-"""In what a mesh is worse than it was, of the figures that analysts judge it by."""
+"""Regressions: quantities of a mesh that are worse than before."""
 
 from __future__ import annotations
 
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary
 
-#: The figures by the names that reports use, and their keys in a summary.
+#: Quantities that must not become worse: name in reports, and key in `Summary`.
 REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": "scaled_jacobian_min"}
 
-#: What a figure may differ by from rounding alone, as where a perfect grid is smoothed.
+#: Largest difference by rounding alone, as for a perfect grid.
 _ROUNDING = 1e-12
 
 
 def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
-    """The names in `REGRESSION_KEYS` of the figures that are worse, in that order.
+    """Return the names in `REGRESSION_KEYS` of the quantities that are worse, in that order.
+
+    Parameters
+    ----------
+    before, after : Summary
+
+    Returns
+    -------
+    tuple of str
 
     Examples
     --------
@@ -31,7 +39,15 @@ def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
 
 
 def describe_regressions(before: Summary, after: Summary) -> str:
-    """The same as a sentence; "" where nothing is worse.
+    """Describe the regressions of a mesh as a sentence; "" if there are none.
+
+    Parameters
+    ----------
+    before, after : Summary
+
+    Returns
+    -------
+    str
 
     Examples
     --------
@@ -43,12 +59,12 @@ def describe_regressions(before: Summary, after: Summary) -> str:
     'Worse than at the start: inverted 0 → 4, q min 0.40351 → 0.40349.'
     """
     keys = [REGRESSION_KEYS[name] for name in regressions(before, after)]
-    falls = [f"{SUMMARY_QUANTITIES[key].label} {_apart(getattr(before, key), getattr(after, key))}" for key in keys]
-    return f"Worse than at the start: {', '.join(falls)}." if falls else ""
+    changes = [f"{SUMMARY_QUANTITIES[key].label} {_change(getattr(before, key), getattr(after, key))}" for key in keys]
+    return f"Worse than at the start: {', '.join(changes)}." if changes else ""
 
 
-def _apart(was: float, now: float) -> str:
-    """Both values, with as many decimals, four at least, as tell them apart."""
+def _change(was: float, now: float) -> str:
+    """Both values, with at least four decimals, and as many as distinguish them."""
     if isinstance(was, int):
         return f"{was:,} → {now:,}"
     digits = next((digits for digits in range(4, 17) if f"{was:.{digits}f}" != f"{now:.{digits}f}"), 17)

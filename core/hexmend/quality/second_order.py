@@ -1,4 +1,4 @@
-"""The Jacobian of hexes of second order, which a solver computes where their eight corners alone say nothing."""
+"""Summary of the Jacobians of second-order hexes, which their eight corners do not determine."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ from hexmend.quantity import format_count, format_quality
 
 @dataclass(frozen=True)
 class SecondOrderSummary:
-    """Hexes of 20 or 27 nodes in a mesh.
+    """Summary of the hexes of 20 or 27 nodes of a mesh.
 
     Parameters
     ----------
     hexes : int
+        Number of these hexes.
     non_positive : int
-        How many have a Jacobian of 0 or less at one of their nodes or of the 3 x 3 x 3 Gauss points.
+        Number of hexes with a Jacobian of 0 or less at a node or a point of the 3 x 3 x 3 Gauss rule.
     scaled_jacobian_min : float
-        The least over all of them, by the lengths of its columns.
+        Least scaled Jacobian of all.
     """
 
     hexes: int
@@ -30,7 +31,7 @@ class SecondOrderSummary:
     scaled_jacobian_min: float
 
     def to_dict(self) -> dict[str, float | int]:
-        """Figures by name."""
+        """Return the values by name."""
         return dataclasses.asdict(self)
 
     @property
@@ -43,7 +44,7 @@ class SecondOrderSummary:
 
 
 def summarise_second_order(mesh: Mesh) -> SecondOrderSummary | None:
-    """The hexes of second order of a mesh; None where there are none."""
+    """Summarise the second-order hexes of a mesh; None if it has none."""
     if mesh.mid_nodes is None:
         return None
     least = scaled_jacobians(mesh.points, mesh.hexes, mesh.mid_nodes)

@@ -1,4 +1,4 @@
-"""Hexes selected by name."""
+"""Selection of hexes by the name of a set."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend.quality.measure import measure
 
 
 def hexes_in_set(mesh: Mesh, name: str) -> np.ndarray:
-    """The hexes of an element set, or, by the name "inverted", the inverted ones.
+    """Return the hexes of an element set, or, for the name "inverted", the inverted hexes.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How the values of every metric spread over a mesh."""
+"""Statistics of every metric over a mesh."""
 
 from __future__ import annotations
 
@@ -14,11 +14,16 @@ from hexmend.quality.metric import METRICS, Metric
 
 @dataclass(frozen=True)
 class MetricStatistics:
-    """Values of one metric.
+    """Statistics of one metric over the hexes of a mesh.
 
-    `min`, `mean` and `max` are those of the finite values, None where there are none; `infinite` counts the hexes whose
-    value is not finite, as the edge ratio of one with an edge of no length; `unacceptable` those, infinite or not, that
-    are worse than the metric's acceptable range.
+    Parameters
+    ----------
+    min, mean, max : float or None
+        Of the finite values; None if there are none.
+    infinite : int
+        Number of hexes whose value is not finite, such as the edge ratio with an edge of length 0.
+    unacceptable : int
+        Number of hexes, infinite values included, worse than the metric's acceptable range.
     """
 
     min: float | None
@@ -29,7 +34,7 @@ class MetricStatistics:
 
     @classmethod
     def over(cls, metric: Metric, values: np.ndarray) -> MetricStatistics:
-        """Of a metric's values, (m,)."""
+        """Compute the statistics of a metric's values, (m,)."""
         finite = values[np.isfinite(values)]
         low, mean, high = (
             (float(finite.min()), float(finite.mean()), float(finite.max())) if finite.size else (None, None, None)
@@ -38,12 +43,22 @@ class MetricStatistics:
         return cls(low, mean, high, values.size - finite.size, unacceptable)
 
     def to_dict(self) -> dict[str, float | int | None]:
-        """Figures by name."""
+        """Return the values by name."""
         return dataclasses.asdict(self)
 
 
 def metric_statistics(mesh: Mesh, figures: ElementQuality | None = None) -> dict[str, MetricStatistics]:
-    """Every metric's spread by its name; pass `figures` where they are measured already.
+    """Compute the statistics of every metric, by its name.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    figures : ElementQuality, optional
+        Quality of the hexes, if it is measured already.
+
+    Returns
+    -------
+    dict of str to MetricStatistics
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The figures of a whole mesh."""
+"""Summary of the quality of a mesh."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ def _figure(label: str, help: str, text: Callable[[Any], str], better: int = 0, 
 
 @dataclass(frozen=True)
 class Summary:
-    """Figures of a mesh, (2.11), (2.12) and what stands beside them.
+    """Counts and quality of a mesh, (2.11), (2.12); every field is described by its entry in `SUMMARY_QUANTITIES`.
 
-    `nodes` counts nodes that a hex uses; `locked_inverted` the inverted hexes that fixed nodes alone hold in inversion;
-    `q_norm` is 1/sqrt(mean(1/q^2)), 0 if any q is 0; `objective` the sum of eta(H)^2 at delta = 0, None while any hex
-    is inverted.
+    `nodes` counts nodes used by a hex; `locked_inverted` inverted hexes that fixed nodes alone keep inverted; `q_norm`
+    is 1/sqrt(mean(1/q^2)), 0 if any q is 0; `objective` is the sum of eta(H)^2 at delta = 0, None if any hex is
+    inverted.
     """
 
     hexes: int = _figure("hexes", "Number of hexahedral elements.", format_count)
@@ -86,18 +86,28 @@ class Summary:
     )
 
     def to_dict(self) -> dict[str, float | int | None]:
-        """Figures by name."""
+        """Return the values by name."""
         return dataclasses.asdict(self)
 
 
-#: The fields of a summary, in order.
+#: Quantities of a summary by the names of its fields, in order.
 SUMMARY_QUANTITIES: dict[str, Quantity] = {
     field.name: Quantity(field.name, **field.metadata) for field in dataclasses.fields(Summary)
 }
 
 
 def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
-    """Summarise a mesh; pass `figures` where they are measured already.
+    """Summarise the quality of a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    figures : ElementQuality, optional
+        Quality of the hexes, if it is measured already.
+
+    Returns
+    -------
+    Summary
 
     Examples
     --------
@@ -124,18 +134,18 @@ def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
 
 
 def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> float | None:
-    """Objective of a mesh at delta = 0: the sum of eta(H)^p, the p-th power of (3.3).
+    """Compute the objective of a mesh at delta = 0: the sum of eta(H)^p, the p-th power of (3.3).
 
     Parameters
     ----------
     figures : ElementQuality
     p, offset : float
-        See `hexmend.energy.ObjectiveNorm`; the defaults are those of `Summary.objective`.
+        Exponent and offset of `hexmend.energy.ObjectiveNorm`; the defaults are those of `Summary.objective`.
 
     Returns
     -------
     float or None
-        None while any hex is inverted, or where no float holds the sum.
+        None if any hex is inverted or the sum overflows.
 
     Examples
     --------

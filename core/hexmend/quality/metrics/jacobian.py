@@ -1,4 +1,4 @@
-"""Jacobian: the least determinant of the map at the corners and the centre, the volume where it is thinnest."""
+"""Jacobian: the least determinant of the map at the corners and the centre."""
 
 import math
 
@@ -13,7 +13,7 @@ _at_centre = kernel_metric(metrics.centre, rows=1, row=0, worst=-math.inf)
 
 
 def _least(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
-    """At the corners it is sigma, to the last bit what `ElementQuality.inverted` judges by."""
+    """Least of the centre's determinant and of sigma at the corners, the same that `ElementQuality.inverted` tests."""
     if len(figures.sigma) != len(hexes):
         raise MeshError(f"the figures are of {len(figures.sigma)} hexes: expected those of the same {len(hexes)}")
     return np.fmin(figures.sigma, _at_centre(points, hexes, figures))
