@@ -1,4 +1,4 @@
-"""The energy that the optimisers minimise, its derivatives, and the policies for its delta."""
+"""Energy that the optimisers minimise, its derivatives, and policies for its regularisation parameter delta."""
 
 from hexmend.aliases import exports
 from hexmend.energy.hex_energy import energies, objective
@@ -9,8 +9,18 @@ from hexmend.energy.sliding_energy import SlidingEnergy
 from hexmend.energy.sparsity import BlockSparsity
 
 __all__ = [
-    "POLICIES", "SQUARES", "AdaptiveDelta", "BlockSparsity", "DeltaPolicy", "FixedDelta", "Hessian", "MeshEnergy",
-    "ObjectiveNorm", "SlidingEnergy", "energies", "objective",
-]  # fmt: skip
+    "POLICIES",
+    "SQUARES",
+    "AdaptiveDelta",
+    "BlockSparsity",
+    "DeltaPolicy",
+    "FixedDelta",
+    "Hessian",
+    "MeshEnergy",
+    "ObjectiveNorm",
+    "SlidingEnergy",
+    "energies",
+    "objective",
+]
 
 __getattr__ = exports(__name__)

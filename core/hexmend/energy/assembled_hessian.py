@@ -1,4 +1,4 @@
-"""An assembled Hessian."""
+"""Assembled Hessian, and its solution by preconditioned conjugate gradients."""
 
 from __future__ import annotations
 
@@ -14,20 +14,21 @@ from hexmend.kernels import conjugate_gradients as kernels
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: Where the largest number of a matrix is smaller than this, single precision has no digits for the others.
+#: A matrix whose largest entry is smaller than this loses digits of its other entries in single precision.
 _SINGLE_UNDERFLOW = 1e-25
 
 
 @dataclass(frozen=True, eq=False)
 class CGResult:
-    """What conjugate gradients reached.
+    """Result of conjugate gradients.
 
     Parameters
     ----------
     x : (3 k,) float64
+        Solution.
     iterations : int
     negative_curvature : bool
-        Whether they stopped because the matrix is not positive definite.
+        True if they stopped at a direction of negative curvature: the matrix is not positive definite.
     """
 
     x: np.ndarray
@@ -36,19 +37,19 @@ class CGResult:
 
 
 class AssembledHessian(SymmetricOperator):
-    """A symmetric matrix of 3 x 3 blocks, (3 k, 3 k), and a system to be solved.
+    """Symmetric matrix of 3 x 3 blocks, (3 k, 3 k).
 
-    Vectors are in the order of the free nodes by number, as those of `Hessian` are.
+    Vectors are in the order of the free nodes by number, as for `Hessian`.
 
     Parameters
     ----------
     couplings : BlockSparsity
     off : (blocks + 1, 9) float32 or float64
-        Blocks above the diagonal, by rows; the last is no block (see `conjugate_gradients`).
+        Blocks above the diagonal, by rows; the last row is unused (see `hexmend.kernels.conjugate_gradients`).
     diagonal : (k, 6) of the same
-        xx xy xz yy yz zz of each slot.
+        Diagonal block of each slot: xx xy xz yy yz zz.
     exponent : int
-        The matrix is 2^exponent times what the blocks hold.
+        Scale: the matrix is 2^exponent times the blocks.
     """
 
     def __init__(self, couplings: BlockSparsity, off: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
@@ -58,7 +59,7 @@ class AssembledHessian(SymmetricOperator):
         self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
 
     def reset(self) -> AssembledHessian:
-        """The same room for another matrix, all zero; this one is gone."""
+        """Zero the storage for reuse; the old matrix becomes invalid."""
         self.off.fill(0)
         self.diagonal.fill(0)
         self.exponent = 0
@@ -66,16 +67,16 @@ class AssembledHessian(SymmetricOperator):
 
     @classmethod
     def zero(cls, couplings: BlockSparsity, dtype: type) -> AssembledHessian:
-        """A matrix of that pattern, all zero."""
+        """Make a zero matrix of a sparsity pattern."""
         off = np.zeros((couplings.blocks + 1, 9), dtype)
         return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
 
     def underflows(self) -> bool:
-        """Whether the blocks are so small that single precision rounds them or loses them."""
+        """Return True if the blocks are so small that single precision loses digits of them."""
         return float(np.abs(self.diagonal).max(initial=0.0)) < _SINGLE_UNDERFLOW
 
     def normalised(self, dtype: type) -> AssembledHessian:
-        """The same matrix with blocks of another precision, the largest number on the diagonal between 1/2 and 1."""
+        """Return the matrix in another precision, scaled so that its largest diagonal entry lies in [1/2, 1)."""
         exponent = int(np.frexp(np.abs(self.diagonal).max(initial=0.0))[1])
         off, diagonal = (np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off, self.diagonal))
         return AssembledHessian(self.couplings, off, diagonal, self.exponent + exponent)
@@ -87,30 +88,34 @@ class AssembledHessian(SymmetricOperator):
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
     def _slotted(self, v: np.ndarray) -> np.ndarray:
-        """v (3 k,) by slots, (k, 4) in the precision of the matrix: the fourth is 0."""
+        """Rearrange v (3 k,) by slots, (k, 4), in the matrix's precision; the fourth column is 0."""
         x = np.zeros((self.order.size, 4), self.off.dtype)
         x[self.order, :3] = v.reshape(-1, 3)
         return x
 
     def solve(self, right: np.ndarray, tolerance: float, iterations: int, damping: float = 0.0) -> CGResult:
-        """Solution by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
+        """Solve by conjugate gradients, preconditioned by symmetric Gauss-Seidel.
 
-        What has been reached before a direction of negative curvature is returned, or, if it is the first, that
-        direction: one of descent for right = -gradient either way. It is 0 for a right-hand side that is not finite.
-        Numbers of the solution that leave the range of float64 are infinite.
+        At a direction of negative curvature the iterate before it is returned, or, in the first iteration, that
+        direction itself: both are descent directions for right = -gradient. The result is 0 for a right-hand side that
+        is not finite. Components that overflow float64 are infinite.
 
-        The right-hand side is scaled by a power of two so that its largest number lies between 1/2 and 1: squares of
-        very small or very large ones would leave the range of single precision.
+        The right-hand side is scaled by a power of two so that its largest component lies in [1/2, 1): in single
+        precision squares of very small or large numbers would vanish or overflow.
 
         Parameters
         ----------
         right : (3 k,) float64
         tolerance : float
-            Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
+            Bound of the residual relative to the right-hand side, both in the norm of the preconditioner.
         iterations : int
-            Limit, after which the solution so far is taken as it is.
+            Largest number of iterations.
         damping : float
-            The diagonal blocks, made positive definite, are added this many times.
+            Multiple of the diagonal blocks, made positive definite, that is added to the matrix.
+
+        Returns
+        -------
+        CGResult
 
         Raises
         ------
@@ -122,7 +127,7 @@ class AssembledHessian(SymmetricOperator):
         if size == 0 or not np.isfinite(size):
             return CGResult(np.zeros(right.size), 0, False)
         exponent = int(np.frexp(size)[1])
-        b = self._slotted(np.ldexp(right, -exponent))  # scaled by a power of two, x keeps its bits
+        b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
         x = np.empty_like(b)
         count, end = kernels.solve(
             *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
@@ -133,11 +138,11 @@ class AssembledHessian(SymmetricOperator):
 
     @property
     def diagonal_blocks(self) -> np.ndarray:
-        """The 3 x 3 blocks that couple a node with itself, (k, 6): xx xy xz yy yz zz."""
+        """Diagonal blocks in the order of the free nodes, (k, 6) float64: xx xy xz yy yz zz."""
         return np.ldexp(self.diagonal[self.order].astype(np.float64), self.exponent)
 
     def matrix(self) -> csr_array:
-        """The same as a sparse matrix of SciPy's, (3 k, 3 k), some 243 entries a free node."""
+        """Convert to a sparse matrix of SciPy, (3 k, 3 k), with about 243 entries for each free node."""
         from scipy.sparse import coo_array
 
         _, start, columns = self.couplings.pattern
@@ -154,5 +159,5 @@ class AssembledHessian(SymmetricOperator):
 
 
 def unpack_symmetric(blocks: np.ndarray) -> np.ndarray:
-    """Symmetric blocks (k, 6) as matrices (k, 3, 3)."""
+    """Expand symmetric blocks (k, 6) to matrices (k, 3, 3)."""
     return blocks[:, [0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(-1, 3, 3)

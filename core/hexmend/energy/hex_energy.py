@@ -1,4 +1,4 @@
-"""eta(H), the energy of a hex: (3.1), (3.2), (B.20)."""
+"""Energy eta(H) of hexes: (3.1), (3.2), (B.20)."""
 
 from __future__ import annotations
 
@@ -17,23 +17,28 @@ def energies(
     left_out: np.ndarray | None = None,
     offset: float = 1.0,
 ) -> np.ndarray:
-    """Energy of every hex: mean of eta(T) over its corners minus `offset`.
+    """Compute the energy of every hex, the mean of eta(T) over its corners minus `offset`.
 
     Parameters
     ----------
     points : (n, 3) float64
     hexes : (m, 8) int32
     delta : float
-        In the unit of sigma, the cube of the points' unit of length.
+        Regularisation parameter in the unit of sigma, the cube of the points' unit of length.
     left_out : (m,) uint8, optional
-        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
+        Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
     offset : float
         See `ObjectiveNorm`.
 
     Returns
     -------
     (m,) float64
-        For a cube 0, if the offset is 1; +inf for an inverted hex at delta = 0.
+        0 for a cube if the offset is 1; +inf for an inverted hex at delta = 0.
+
+    Raises
+    ------
+    MeshError
+        For arrays of another shape or type, and for a node that does not exist.
 
     Examples
     --------
@@ -50,7 +55,18 @@ def energies(
 
 
 def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
-    """Which corner tetrahedra of so many hexes are left out, (m,) uint8; none without an array.
+    """Check the corner tetrahedra to be left out of hexes.
+
+    Parameters
+    ----------
+    left_out : (m,) uint8 or None
+        See `energies`; None leaves out none.
+    hexes : int
+        Number of hexes.
+
+    Returns
+    -------
+    (m,) uint8
 
     Raises
     ------
@@ -65,7 +81,20 @@ def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
 
 
 def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: ObjectiveNorm = SQUARES) -> float:
-    """(sum eta(H)^p)^(1/p) over all hexes, (3.3).
+    """Compute the objective (sum eta(H)^p)^(1/p) over all hexes, (3.3).
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    delta : float
+        See `energies`.
+    power : ObjectiveNorm
+        p and offset.
+
+    Returns
+    -------
+    float
 
     Examples
     --------

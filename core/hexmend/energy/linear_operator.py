@@ -1,4 +1,4 @@
-"""What a Hessian is to whoever solves with it: something that vectors are multiplied by."""
+"""Symmetric linear operator, the interface of Hessians for linear solvers."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from hexmend.mesh.validation import as_reals
 
 
 class SymmetricOperator(ABC):
-    """A symmetric matrix of double precision, known by its products; SciPy's solvers take it as it is.
+    """Symmetric matrix given by its products with vectors, in double precision; SciPy's solvers accept it.
 
     Parameters
     ----------
     size : int
-        Of its rows, and of its columns.
+        Number of rows, and of columns.
     """
 
     dtype = np.dtype(np.float64)
@@ -25,7 +25,7 @@ class SymmetricOperator(ABC):
         self.shape = size, size
 
     def matvec(self, v: np.ndarray) -> np.ndarray:
-        """The product with v (size,), float64.
+        """Return the product with a vector v (size,), (size,) float64.
 
         Raises
         ------
@@ -36,10 +36,10 @@ class SymmetricOperator(ABC):
 
     @abstractmethod
     def _product(self, v: np.ndarray) -> np.ndarray:
-        """The product with v (size,), checked: float64, contiguous."""
+        """Return the product with a checked vector v (size,): float64, contiguous."""
 
     def _vector(self, v: object, what: str = "the vector") -> np.ndarray:
-        """A vector as (size,) float64, contiguous; `MeshError` where it has another shape or type."""
+        """Convert a vector to contiguous (size,) float64; raises `MeshError` for another shape or type."""
         array = as_reals(v, what)
         if array.shape != self.shape[1:]:
             raise MeshError(f"{what} has shape {array.shape}: expected {self.shape[1:]}")

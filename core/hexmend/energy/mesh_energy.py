@@ -1,4 +1,4 @@
-"""The energy of a whole mesh as a function of its free nodes: value, gradient, Hessian."""
+"""Energy of a mesh as a function of its free nodes: value, gradient, Hessian."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from hexmend.mesh.validation import points_like
 
 @reads_old_names
 class MeshEnergy:
-    """Sum over all hexes of eta(H)^p, which has the minimisers of (3.3).
+    """Sum of eta(H)^p over all hexes, which has the same minimisers as (3.3).
 
-    Lengths are in mean edge lengths of the mesh as given, so that delta means the same on every mesh.
+    The unit of length is the mean edge length of the given mesh, so that delta means the same on every mesh.
 
     Parameters
     ----------
@@ -33,14 +33,14 @@ class MeshEnergy:
     power : ObjectiveNorm
         p and offset.
     left_out : (m,) uint8, optional
-        Bit t set: corner tetrahedron t of the hex is left out, as if it were perfect.
+        Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
 
     Attributes
     ----------
     unit : float
         Mean edge length of the mesh.
     nodes : (k,) int32
-        The free nodes; row i of a gradient is that of node nodes[i].
+        Free nodes; row i of a gradient belongs to node nodes[i].
 
     Examples
     --------
@@ -52,7 +52,7 @@ class MeshEnergy:
     (0.0, (8, 3))
     """
 
-    #: Whether it has bends, those of a surface of triangles, at which Newton's method is slow.
+    #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
     faceted = False
 
     def __init__(self, mesh: Mesh, power: ObjectiveNorm = SQUARES, left_out: np.ndarray | None = None):
@@ -65,19 +65,19 @@ class MeshEnergy:
 
     @cached_property
     def slots(self) -> np.ndarray:
-        """Number of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
+        """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
         slot = np.full(self.mesh.n_nodes, -1, np.int32)
         slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         return slot[self.mesh.hexes]
 
     @cached_property
     def couplings(self) -> BlockSparsity:
-        """Which free nodes share a hex."""
+        """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
         return BlockSparsity(self.mesh)
 
     @property
     def least(self) -> float:
-        """What `value` is where all hexes are cubes and delta is zero."""
+        """Value of the energy if all hexes are cubes and delta is 0."""
         return self.power.least * self.mesh.n_hexes
 
     def with_objective(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
@@ -106,25 +106,25 @@ class MeshEnergy:
         return points
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
-        """x (n, 3) with its free nodes displaced by alpha times step (k, 3)."""
+        """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""
         x, there = self._places(x), np.empty(x.shape)
         step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, there)
         return there
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
-        """Sum of eta(H)^p at points x (n, 3); +inf at delta = 0 while any hex is inverted."""
+        """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.power
         eta = energies(self._places(x), self.mesh.hexes, delta, self.left_out, offset)
-        with np.errstate(over="ignore"):  # beside the barrier, and with a node far away: then it is infinite, too
+        with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
             return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
-        """Derivative of `value` by the free nodes, (k, 3): (B.3), (B.21), (C.2)."""
+        """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
         kernels.gradient(self._places(x), self.mesh.hexes, delta, self.power, self.left_out, self._shares)
         return self._gathered()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
-        """Second derivative of `value` by the free nodes, at points x (n, 3)."""
+        """Return the Hessian with respect to the free nodes at points x (n, 3)."""
         return Hessian(self, x, delta)
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
@@ -137,17 +137,17 @@ class MeshEnergy:
 
     @property
     def _shares(self) -> np.ndarray:
-        """Scratch for what each hex contributes at its corners, (m, 8, 3): each thread has its own."""
+        """Storage for the contributions of hexes at their corners, (m, 8, 3), one for each thread."""
         if not hasattr(self._scratch, "shares"):
             self._scratch.shares = np.empty((self.mesh.n_hexes, 8, 3))
         return self._scratch.shares
 
     def _places(self, x: np.ndarray) -> np.ndarray:
-        """Places of all nodes, (n, 3) float64; `MeshError` for an array of another shape or type."""
+        """Check positions of all nodes, (n, 3) float64; raises `MeshError` for another shape or type."""
         return points_like(x, self.mesh.points.shape, "places of nodes")
 
     def _gathered(self) -> np.ndarray:
-        """What the shares of the hexes come to at each free node, (k, 3)."""
+        """Sum the contributions of the hexes at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
         rows = np.empty((self.nodes.size, 3))
         kernels.gather(self._shares.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
@@ -155,9 +155,9 @@ class MeshEnergy:
 
 
 class Hessian(SymmetricOperator):
-    """Hessian of a `MeshEnergy` at one place, (3 k, 3 k).
+    """Hessian of a `MeshEnergy` at given node positions, (3 k, 3 k), plus `shift` times the identity.
 
-    Unknowns are x, y, z of the first free node, then of the second... `shift` is added to the diagonal.
+    Unknowns are x, y, z of the first free node, then of the second, and so on.
     """
 
     def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
@@ -165,7 +165,7 @@ class Hessian(SymmetricOperator):
         self.energy, self.x, self.delta, self.shift = energy, energy._places(x), float(delta), float(shift)
 
     def shifted(self, shift: float) -> Hessian:
-        """H + shift I."""
+        """Return H + shift I."""
         return Hessian(self.energy, self.x, self.delta, self.shift + shift)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
@@ -185,21 +185,25 @@ class Hessian(SymmetricOperator):
             product += self.shift * v
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, room: AssembledHessian | None = None) -> AssembledHessian:
-        """The same matrix, assembled: many products, and a system to be solved.
+    def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
+        """Assemble the matrix, for many products or for a linear system.
 
         Parameters
         ----------
         dtype : numpy.float32 or numpy.float64
-            Of the blocks. Where single precision cannot hold numbers so small (near the optimum of a high p), the
-            matrix is assembled in double precision and scaled before it is rounded.
-        room : AssembledHessian, optional
-            Another matrix that is not needed any more: this one takes its place if its pattern and precision are the
-            same. Memory that has been touched before is faster.
+            Precision of the blocks. A matrix too small for single precision (near the optimum of a high p) is
+            assembled in double precision and scaled before it is rounded.
+        reuse : AssembledHessian, optional
+            Matrix that is no longer needed: its storage is used if pattern and precision agree, as memory that has
+            been touched before is faster.
+
+        Returns
+        -------
+        AssembledHessian
         """
         couplings = self.energy.couplings
-        fits = room is not None and room.couplings is couplings and room.off.dtype == dtype
-        matrix = room.reset() if fits else AssembledHessian.zero(couplings, dtype)
+        fits = reuse is not None and reuse.couplings is couplings and reuse.off.dtype == dtype
+        matrix = reuse.reset() if fits else AssembledHessian.zero(couplings, dtype)
         self._assemble(matrix)
         if dtype == np.float32 and matrix.underflows():
             wide = AssembledHessian.zero(couplings, np.float64)

@@ -1,4 +1,4 @@
-"""How the energies of hexes come together in the objective, (3.3)."""
+"""Norm that combines the energies of hexes in the objective, (3.3)."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class ObjectiveNorm(NamedTuple):
-    """eta(H)^p with eta(H) = mean of eta(T) minus offset.
+    """Exponent p and offset of the objective: the sum of eta(H)^p, with eta(H) = mean of eta(T) minus offset.
 
     Parameters
     ----------
     p : float
-        At least 1.
+        Exponent, at least 1.
     offset : float
-        In [0, 1]: 1 is (B.20) as printed, so that a cube has no energy; 0 is what chapter 4 needs, where q_norm is said
-        to be equivalent to the objective (4.1.1).
+        In [0, 1]: with 1, (B.20) as printed, a cube has no energy; 0 is needed in chapter 4 for q_norm to be
+        equivalent to the objective (4.1.1).
     """
 
     p: float = 2.0
@@ -24,7 +24,7 @@ class ObjectiveNorm(NamedTuple):
 
     @property
     def least(self) -> float:
-        """What a cube contributes.
+        """Contribution of a cube.
 
         >>> ObjectiveNorm(2.0, 1.0).least, ObjectiveNorm(3.0, 0.0).least
         (0.0, 1.0)
@@ -32,7 +32,7 @@ class ObjectiveNorm(NamedTuple):
         return self.of(0.0)
 
     def of(self, eta: float) -> float:
-        """What a hex of this eta(H), as (B.20) has it, contributes.
+        """Compute the contribution of a hex from its eta(H) by (B.20), that is with offset 1.
 
         >>> ObjectiveNorm(2.0, 1.0).of(1.0), ObjectiveNorm(2.0, 0.0).of(1.0)
         (1.0, 4.0)
@@ -41,7 +41,7 @@ class ObjectiveNorm(NamedTuple):
 
     @property
     def formula(self) -> str:
-        """The objective as tables and charts write it.
+        """Formula of the objective in tables and charts.
 
         >>> ObjectiveNorm().formula, ObjectiveNorm(4.0, 0.0).formula, ObjectiveNorm(1.5).formula
         ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5')
@@ -51,5 +51,5 @@ class ObjectiveNorm(NamedTuple):
         return f"Σ η{power}" + ("" if self.offset == 1 else f", offset {self.offset:g}")
 
 
-#: The sum of squares of (B.20).
+#: Sum of squares of (B.20).
 SQUARES = ObjectiveNorm()

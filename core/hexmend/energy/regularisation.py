@@ -1,4 +1,4 @@
-"""delta: how far the barrier of (3.2) is softened while a mesh is tangled; zero as soon as it is not (3.2.4)."""
+"""Policies for delta, which regularises the barrier of (3.2) while a mesh is tangled; 0 for a valid mesh (3.2.4)."""
 
 from __future__ import annotations
 
@@ -10,33 +10,34 @@ from hexmend.quality import ElementQuality
 
 
 class DeltaPolicy(Protocol):
-    """Gives delta for each iteration."""
+    """Policy that chooses delta for each iteration."""
 
     def at(self, figures: ElementQuality, unit: float) -> float:
-        """Delta for a mesh of these figures.
+        """Choose delta for a mesh.
 
         Parameters
         ----------
         figures : ElementQuality
+            Quality of its hexes.
         unit : float
             Mean edge length of the mesh.
 
         Returns
         -------
         float
-            In the cube of the mean edge length (of the mesh or of the patch, whichever is minimised over); 0 if no hex
-            is inverted.
+            In the cube of the mean edge length (of the mesh or of the patch that is optimised); 0 if no hex is
+            inverted.
         """
 
 
 @dataclass(frozen=True)
 class FixedDelta:
-    """The thesis's policy: one value while any hex is inverted.
+    """Constant delta while any hex is inverted, the thesis's policy.
 
     Parameters
     ----------
     value : float
-        In the cube of the mean edge length.
+        Delta in the cube of the mean edge length.
     """
 
     value: float = 0.01
@@ -47,15 +48,15 @@ class FixedDelta:
 
 @dataclass(frozen=True)
 class AdaptiveDelta:
-    """delta^2 = e (e - sigma) with the worst sigma of the mesh: its h(sigma) is e, and h falls no lower anywhere.
+    """Delta that follows the least sigma of the mesh: delta^2 = e (e - sigma), so that h(sigma) >= e everywhere.
 
-    Deeply inverted elements make delta large, which keeps the Hessian well conditioned; as they recover it falls to e
+    Deeply inverted hexes make delta large, which keeps the Hessian well conditioned; as they recover, delta falls to e
     (thesis 5.2.4 asks for such a decrease).
 
     Parameters
     ----------
     least : float
-        e, in the cube of the mean edge length.
+        Constant e in the cube of the mean edge length.
     """
 
     least: float = 0.01
@@ -67,5 +68,5 @@ class AdaptiveDelta:
         return math.sqrt(self.least * (self.least - worst))
 
 
-#: Policies by the name that a method's parameter gives.
+#: Policies by their names in parameters of methods.
 POLICIES = {"fixed": FixedDelta, "adaptive": AdaptiveDelta}

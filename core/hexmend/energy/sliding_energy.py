@@ -1,4 +1,4 @@
-"""The energy of a mesh whose boundary nodes slide on its surface."""
+"""Energy of a mesh whose boundary nodes slide on its surface."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 
-#: How far nodes are led to see where that is, in mean edge lengths.
+#: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
 
 
 class SlidingEnergy(MeshEnergy):
-    """As a function of the free nodes, those of the boundary on their curves and patches.
+    """Energy as a function of free nodes of which those of the boundary lie on their curves and patches.
 
-    Derivatives are those along the surface: the gradient has no component off it, and the Hessian couples none, so that
-    a direction that is found by them is tangential. What the surface's curvature adds to the Hessian is left out.
-    Wherever nodes are moved to, they are put back on the surface.
+    Derivatives are those along the surface: gradient and Hessian have no components off it, so that search directions
+    are tangential. The contribution of the surface's curvature to the Hessian is left out. Moved nodes are projected
+    back onto the surface.
 
     Parameters
     ----------
@@ -78,8 +78,8 @@ class SlidingEnergy(MeshEnergy):
         return SlidingHessian(self, x, delta)
 
     def projectors(self, x: np.ndarray) -> np.ndarray:
-        """What takes displacements of sliding nodes at x, all nodes' (n, 3), along the surface, (k, 3, 3) symmetric."""
-        seen = self._seen  # another thread may put its own there
+        """Tangential projectors of the sliding nodes at positions x (n, 3) of all nodes, (k, 3, 3), symmetric."""
+        seen = self._seen  # one read, as another thread may replace it
         if seen is None or seen[0] is not x:
             bases = self.sliding.tangent_bases(x[self.sliding.nodes] * self.unit)
             seen = self._seen = x, bases @ bases.transpose(0, 2, 1)
@@ -87,7 +87,7 @@ class SlidingEnergy(MeshEnergy):
 
     @cached_property
     def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The blocks above an assembled Hessian's diagonal of nodes that slide, and the slots of both, (b,) each."""
+        """Blocks above the diagonal with a sliding node, and the slots of their rows and columns, (b,) each."""
         couplings = self.couplings
         slides = np.zeros(couplings.nodes.size, dtype=bool)
         slides[couplings.order[self._rows]] = True
@@ -97,7 +97,7 @@ class SlidingEnergy(MeshEnergy):
 
 
 class SlidingHessian(Hessian):
-    """Hessian of a `SlidingEnergy` along the surface; off it, where the gradient is 0, a multiple of the identity."""
+    """Hessian of a `SlidingEnergy` along the surface; off it a multiple of the identity."""
 
     energy: SlidingEnergy
 
@@ -117,8 +117,8 @@ class SlidingHessian(Hessian):
         product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + off
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, room: AssembledHessian | None = None) -> AssembledHessian:
-        matrix = super().assembled(dtype, room)
+    def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
+        matrix = super().assembled(dtype, reuse)
         energy = self.energy
         slots = matrix.order[energy._rows]
         along = energy.projectors(self.x).astype(dtype)
@@ -129,7 +129,7 @@ class SlidingHessian(Hessian):
         matrix.off[at] = blocks.reshape(-1, 9)
         own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
         size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
-        size = np.where(size > 0, size, 1)[:, None, None]  # neither the least nor the greatest eigenvalue
+        size = np.where(size > 0, size, 1)[:, None, None]  # a scale between the extreme eigenvalues
         own += size * (np.eye(3, dtype=dtype) - along)
         matrix.diagonal[slots] = own.reshape(-1, 9)[:, [0, 1, 2, 4, 5, 8]]
         return matrix

@@ -1,4 +1,4 @@
-"""Which free nodes are coupled by a mesh's energy, and in what order an assembled Hessian keeps them."""
+"""Sparsity pattern of an assembled Hessian: pairs of free nodes that share a hex, and the order of nodes."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from hexmend.kernels import sparsity as kernels
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 
-#: Slots are divided into parts that threads solve side by side: from so many slots on into 2, 4 and 8.
+#: Numbers of slots from which on they are divided into 2, 4 and 8 parts that threads solve in parallel.
 _PARTS = ((4_000, 2), (100_000, 4), (400_000, 8))
 
 
 class BlockSparsity:
-    """Pattern of the blocks of a Hessian: free nodes in slots, neighbours near each other, and who shares a hex.
+    """Sparsity pattern of the 3 x 3 blocks of a Hessian, with free nodes ordered in slots so that neighbours are close.
 
-    Depends on the mesh alone, not on the number of threads.
+    It depends on the mesh alone, not on the number of threads.
 
     Parameters
     ----------
     mesh : Mesh
     parts : int, optional
-        In how many parts the slots are; by their number where it is not given.
+        Number of parts of the slots; chosen by the number of free nodes by default.
 
     Raises
     ------
@@ -34,17 +34,17 @@ class BlockSparsity:
     Attributes
     ----------
     nodes : (k,) int32
-        The node in each slot.
+        Node in each slot.
     bounds : (2 parts,) int32
-        Where the parts, and behind them the separators, begin and end.
+        Limits of the parts, then of the separators, in slots.
     order : (k,) int64
-        The slot of each free node, these by number.
+        Slot of each free node, in the order of node numbers.
     slots : (m, 8) int32
         Slot of each corner, -1 if it is fixed.
     target : (m, 28) int32
-        The block that each pair of a hex's corners adds to.
+        Block to which each pair of a hex's corners contributes.
     row_start, columns : (k + 1,) int32, (blocks,) int32
-        The blocks above the diagonal, as compressed rows.
+        Blocks above the diagonal, as compressed rows.
     """
 
     def __init__(self, mesh: Mesh, parts: int | None = None):
@@ -65,18 +65,25 @@ class BlockSparsity:
         self._shares: dict[int, tuple[np.ndarray, ...]] = {}
 
     def shares(self, count: int) -> tuple[np.ndarray, ...]:
-        """The slots in `count` shares, and the hexes at the slots of each, as `assembly.assemble` takes them.
+        """Divide the slots into shares for threads, with the hexes at the slots of each, for `assembly.assemble`.
+
+        Parameters
+        ----------
+        count : int
+            Number of shares.
 
         Returns
         -------
         bounds : (count + 1,) int32
-            Where the shares begin and end, in slots.
+            Limits of the shares, in slots.
         start : (count + 1,) int32
-            Where the hexes of each begin and end in what follows.
+            Limits of each share's hexes in the following arrays.
         chosen : (j,) int32
-            Their numbers; a hex at slots of several shares is in each.
+            Numbers of hexes; a hex at slots of several shares is in each.
         hexes, slots : (j, 8) int32
+            Nodes and slots of their corners.
         target : (j, 28) int32
+            Blocks of their pairs of corners.
         """
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
@@ -92,10 +99,10 @@ class BlockSparsity:
 
     @property
     def pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """`bounds`, `row_start` and `columns`: what the kernels of `conjugate_gradients` begin with."""
+        """First arguments of the kernels of `conjugate_gradients`: `bounds`, `row_start` and `columns`."""
         return self.bounds, self.row_start, self.columns
 
     @property
     def blocks(self) -> int:
-        """Blocks above the diagonal."""
+        """Number of blocks above the diagonal."""
         return self.columns.size

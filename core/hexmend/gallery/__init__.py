@@ -1,4 +1,4 @@
-"""Meshes that Hexmend makes itself: for tests, benchmarks, studies and first looks; one mesh a file.
+"""Generated meshes for tests, benchmarks, studies and examples; one mesh a file.
 
 >>> from hexmend import gallery
 >>> gallery.make("five-side").n_hexes
@@ -18,11 +18,22 @@ __all__ = ["GALLERY", "GalleryMesh", "make"]
 
 
 def make(name: str, **parameters: object) -> Mesh:
-    """Build the gallery mesh of that name.
+    """Build a gallery mesh.
+
+    Parameters
+    ----------
+    name : str
+        Name in `GALLERY`.
+    **parameters
+        Parameters of that mesh, such as `size`.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
     ParameterError
-        For a name or a value that is not admitted.
+        For an unknown name, and for a value that is not allowed.
     """
     return GALLERY[name](**parameters).build()

@@ -1,10 +1,10 @@
-"""The aeroplane in the gallery mesh `plane`: parts that are boxes in a grid, and where the boxes' surfaces go.
+"""Shape of the aeroplane in the gallery mesh `plane`: parts that are boxes in a grid, and maps to their surfaces.
 
-Lengths are in about the fuselage's length. x runs aft from the nose, y to starboard, z up; the fuselage's axis is
-y = z = 0.
+The unit of length is about the fuselage's length. x runs aft from the nose, y to starboard, z up; the fuselage's axis
+is y = z = 0.
 
-A part gives the `boxes` that it fills in the grid and `map_to_surface`, which takes points of the boxes' surfaces to its
-own surface. Parts come in order: a point that two share, at a wing's root, goes where the later takes it.
+A part has the `boxes` that it fills in the grid and `map_to_surface`, which maps points on these boxes to its surface.
+A point that two parts share, at a wing's root, is mapped by the later one.
 """
 
 from __future__ import annotations
@@ -13,36 +13,36 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: Half the width of the boxes of wings and fin.
+#: Half the thickness of the boxes of wings and fin.
 HALF_BOX = 0.0225
 
 
 @dataclass(frozen=True)
 class Fuselage:
-    """A round body: half an ellipsoid, a cylinder, a tail that narrows and rises."""
+    """Round body: half an ellipsoid, a cylinder, and a tail that narrows and rises."""
 
     radius: float = 0.075
-    bow: float = 0.02  # where its box begins; the ellipsoid's tip is at 0
+    bow: float = 0.02  # x at which its box begins; the ellipsoid's tip is at 0
     stern: float = 0.98
     nose: float = 0.22  # the ellipsoid's length
-    tail: float = 0.6  # where it begins to narrow
+    tail: float = 0.6  # x at which it begins to narrow
     narrowing: float = 0.75  # of the radius, at x = 1
-    cone: float = 0.05  # how far the middle of the last section stands out
+    cone: float = 0.05  # protrusion of the last section's centre
 
     @property
     def boxes(self) -> tuple[np.ndarray, ...]:
-        """Corners with the lowest and the highest coordinates, (2, 3) each."""
+        """Boxes by their lowest and highest coordinates, (2, 3) each."""
         r = self.radius
         return (np.array([[self.bow, -r, -r], [self.stern, r, r]]),)
 
     def section(self, x: np.ndarray) -> np.ndarray:
-        """Radius of the section at x (n,), (n,)."""
+        """Return the radius of the section at x (n,), (n,)."""
         ellipse = np.sqrt(np.clip(1 - np.clip(1 - x / self.nose, 0, None) ** 2, 0, None))
         aft = np.clip((x - self.tail) / (1 - self.tail), 0, None)
         return self.radius * ellipse * (1 - self.narrowing * aft**2)
 
     def map_to_surface(self, points: np.ndarray) -> np.ndarray:
-        """Points (n, 3), squares about the axis having become circles, and the two ends caps."""
+        """Map points (n, 3): squares about the axis become circles, the two ends caps."""
         x, y, z = points.T
         square = np.maximum(np.abs(y), np.abs(z)) / self.radius
         rho, distance = square * self.section(x), np.hypot(y, z)
@@ -55,25 +55,25 @@ class Fuselage:
 
 @dataclass(frozen=True)
 class Wing:
-    """A swept, tapered surface that stands on the fuselage: a pair of them to the sides (axis 1) or one up (axis 2)."""
+    """Swept, tapered surface on the fuselage: a pair to the sides (axis 1), or one upwards (axis 2)."""
 
     axis: int
     leading: float  # x of the root's leading edge
     root: float  # chord
     tip: float  # chord
-    sweep: float  # how far the tip's leading edge is behind the root's
+    sweep: float  # distance of the tip's leading edge aft of the root's
     span: float  # from the fuselage's axis to the tip
-    rise: float = 0.0  # how far the tip is above the root
+    rise: float = 0.0  # height of the tip above the root
     fuselage: Fuselage = Fuselage()
 
-    thickness = 0.12  # half the greatest, over the chord
-    edge = 0.8  # thickness of the leading and trailing edge, over the greatest
-    crest = 0.35  # where the greatest is, over the chord
-    bulge = 0.6  # how far the edges and the tip are rounded, over half the thickness
+    thickness = 0.12  # half the maximum thickness over the chord
+    edge = 0.8  # thickness of the leading and trailing edge over the maximum
+    crest = 0.35  # position of the maximum thickness over the chord
+    bulge = 0.6  # rounding of edges and tip over half the thickness
 
     @property
     def boxes(self) -> tuple[np.ndarray, ...]:
-        """Corners with the lowest and the highest coordinates, (2, 3) each."""
+        """Boxes by their lowest and highest coordinates, (2, 3) each."""
         found = []
         for side in (1, -1) if self.axis == 1 else (1,):
             box = np.array([[self.leading, -HALF_BOX, -HALF_BOX], [self.leading + self.root, HALF_BOX, HALF_BOX]])
@@ -82,13 +82,13 @@ class Wing:
         return tuple(found)
 
     def profile(self, c: np.ndarray) -> np.ndarray:
-        """Thickness at the share c (n,) of the chord, over the greatest, (n,)."""
+        """Return the thickness over its maximum at fractions c (n,) of the chord, (n,)."""
         fore = self.edge + (1 - self.edge) * np.sqrt(np.clip(1 - (1 - c / self.crest) ** 2, 0, 1))
         aft = 1 - (1 - self.edge) * np.clip((c - self.crest) / (1 - self.crest), 0, 1) ** 1.5
         return np.where(c < self.crest, fore, aft)
 
     def map_to_surface(self, points: np.ndarray) -> np.ndarray:
-        """Points (n, 3) of the box sheared, tapered, given a profile, its root on the fuselage, its edges rounded."""
+        """Map points (n, 3): shear, taper, profile, with the root on the fuselage and rounded edges."""
         out, across = points[:, self.axis], points[:, 3 - self.axis] / HALF_BOX
         c = (points[:, 0] - self.leading) / self.root
         s = np.clip((np.abs(out) - self.fuselage.radius) / (self.span - self.fuselage.radius), 0, 1)
@@ -114,7 +114,7 @@ PARTS = (FUSELAGE, WINGS, TAILPLANE, FIN)
 
 
 def map_onto_aeroplane(points: np.ndarray) -> np.ndarray:
-    """Take points of the boxes' surfaces to the aeroplane's, (n, 3) float64."""
+    """Map points (n, 3) on the boxes to the aeroplane's surface, (n, 3) float64."""
     placed = points.copy()
     for part in PARTS:
         for low, high in part.boxes:

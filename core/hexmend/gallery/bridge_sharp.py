@@ -11,25 +11,26 @@ from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 
-#: The left half of the underside, from its corner to the ridge, in heights of the block's sides; (4, 2). The last two
-#: pieces have SHARE of the half's segments each, the first has the rest.
+#: Left half of the underside, from its corner to the ridge, in heights of the block's sides, (4, 2). Each of the last
+#: two pieces has the fraction SHARE of the half's segments, the first has the rest.
 UNDERSIDE = np.array([(-1.473, 0.0), (-0.0994, -0.1758), (-0.0406, 0.5012), (0.0, 0.5761)])
 SHARE = 0.15
-#: Width of the deck over that of the underside; how far its middle is above its ends; how evenly its nodes stand.
+#: Width of the deck over that of the underside; height of its middle above its ends; weight of equal spacing of its
+#: nodes.
 OVERHANG, CROWN, EVEN = 1.3038, 0.7984, 0.31
 
-#: Height of the block's sides: edges of 32,000 hexes are 1.25 long, so that delta in raw units does to global methods
-#: what Tables 4.3 and 4.4 say.
+#: Height of the block's sides: with edges of 1.25 for 32,000 hexes, delta in the mesh's units has the effect on global
+#: methods that Tables 4.3 and 4.4 report.
 HEIGHT = 13.5
 
 
 @gallery_mesh
 @dataclass(frozen=True)
 class BridgeSharp(GalleryMesh):
-    """A block whose underside rises to a sharp ridge, which Laplacian smoothing pulls nodes through.
+    """Block whose underside rises to a sharp ridge, through which Laplacian smoothing pulls nodes.
 
-    Nodes stand at equal distances along each piece of the underside; along the deck they stand partly as beneath and
-    partly at equal distances across; and at equal distances on straight lines between the two (a Coons patch).
+    Nodes are equally spaced along each piece of the underside; along the deck their spacing is a mean of that below
+    and equal spacing; on the straight lines between the two they are equally spaced (a Coons patch).
     """
 
     name = "bridge-sharp"
@@ -61,7 +62,7 @@ class BridgeSharp(GalleryMesh):
         )
 
     def _underside(self, segments: int) -> np.ndarray:
-        """Points along the underside from the left-hand corner to the ridge, (segments + 1, 2)."""
+        """Points along the underside from its left corner to the ridge, (segments + 1, 2)."""
         few = max(min(1, segments / 3), round(SHARE * segments))
         at = [0, segments - 2 * few, segments - few, segments]
         x, y = (np.interp(np.arange(segments + 1), at, column) for column in UNDERSIDE.T)

@@ -1,4 +1,4 @@
-"""A cube of cubes: the mesh whose optimum is known."""
+"""Cube: a structured grid of the unit cube, whose optimum is known."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend.parameters import parameter
 @gallery_mesh
 @dataclass(frozen=True)
 class Cube(GalleryMesh):
-    """n x n x n cubes in the unit cube."""
+    """Grid of n x n x n cubes in the unit cube."""
 
     name = "cube"
     title = "Cube"

@@ -15,7 +15,7 @@ from hexmend.parameters import parameter
 
 @dataclass(frozen=True)
 class Division:
-    """How the prism is divided: an unstructured quad mesh of the pentagon, and layers of it."""
+    """Division of the prism: an unstructured quad mesh of the pentagon, in layers."""
 
     quads: int
     boundary: int  # nodes on the pentagon's boundary
@@ -24,8 +24,8 @@ class Division:
     seed: int = 0
 
 
-#: The thesis's meshes, by hexes. Its numbers of hexes, nodes and free nodes leave no other quads, boundary and layers;
-#: jitter and seed are those of some tried whose optima come near the thesis's.
+#: Divisions of the thesis's meshes by number of hexes. Its numbers of hexes, nodes and free nodes determine quads,
+#: boundary and layers; jitter and seed are the best of those tried: their optima come near the thesis's.
 DIVISIONS = {
     7350: Division(245, 70, 30, 0.2, 3),
     16650: Division(555, 106, 30, 0.55, 2),
@@ -35,16 +35,16 @@ DIVISIONS = {
     110450: Division(2209, 196, 50, 0.4, 0),
 }
 
-#: Of other sizes: layers over the cube root of the hexes, boundary nodes over the square root of the quads.
+#: Other sizes: layers over the cube root of the hexes, boundary nodes over the square root of the quads.
 LAYERS, BOUNDARY = 1.25, 4.4
-#: The fewest and the most quads of an unstructured mesh; more come by dividing its quads, fewer by dividing five.
+#: Smallest and largest number of quads of an unstructured mesh; larger meshes subdivide its quads, smaller ones a fan.
 MIN_UNSTRUCTURED, MAX_UNSTRUCTURED = 45, 600
 
 
 @gallery_mesh
 @dataclass(frozen=True)
 class FiveSide(GalleryMesh):
-    """An unstructured quad mesh of a pentagon, extruded."""
+    """Extruded unstructured quad mesh of a pentagon."""
 
     name = "five-side"
     title = "FiveSide"
@@ -75,10 +75,10 @@ class FiveSide(GalleryMesh):
 
 
 def _quad_mesh(size: int) -> tuple[np.ndarray, np.ndarray, int]:
-    """Points and quads of the pentagon, and how many layers of them make about so many hexes."""
+    """Points and quads of the pentagon, and the number of layers for about `size` hexes."""
     if size in DIVISIONS:
-        its = DIVISIONS[size]
-        return *pentagon(its.quads, its.boundary, its.jitter, its.seed), its.layers
+        division = DIVISIONS[size]
+        return *pentagon(division.quads, division.boundary, division.jitter, division.seed), division.layers
     wanted = size / max(1, round(LAYERS * size ** (1 / 3)))
     if wanted < MIN_UNSTRUCTURED:
         plane = subdivide(*fan(), max(1, round((wanted / 5) ** 0.5)))

@@ -1,4 +1,4 @@
-"""What a gallery mesh is, and the registry of them."""
+"""Base class of gallery meshes, and their registry."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from hexmend.registry import Registry, load_entry_points
 
 @dataclass(frozen=True)
 class GalleryMesh(Parametrised, ABC):
-    """A mesh that is made from nothing, the same each time.
+    """Generated mesh; the same parameters give the same mesh.
 
-    Subclasses declare `size` (about how many hexes) and what else shapes them, and give `regular`; scrambling is common
-    to all.
+    Subclasses declare `size` (approximate number of hexes) and other parameters, and implement `regular`; scrambling is
+    common to all.
     """
 
     name: ClassVar[str]
@@ -33,17 +33,29 @@ class GalleryMesh(Parametrised, ABC):
 
     @abstractmethod
     def regular(self) -> Mesh:
-        """The mesh before it is scrambled."""
+        """Build the mesh before scrambling."""
 
     def build(self) -> Mesh:
-        """The mesh."""
+        """Build the mesh."""
         mesh = self.regular()
         mesh = mesh.replace(name=f"{self.name}-{mesh.n_hexes}")
         return scramble_nodes(mesh, self.scramble, self.seed) if self.scramble > 0 else mesh
 
 
 def scramble_nodes(mesh: Mesh, amplitude: float, seed: int) -> Mesh:
-    """Displace each free node uniformly within a ball of `amplitude` times the mean length of its edges."""
+    """Displace free nodes at random, uniformly in balls.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    amplitude : float
+        Radius of each ball in mean lengths of the edges at the node.
+    seed : int
+
+    Returns
+    -------
+    Mesh
+    """
     ring, points = mesh.topology.rings, mesh.points
     owner = np.repeat(np.arange(mesh.n_nodes), np.diff(ring.start))
     length = np.linalg.norm(points[ring.items] - points[owner], axis=1)
@@ -77,6 +89,6 @@ GALLERY: Registry[type[GalleryMesh]] = Registry("gallery mesh", load_plugins)
 
 
 def gallery_mesh(cls: G) -> G:
-    """Class decorator: register a gallery mesh under its name."""
+    """Register a gallery mesh under its name; a class decorator."""
     GALLERY.add(cls.name, cls)
     return cls

@@ -1,4 +1,4 @@
-"""Triangles paired into quads, so that the angles are as right as they can be."""
+"""Pairing of triangles into quads with angles as close to 90° as possible."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ import numpy as np
 
 
 def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray) -> np.ndarray | None:
-    """A perfect matching of triangles that share an edge: of all the one whose quads have the best angles.
+    """Pair all triangles into quads so that the sum of (angle - 90°)^2 over the corners of all quads is least.
 
-    The least sum of (angle - 90°)^2 over the corners of all quads, as an integer program. It is solved to
-    the end, so that it is the program, not its solver, that says which one; some hundred triangles take some tenths of
-    a second, some thousand seconds, or a minute.
+    This integer program is solved to optimality, so that the result does not depend on the solver. A few hundred
+    triangles take tenths of a second, a few thousand seconds to a minute.
 
     Parameters
     ----------
@@ -18,11 +17,12 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
     triangles : (t, 3) int
         Counter-clockwise.
     spare : (n,) int
-        How many of its edges a node may lose.
+        Number of edges that each node may lose.
 
     Returns
     -------
-    (t / 2, 4) int64, counter-clockwise, or None if there is no such matching.
+    (t / 2, 4) int64 or None
+        Quads, counter-clockwise; None if no pairing exists.
     """
     from scipy.optimize import Bounds, LinearConstraint, milp
     from scipy.sparse import coo_array
@@ -32,7 +32,7 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
     key = np.sort(sides, axis=1) @ [len(points), 1]
     order = np.argsort(key, kind="stable")
     twice = np.flatnonzero(key[order][1:] == key[order][:-1])
-    one, other = order[twice], order[twice + 1]  # the two sides of each inner edge
+    one, other = order[twice], order[twice + 1]  # both sides of each inner edge
     quads = np.column_stack([sides[one, 0], opposite[other], sides[one, 1], opposite[one]])
 
     k, t = len(one), len(triangles)
@@ -40,7 +40,7 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
     ones = np.ones(2 * k)
     covers = coo_array((ones, (triangle[np.concatenate([one, other])], edges)), (t, k)).tocsr()
     takes = coo_array((ones, (sides[one].T.ravel(), edges)), (len(points), k)).tocsr()
-    short = (np.diff(takes.indptr) + 1) // 2 > spare  # of two edges side by side only one can go
+    short = (np.diff(takes.indptr) + 1) // 2 > spare  # of two adjacent edges only one can be removed
     found = milp(
         np.square(corner_angles(points, quads) - np.pi / 2).sum(axis=1),
         integrality=np.ones(k),
@@ -52,7 +52,7 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
 
 
 def corner_angles(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Angles at the corners of quads, from 0 to 2 pi, (k, 4) float64."""
+    """Return the angles at the corners of quads in radians, from 0 to 2 pi, (k, 4) float64."""
     corner = points[quads]
     ahead, behind = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
     cross = ahead[..., 0] * behind[..., 1] - ahead[..., 1] * behind[..., 0]

@@ -1,6 +1,6 @@
 """Unstructured quad meshes of a regular pentagon, with a given number of quads and of nodes on its boundary.
 
-A mesh of Q quads with b nodes on the boundary has Q - b / 2 + 1 nodes within, however they are connected.
+By Euler's formula a mesh of Q quads with b boundary nodes has Q - b / 2 + 1 interior nodes.
 """
 
 from __future__ import annotations
@@ -11,34 +11,36 @@ import numpy as np
 
 from hexmend.gallery.pairing import corner_angles, pair_triangles
 
-#: The corners, counter-clockwise, on a circle about the origin with the radius 1.
+#: Corners, counter-clockwise, on the unit circle.
 CORNERS = np.column_stack([np.cos(0.4 * np.pi * np.arange(5)), np.sin(0.4 * np.pi * np.arange(5))])
-#: How often points within are moved to the middle of what is around them.
+#: Number of relaxation sweeps of interior points.
 SWEEPS = 30
 
 
 def pentagon(quads: int, boundary: int, jitter: float = 0.4, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """An unstructured quad mesh, all quads convex.
+    """Build an unstructured mesh of convex quads in the pentagon.
 
-    One paved ring along the boundary; within, points of a lattice, moved as by Lloyd, and their Delaunay triangles,
-    matched in pairs. Then each node within goes half the way to where it is the mean of its neighbours, which leaves
-    something to be gained; all the way, if not all quads are convex there. At the end of it they are (Tutte 1963).
+    A ring of quads is paved along the boundary. Inside, points of a lattice are relaxed as by Lloyd's method, and their
+    Delaunay triangles are paired into quads. Each interior node then moves half way to its position in the Tutte
+    embedding (1963), which leaves room for improvement by smoothing, or all the way if quads are not convex before; in
+    the embedding all are.
 
     Parameters
     ----------
     quads : int
+        Number of quads.
     boundary : int
-        Nodes on the boundary: even, and at least 15.
+        Number of boundary nodes: even, and at least 15.
     jitter : float
-        How far points of the lattice are displaced at most, over its step. 0.05 leaves a grid that is irregular only
-        beside the ring, 0.6 leaves nothing of it.
+        Largest displacement of lattice points over the lattice spacing. 0.05 leaves a grid that is irregular only near
+        the ring, 0.6 none of it.
     seed : int
-        The first to try; the next is tried where triangles cannot be matched.
+        First seed; the next one is tried if triangles cannot be paired.
 
     Returns
     -------
     points : (n, 2) float64
-        Those of the boundary first, from the first corner on.
+        Boundary points first, starting at the first corner.
     quads : (k, 4) int64
         Counter-clockwise.
 
@@ -68,42 +70,42 @@ def pentagon(quads: int, boundary: int, jitter: float = 0.4, seed: int = 0) -> t
 
 
 def subdivide(points: np.ndarray, quads: np.ndarray, times: int) -> tuple[np.ndarray, np.ndarray]:
-    """A mesh whose quads are grids of times by times quads, bilinear; arrays as of `pentagon`."""
+    """Subdivide each quad into a bilinear grid of times x times quads; arrays are those of `pentagon`."""
     v, u = (grid[..., None] for grid in np.meshgrid(*[np.linspace(0, 1, times + 1)] * 2, indexing="ij"))
     a, b, c, d = (points[quads[:, i], None, None] for i in range(4))
-    everything = ((1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d).reshape(-1, 2)
-    _, first, inverse = np.unique(np.round(everything, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
+    grid_points = ((1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d).reshape(-1, 2)
+    _, first, inverse = np.unique(np.round(grid_points, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
     number = inverse.reshape(len(quads), times + 1, times + 1)
     low, high = slice(None, -1), slice(1, None)
     places = [(low, low), (low, high), (high, high), (high, low)]
-    return everything[first], np.column_stack([number[:, *place].ravel() for place in places])
+    return grid_points[first], np.column_stack([number[:, *place].ravel() for place in places])
 
 
 def fan() -> tuple[np.ndarray, np.ndarray]:
-    """The coarsest mesh: five quads about the centre. Arrays as of `pentagon`."""
+    """Build the coarsest mesh, five quads around the centre; arrays are those of `pentagon`."""
     points = np.concatenate([_polygon(CORNERS, np.full(5, 2)), np.zeros((1, 2))])
     i = np.arange(5)
     return points, np.column_stack([np.full(5, 10), (2 * i - 1) % 10, 2 * i, 2 * i + 1])
 
 
 def _polygon(corners: np.ndarray, segments: np.ndarray) -> np.ndarray:
-    """Points at equal distances along each side, segments (5,) of them from a corner on."""
+    """Equally spaced points along each side of a pentagon, segments (5,) of them from each corner."""
     at = np.concatenate([k + np.arange(n) / n for k, n in enumerate(segments)])
     return np.column_stack([np.interp(at, np.arange(6), [*column, column[0]]) for column in corners.T])
 
 
 def _paved_ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes of the boundary, then those of the ring's inside; and its quads, of which one is in each corner."""
+    """Points of the boundary and of the ring's inner side, and the ring's quads with one in each corner."""
     segments = np.diff(np.round(np.arange(6) * boundary / 5).astype(int))
-    depth = 1 - 10 * np.tan(np.pi / 5) / boundary  # of the ring's inside over the pentagon: a ring of squares
+    depth = 1 - 10 * np.tan(np.pi / 5) / boundary  # scale of the ring's inner side, so that its quads are square
     points = np.concatenate([_polygon(CORNERS, segments), _polygon(depth * CORNERS, segments - 2)])
     outer, inner, quads = 0, 0, []
     for n in segments:
         i = np.arange(n - 2)
         first = boundary + inner
-        beside = boundary + (inner + i + 1) % (boundary - 10)
+        adjacent = boundary + (inner + i + 1) % (boundary - 10)
         quads.append([[(outer - 1) % boundary, outer, outer + 1, first]])
-        quads.append(np.column_stack([outer + 1 + i, outer + 2 + i, beside, first + i]))
+        quads.append(np.column_stack([outer + 1 + i, outer + 2 + i, adjacent, first + i]))
         outer, inner = outer + n, inner + n - 2
     quads = np.concatenate(quads)
     quads[quads == boundary + (boundary - 10)] = boundary
@@ -111,7 +113,7 @@ def _paved_ring(boundary: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _lattice(ring: int, wanted: int, jitter: float, seed: int) -> np.ndarray:
-    """So many points within a ring of nodes: those of a turned and shifted lattice that are nearest to the centre."""
+    """The `wanted` points nearest to the centre of a rotated, shifted and jittered lattice, scaled into the ring."""
     random = np.random.default_rng(seed)
     shift, turn = random.uniform(size=2), random.uniform(0, np.pi / 2)
     reach = int(np.sqrt(wanted)) + 4
@@ -136,7 +138,7 @@ def _triangles(points: np.ndarray) -> np.ndarray:
 
 
 def _relax(ring: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """The ring's nodes and the points, these moved to the centroids of the triangles around them, so many times."""
+    """Ring nodes and points, the points moved SWEEPS times to the centroids of the triangles around them."""
     points = np.concatenate([ring, points])
     for _ in range(SWEEPS):
         triangles = _triangles(points)
@@ -154,19 +156,19 @@ def _double_area(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _polygon_edges(cells: np.ndarray) -> np.ndarray:
-    """The sides of polygons with k corners, (k m, 2)."""
+    """Edges of polygons (m, k), (k m, 2)."""
     return np.concatenate([cells[:, [i, (i + 1) % cells.shape[1]]] for i in range(cells.shape[1])])
 
 
 def _tutte_embedding(points: np.ndarray, quads: np.ndarray, boundary: int) -> np.ndarray:
-    """Put each node that is not of the boundary, the first ones, into the mean of those it shares a side with."""
+    """Move interior nodes, those after the first `boundary`, to the means of their edge neighbours."""
     from scipy.sparse import coo_array, diags_array
     from scipy.sparse.linalg import spsolve
 
     sides = np.unique(np.sort(_polygon_edges(quads), axis=1), axis=0)
     ends = np.concatenate([sides, sides[:, ::-1]]).T
-    beside = coo_array((np.ones(len(ends[0])), ends), (len(points), len(points))).tocsr()
-    laplacian = (diags_array(beside.sum(axis=1)) - beside).tocsr()[boundary:]
+    adjacent = coo_array((np.ones(len(ends[0])), ends), (len(points), len(points))).tocsr()
+    laplacian = (diags_array(adjacent.sum(axis=1)) - adjacent).tocsr()[boundary:]
     placed = points.copy()
     placed[boundary:] = spsolve(laplacian[:, boundary:].tocsc(), -laplacian[:, :boundary] @ points[:boundary])
     return placed

@@ -1,4 +1,4 @@
-"""Plane: the space around an aeroplane in a box, unstructured, with inverted hexes (thesis 4.4, Figures 4.5 to 4.9)."""
+"""Plane: unstructured mesh of the space around an aeroplane, with inverted hexes (thesis 4.4, Figures 4.5 to 4.9)."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
 from hexmend.parameters import parameter
 
-#: Hexes at the scale 1, for which the numbers of cells below are: the thesis's. Of the divisions tried 90 have them. Of
-#: two of these, with 1,000 choices of the lengths below, this one's inverted hexes (162, the thesis's 163) and mean
-#: quality came nearest, with 30,406 free nodes (30,389). The least quality was 0 (0.0945) whatever was tried.
+#: Number of hexes at scale 1, to which the numbers of cells below refer: the thesis's. 90 of the divisions tried have
+#: it. Of two of these, with 1,000 choices of the lengths below, this one came nearest to the thesis in inverted hexes
+#: (162; 163 in the thesis), mean quality and free nodes (30,406; 30,389). The least quality was always 0 (0.0945).
 HEXES = 31760
-#: Cells between successive knots of x, y and z: the planes in which a part's box begins or ends, and the core's ends.
+#: Cells between successive knots in x, y and z: planes in which a part's box begins or ends, and the ends of the core.
 CELLS = ((2, 7, 5, 6, 3, 1, 2), (2, 4, 3, 1, 1, 1, 3, 4, 2), (2, 1, 1, 1, 6, 1))
-#: How far the core reaches beyond the aeroplane's boxes.
+#: Distance by which the core extends beyond the aeroplane's boxes.
 MARGIN = 0.07
-#: The outer box, (2, 3).
+#: Outer box by its lowest and highest coordinates, (2, 3).
 BOX = np.array([[-0.94, -1.44, -0.86], [1.94, 1.44, 1.06]])
-#: Layers of the shell at the scale 1, and how much thicker each is than the one within.
+#: Layers of the shell at scale 1, and the ratio of thickness of successive layers.
 SHELL, GROWTH = 11, 1.1
-#: Layers on the aeroplane at the scale 1, and their thickness over the size of the quads beneath.
+#: Layers on the aeroplane at scale 1, and their thickness over the size of the quads beneath.
 COAT, THICKNESS = 2, 0.32
 
 
 @gallery_mesh
 @dataclass(frozen=True)
 class Plane(GalleryMesh):
-    """A core, a grid from which the aeroplane's boxes are cut; a shell out to the box; a coat on the aeroplane.
+    """Core, shell and coat: a grid without the aeroplane's boxes, layers out to the outer box, layers on the aeroplane.
 
-    The nodes of the cut are pulled to their places just off the aeroplane, and the others follow only a little: where
-    wings and fin are swept across cells that stay behind, hexes are inverted. The coat fills what is left (a pillow):
-    without it, hexes would have two faces side by side on the smooth fuselage, and no quality to gain. Where the
-    pieces meet along edges of the boxes or of the core, the mesh is unstructured.
+    The core's inner nodes are pulled close to the aeroplane and the others follow only a little: where wings and fin
+    are swept across cells that stay, hexes are inverted. The coat (a pillow) fills the gap: without it hexes would have
+    two adjacent faces on the smooth fuselage and could not reach a good quality. The mesh is unstructured where the
+    pieces meet along edges of the boxes or of the core.
     """
 
     name = "plane"
@@ -62,7 +62,7 @@ class Plane(GalleryMesh):
         faces = core.boundary_faces
         outer = ((grid == grid[0]) | (grid == grid[-1]))[faces].all(axis=1).any(axis=1)
 
-        # The shell: from the core's outside straight to the box, layers growing.
+        # Shell: straight lines from the core's outside to the box, with growing layers.
         wall, quads = _compact(faces[outer])
         share = np.cumsum(GROWTH ** (np.arange(plan.shell) / plan.scale))[:, None, None]
         shell_points = (grid[wall] + share / share[-1] * (plan.on_box[wall] - grid[wall])).reshape(-1, 3)
@@ -71,7 +71,7 @@ class Plane(GalleryMesh):
         shell = shell_nodes[extrude(quads, len(wall), plan.shell)]
         box = shell_nodes[-len(wall) :]
 
-        # The coat: from where the core's inside will be, off the aeroplane, to the aeroplane's surface.
+        # Coat: from the future position of the core's inside to the aeroplane's surface.
         skin, quads = _compact(faces[~outer])
         surface = map_onto_aeroplane(grid[skin])
         step = THICKNESS * _offset_step(surface, quads)
@@ -80,14 +80,14 @@ class Plane(GalleryMesh):
         coat = coat_nodes[extrude(quads, len(skin), plan.coat)]
         aeroplane = coat_nodes[-len(skin) :]
 
-        # The pull: the core's inside goes to its place, and nodes near it follow.
-        move, held = np.zeros_like(points), np.zeros(len(points), dtype=bool)
+        # Pull: the core's inside moves to its position, and nodes near it follow.
+        move, fixed = np.zeros_like(points), np.zeros(len(points), dtype=bool)
         move[skin] = surface + plan.coat * step - grid[skin]
-        held[skin] = held[box] = True
+        fixed[skin] = fixed[box] = True
         around = np.concatenate([core.hexes, shell])
-        points += _diffuse(move, held, around, round(self.follow * plan.scale**2))
+        points += _diffuse(move, fixed, around, round(self.follow * plan.scale**2))
 
-        used, hexes = _compact(np.concatenate([around, coat]))  # nodes within the aeroplane are left out
+        used, hexes = _compact(np.concatenate([around, coat]))  # without nodes inside the aeroplane
         return Mesh(
             np.concatenate([points, coat_points])[used],
             hexes,
@@ -97,9 +97,9 @@ class Plane(GalleryMesh):
 
 @dataclass(frozen=True)
 class _Division:
-    """How finely the three pieces are divided: `scale` times as finely, in each direction, as above.
+    """Division of the three pieces for about `size` hexes: `scale` times the cells above in each direction.
 
-    As cells come in whole numbers, so that the core grows by leaps, the shell makes up for it within a quarter.
+    Whole numbers of cells make the core grow in jumps; the number of layers of the shell, within 25 %, compensates.
     """
 
     scale: float
@@ -107,19 +107,19 @@ class _Division:
 
     @property
     def coat(self) -> int:
-        """Layers on the aeroplane."""
+        """Number of layers on the aeroplane."""
         return max(1, round(COAT * self.scale))
 
     @cached_property
     def shell(self) -> int:
-        """Layers between the core and the box."""
+        """Number of layers between the core and the box."""
         nominal = SHELL * self.scale
         wanted = (self.size - self.within) / self.wall
         return max(1, round(min(max(wanted, 0.75 * nominal), 1.25 * nominal)))
 
     @cached_property
     def planes(self) -> tuple[np.ndarray, ...]:
-        """Coordinates of the grid's planes across x, y and z."""
+        """Coordinates of the grid's planes in x, y and z."""
         bounds = np.concatenate([box for part in PARTS for box in part.boxes])
         found = []
         for values, cells in zip(bounds.T, CELLS, strict=True):
@@ -132,7 +132,7 @@ class _Division:
 
     @cached_property
     def solid(self) -> np.ndarray:
-        """True for each of the grid's cells that is the aeroplane's, (nz, ny, nx) bool."""
+        """True for grid cells inside the aeroplane's boxes, (nz, ny, nx) bool."""
         x, y, z = ((p[:-1] + p[1:]) / 2 for p in self.planes)
         solid = np.zeros((len(z), len(y), len(x)), dtype=bool)
         for low, high in (box for part in PARTS for box in part.boxes):
@@ -142,66 +142,70 @@ class _Division:
 
     @property
     def grid(self) -> np.ndarray:
-        """Nodes of the whole grid, x first, (n, 3) float64."""
+        """Node positions of the whole grid, x first, (n, 3) float64."""
         return _tensor_product(self.planes)
 
     @property
     def on_box(self) -> np.ndarray:
-        """Places of the grid's nodes if the grid filled the box, finer towards the middle of each side."""
+        """Node positions of the grid stretched over the box, finer towards the middle of each side, (n, 3)."""
         steps = (np.linspace(-1, 1, len(p)) for p in self.planes)
         return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * _tensor_product([0.85 * w + 0.15 * w**3 for w in steps])
 
     @property
     def core(self) -> np.ndarray:
-        """Hexes of the grid that are not the aeroplane's, (m, 8)."""
+        """Hexes of the grid outside the aeroplane's boxes, (m, 8)."""
         nz, ny, nx = self.solid.shape
         return box_hexes(nx, ny, nz)[~self.solid.ravel()]
 
     @cached_property
     def within(self) -> int:
-        """How many hexes core and coat have."""
+        """Number of hexes of core and coat."""
         skin = sum(np.count_nonzero(np.diff(self.solid, axis=a)) for a in range(3))
         return int(np.count_nonzero(~self.solid)) + self.coat * skin
 
     @property
     def wall(self) -> int:
-        """How many quads the core's outside has."""
+        """Number of quads on the core's outside."""
         nz, ny, nx = self.solid.shape
         return 2 * (nx * ny + ny * nz + nz * nx)
 
     @property
     def error(self) -> float:
-        """By what share the number of hexes misses the size, if it is by more than 3 %."""
+        """Relative error of the number of hexes, at least 3 %."""
         return max(0.03, abs((self.within + self.shell * self.wall) / self.size - 1))
 
 
 def _fit_division(size: int) -> _Division:
-    """The division for about so many hexes: of those that come near enough the one with the most fitting scale."""
+    """Division with the least error for about `size` hexes; among equal ones that with the nearest scale."""
     scale = (size / HEXES) ** (1 / 3)
     factors = sorted(np.linspace(0.5, 1.25, 76), key=lambda factor: abs(np.log(factor)))
     return min((_Division(scale * factor, size) for factor in factors), key=lambda plan: plan.error)
 
 
 def _tensor_product(axes: list[np.ndarray] | tuple[np.ndarray, ...]) -> np.ndarray:
-    """Points of the tensor product of three axes, the first running fastest, (n, 3)."""
+    """Tensor product of three axes, the first running fastest, (n, 3)."""
     z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
     return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
 
 
 def _compact(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The nodes that cells use, ascending, and the cells in terms of their places in that list."""
+    """Nodes used by cells, ascending, and the cells renumbered by their positions in that list."""
     nodes, places = np.unique(cells, return_inverse=True)
     return nodes, places.reshape(cells.shape)
 
 
 def _offset_step(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """A step off a surface at each node: along the mean normal, as long as the quads around are wide.
+    """Compute an offset from a surface at each node: along the mean normal, with the mean width of the quads around.
 
     Parameters
     ----------
     points : (n, 3) float64
     quads : (k, 4) int
-        Counter-clockwise seen from the side away from the step.
+        Clockwise seen from the side of the offset.
+
+    Returns
+    -------
+    (n, 3) float64
     """
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     normal = -np.cross(c - a, d - b)
@@ -212,16 +216,16 @@ def _offset_step(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     return mean * (width / np.linalg.norm(mean, axis=1))[:, None]
 
 
-def _diffuse(move: np.ndarray, held: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
-    """Let each node that is not held make the mean move of its edge neighbours, so many times."""
+def _diffuse(move: np.ndarray, fixed: np.ndarray, hexes: np.ndarray, sweeps: int) -> np.ndarray:
+    """Replace the displacement of each node that is not fixed by the mean of its edge neighbours, `sweeps` times."""
     ring = Topology(hexes.astype(np.int32), len(move)).rings
     degree = np.diff(ring.start)
     node, count = np.repeat(np.arange(len(move)), degree), np.maximum(degree, 1)[:, None]
     for _ in range(sweeps):
-        move = np.where(held[:, None], move, _sum_at_nodes(node, move[ring.items], len(move)) / count)
+        move = np.where(fixed[:, None], move, _sum_at_nodes(node, move[ring.items], len(move)) / count)
     return move
 
 
 def _sum_at_nodes(at: np.ndarray, values: np.ndarray, n: int) -> np.ndarray:
-    """The sum of the rows of values (k, 3) that belong to each of n nodes, (n, 3); row i belongs to node at[i]."""
+    """Sum the rows of values (k, 3) by node, (n, 3); row i belongs to node at[i]."""
     return np.column_stack([np.bincount(at, column, n) for column in values.T])

@@ -87,7 +87,7 @@ class TruncatedNewton:
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-        matrix = self._matrix = hessian.assembled(room=self._matrix)
+        matrix = self._matrix = hessian.assembled(reuse=self._matrix)
         right, tolerance = -gradient.ravel(), self._tolerance(gradient)
         solved = matrix.solve(right, tolerance, self.iterations, self._damping)
         count, damping = solved.iterations, self._damping

@@ -19,7 +19,7 @@ class Matrix:
     def __init__(self, needed=0.0):
         self.needed, self.asked = needed, []
 
-    def assembled(self, room=None):
+    def assembled(self, reuse=None):
         return self
 
     def solve(self, right, tolerance, iterations, damping):
