@@ -1,4 +1,4 @@
-"""Small meshes that the tests make themselves."""
+"""Small meshes for tests."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hexmend.mesh.mesh import Mesh
 
 
 def grid(nx: int, ny: int | None = None, nz: int | None = None) -> Mesh:
-    """A structured grid of unit cubes."""
+    """Make a structured grid of unit cubes."""
     ny, nz = ny or nx, nz or nx
     number = np.arange((nx + 1) * (ny + 1) * (nz + 1)).reshape(nz + 1, ny + 1, nx + 1)
     z, y, x = np.meshgrid(np.arange(nz + 1), np.arange(ny + 1), np.arange(nx + 1), indexing="ij")
@@ -22,6 +22,6 @@ def grid(nx: int, ny: int | None = None, nz: int | None = None) -> Mesh:
 
 
 def scrambled(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
-    """Free nodes displaced at random by up to `amplitude` in each direction."""
+    """Displace free nodes at random by up to `amplitude` in each direction."""
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape)
     return mesh.with_points(mesh.points + shift * mesh.free[:, None])

@@ -37,7 +37,7 @@ from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2)
 X, H, N, M = MESH.points, MESH.hexes, MESH.n_nodes, MESH.n_hexes
-FIGURES = hx.measure(X, H)
+QUALITY = hx.measure(X, H)
 INSIDE = np.flatnonzero(MESH.free)
 FACES = MESH.topology.boundary_faces
 ENERGY = MeshEnergy(MESH)
@@ -49,11 +49,11 @@ SLIDING_HESSIAN = SlidingEnergy(SLIDING).hessian(ENERGY.to_edge_units(X))
 
 
 @dataclass(frozen=True)
-class Yields(hx.Smoother):
-    """A method of somebody else that gives anything for points."""
+class YieldsAnything(hx.Smoother):
+    """Third-party method that yields arbitrary values as points."""
 
     name = "yields"
-    title = "Yields"
+    title = "YieldsAnything"
     help = "Gives anything for points."
     source = "nobody"
     value: object = None
@@ -64,10 +64,10 @@ class Yields(hx.Smoother):
 
 
 def run(value: object) -> None:
-    hx.smooth(MESH, Yields(value), max_iterations=2)
+    hx.smooth(MESH, YieldsAnything(value), max_iterations=2)
 
 
-#: What is called with a value that it should not be given.
+#: Calls that are given wrong values.
 CALLS: dict[str, Callable[[object], object]] = {
     "Mesh, points": lambda v: hx.Mesh(v, H),
     "Mesh, hexes": lambda v: hx.Mesh(X, v),
@@ -95,15 +95,15 @@ CALLS: dict[str, Callable[[object], object]] = {
     "smooth, yielding": run,
     "measure, points": lambda v: hx.measure(v, H),
     "measure, hexes": lambda v: hx.measure(X, v),
-    "locked, fixed": lambda v: locked(X, H, v, FIGURES.inverted),
+    "locked, fixed": lambda v: locked(X, H, v, QUALITY.inverted),
     "locked, inverted": lambda v: locked(X, H, MESH.fixed, v),
     "corner_determinants": lambda v: corner_determinants(X, v),
     "corner_determinants, which": lambda v: corner_determinants(X, H, v),
     "corner_qualities": lambda v: corner_qualities(X, v),
-    "worst, values": lambda v: rank_worst(v, FIGURES, 3),
-    "bin_counts": lambda v: bin_counts(v, FIGURES.inverted, (0.0, 1.0), 5),
-    **{f"{name}, hexes": lambda v, of=one.of: of(X, v, FIGURES) for name, one in METRICS.items()},
-    **{f"{name}, points": lambda v, of=one.of: of(v, H, FIGURES) for name, one in METRICS.items()},
+    "rank_worst, values": lambda v: rank_worst(v, QUALITY, 3),
+    "bin_counts": lambda v: bin_counts(v, QUALITY.inverted, (0.0, 1.0), 5),
+    **{f"{name}, hexes": lambda v, of=one.of: of(X, v, QUALITY) for name, one in METRICS.items()},
+    **{f"{name}, points": lambda v, of=one.of: of(v, H, QUALITY) for name, one in METRICS.items()},
     "mean_edge_length": lambda v: mean_edge_length(X, v),
     "energies": lambda v: energies(X, v),
     "energies, left out": lambda v: energies(X, H, left_out=v),
@@ -127,25 +127,25 @@ CALLS: dict[str, Callable[[object], object]] = {
     "colouring": MESH.topology.colouring,
     "wavefronts": MESH.topology.wavefronts,
     "levels": MESH.topology.levels,
-    "ring_of": lambda v: MESH.topology.hexes_around(v, 1),
-    "Skin, points": lambda v: SkinSurface(v, FACES),
-    "Skin, faces": lambda v: SkinSurface(X, v),
-    "Skin.closest": SKIN.closest,
-    "Skin.with_points": SKIN.with_points,
+    "hexes_around": lambda v: MESH.topology.hexes_around(v, 1),
+    "SkinSurface, points": lambda v: SkinSurface(v, FACES),
+    "SkinSurface, faces": lambda v: SkinSurface(X, v),
+    "SkinSurface.closest": SKIN.closest,
+    "SkinSurface.with_points": SKIN.with_points,
     "ClosestPointTrees": lambda v: ClosestPointTrees(X, v, np.zeros(3, int)),
-    "Trees, group": lambda v: ClosestPointTrees(X, FACES[:, :3], v),
+    "ClosestPointTrees, group": lambda v: ClosestPointTrees(X, FACES[:, :3], v),
     "classify": lambda v: classify(X, v),
     "boundary_of, corners": lambda v: boundary_of(MESH, corners=v),
     "boundary_of, sharp": lambda v: boundary_of(MESH, sharp=v),
-    "Sliding.project": SLIDING.project,
-    "Sliding.flipped_quads": lambda v: SLIDING.flipped_quads(X, v),
+    "SlidingBoundary.project": SLIDING.project,
+    "SlidingBoundary.flipped_quads": lambda v: SLIDING.flipped_quads(X, v),
     "SlidingEnergy.gradient": lambda v: SlidingEnergy(SLIDING).gradient(v),
     "with_pinned": lambda v: with_pinned(MESH, v),
     "with_region_free": lambda v: with_region_free(MESH, v),
-    "tagged": lambda v: with_tag(MESH, "a", v),
-    "grown": lambda v: partition_patches(MESH, v, 1),
-    "element": lambda v: describe_hex(MESH, v),
-    "node": lambda v: describe_node(MESH, v),
+    "with_tag": lambda v: with_tag(MESH, "a", v),
+    "partition_patches": lambda v: partition_patches(MESH, v, 1),
+    "describe_hex": lambda v: describe_hex(MESH, v),
+    "describe_node": lambda v: describe_node(MESH, v),
     "explain": lambda v: explain(MESH, SD, v),
     "Sweep.look": lambda v: Sweep(MESH, SD).look(v),
 }
@@ -161,7 +161,7 @@ TYPES = st.sampled_from(
 
 @st.composite
 def arrays(draw: st.DrawFn) -> np.ndarray:
-    """An array of any shape and type: one number everywhere and another at one place."""
+    """Array of any shape and type, of one number with another at one position."""
     shape, number, odd, dtype = draw(SHAPES), draw(NUMBERS), draw(NUMBERS), draw(TYPES)
     with np.errstate(all="ignore"):
         array = np.full(shape, number, dtype=float)
@@ -181,7 +181,7 @@ NEAR = st.sampled_from(
 @settings(max_examples=1800, deadline=None, derandomize=True, database=None)
 @given(st.sampled_from(sorted(CALLS)), st.one_of(arrays(), ODD, NEAR))
 def nothing_crashes(name: str, value: object) -> None:
-    """Every call takes the value, or says in one sentence what is wrong with it."""
+    """Every call accepts the value, or raises an error of one sentence."""
     try:
         with np.errstate(all="ignore"):
             CALLS[name](value)

@@ -94,7 +94,7 @@ DISPLACEMENT_QUANTITIES: dict[str, DisplacementQuantity] = {
             acceptable=(-np.inf, np.inf),
             better=1,
             meaning="Which hexes have paid for what others have gained.",
-            of=lambda movement: movement.figures.q - movement.before.figures.q,
+            of=lambda movement: movement.quality.q - movement.before.quality.q,
         ),
         DisplacementQuantity(
             name="surface-distance",
@@ -131,14 +131,14 @@ class ReferenceState:
     ----------
     points : (n, 3) float64
         Node positions.
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the hexes.
     name : str
         Name that a caption puts after "since".
     """
 
     points: np.ndarray
-    figures: ElementQuality
+    quality: ElementQuality
     name: str
     _skins: dict[str, SkinSurface] = field(default_factory=dict)
 
@@ -160,7 +160,7 @@ class Displacement:
     before : ReferenceState
     points : (n, 3) float64
         Present node positions.
-    figures : ElementQuality
+    quality : ElementQuality
         Present quality of the hexes.
 
     Raises
@@ -172,16 +172,16 @@ class Displacement:
     mesh: Mesh
     before: ReferenceState
     points: np.ndarray
-    figures: ElementQuality
+    quality: ElementQuality
     _known: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for points in (self.before.points, self.points):
             points_like(points, self.mesh.points.shape)
 
-    def updated(self, points: np.ndarray, figures: ElementQuality) -> Displacement:
+    def updated(self, points: np.ndarray, quality: ElementQuality) -> Displacement:
         """Return the displacement from the same reference state to other points (n, 3) float64."""
-        return Displacement(self.mesh, self.before, points, figures)
+        return Displacement(self.mesh, self.before, points, quality)
 
     def title(self, name: str) -> str:
         """Return the caption of a quantity of `DISPLACEMENT_QUANTITIES`."""
@@ -215,7 +215,7 @@ class Displacement:
     @cached_property
     def inversion_changes(self) -> np.ndarray:
         """`NEWLY_INVERTED`, `STILL_INVERTED` or `MENDED` for each hex, 0 for one always valid; (m,) uint8."""
-        then, now = self.before.figures.inverted, self.figures.inverted
+        then, now = self.before.quality.inverted, self.quality.inverted
         return np.array([0, MENDED, NEWLY_INVERTED, STILL_INVERTED], np.uint8)[2 * now.astype(np.uint8) + then]
 
     @cached_property

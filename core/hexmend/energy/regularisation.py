@@ -12,12 +12,12 @@ from hexmend.quality import ElementQuality
 class DeltaPolicy(Protocol):
     """Policy that chooses delta for each iteration."""
 
-    def at(self, figures: ElementQuality, unit: float) -> float:
+    def at(self, quality: ElementQuality, unit: float) -> float:
         """Choose delta for a mesh.
 
         Parameters
         ----------
-        figures : ElementQuality
+        quality : ElementQuality
             Quality of its hexes.
         unit : float
             Mean edge length of the mesh.
@@ -42,8 +42,8 @@ class FixedDelta:
 
     value: float = 0.01
 
-    def at(self, figures: ElementQuality, unit: float) -> float:
-        return self.value if figures.n_inverted else 0.0
+    def at(self, quality: ElementQuality, unit: float) -> float:
+        return self.value if quality.n_inverted else 0.0
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,10 @@ class AdaptiveDelta:
 
     least: float = 0.01
 
-    def at(self, figures: ElementQuality, unit: float) -> float:
-        if not figures.n_inverted:
+    def at(self, quality: ElementQuality, unit: float) -> float:
+        if not quality.n_inverted:
             return 0.0
-        worst = min(float(figures.sigma.min()) / unit**3, 0.0)
+        worst = min(float(quality.sigma.min()) / unit**3, 0.0)
         return math.sqrt(self.least * (self.least - worst))
 
 

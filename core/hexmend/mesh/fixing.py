@@ -10,6 +10,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import as_array
 
 
 def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = True) -> Mesh:
@@ -40,7 +41,7 @@ def with_pinned(mesh: Mesh, nodes: int | Sequence[int] | np.ndarray, on: bool = 
     (8, 6)
     """
     pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
-    pinned[as_set(np.atleast_1d(nodes), "nodes", mesh.n_nodes)] = on
+    pinned[as_set(np.atleast_1d(as_array(nodes, "nodes")), "nodes", mesh.n_nodes)] = on
     return mesh.replace(pinned=pinned)
 
 

@@ -77,17 +77,17 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     number = as_index(number, mesh.n_hexes, "hex")
     nodes = mesh.hexes[number]
     hexes = np.ascontiguousarray(nodes[None])
-    figures = measure(mesh.points, hexes)
+    quality = measure(mesh.points, hexes)
     return HexDetails(
         number=number,
         nodes=nodes,
         points=mesh.points[nodes],
         fixed=mesh.fixed[nodes],
         corners=corner_qualities(mesh.points, hexes)[0],
-        values={metric.name: float(metric.of(mesh.points, hexes, figures)[0]) for metric in METRICS.values()},
+        values={metric.name: float(metric.of(mesh.points, hexes, quality)[0]) for metric in METRICS.values()},
         neighbours=mesh.topology.face_neighbours[number],
-        inverted=bool(figures.inverted[0]),
-        locked=bool(locked(mesh.points, hexes, mesh.fixed, figures.inverted)[0]),
+        inverted=bool(quality.inverted[0]),
+        locked=bool(locked(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
     )
 
 
@@ -166,7 +166,7 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned)
 
 
-def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: int = 1) -> np.ndarray:
+def rank_worst(values: np.ndarray, quality: ElementQuality, count: int, better: int = 1) -> np.ndarray:
     """Find the worst hexes by a metric.
 
     Among equal values, such as q = 0, the lower scaled Jacobian comes first, then the lower number. NaN is the worst.
@@ -175,7 +175,7 @@ def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: 
     ----------
     values : (m,) float64
         Values of the metric.
-    figures : ElementQuality
+    quality : ElementQuality
         Quality of the same hexes.
     count : int
         Largest number of hexes to be returned.
@@ -193,11 +193,11 @@ def rank_worst(values: np.ndarray, figures: ElementQuality, count: int, better: 
         For values of another shape or type.
     """
     keys = better * as_reals(values, "values")
-    if keys.shape != figures.q.shape:
-        raise MeshError(f"values have shape {keys.shape}: expected {figures.q.shape}, one for each hex")
+    if keys.shape != quality.q.shape:
+        raise MeshError(f"values have shape {keys.shape}: expected {quality.q.shape}, one for each hex")
     keys[np.isnan(keys)] = -np.inf
-    numbers = _least(keys, np.arange(keys.size), count, figures.scaled_jacobian)
-    return numbers[np.lexsort((numbers, figures.scaled_jacobian[numbers], keys[numbers]))]
+    numbers = _least(keys, np.arange(keys.size), count, quality.scaled_jacobian)
+    return numbers[np.lexsort((numbers, quality.scaled_jacobian[numbers], keys[numbers]))]
 
 
 def _least(keys: np.ndarray, numbers: np.ndarray, count: int, *others: np.ndarray) -> np.ndarray:

@@ -68,13 +68,13 @@ def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
     >>> worst_hexes(make("bridge-sharp", size=500), 3).size
     3
     """
-    declared, found, figures = _of(mesh, metric)
+    declared, found, quality = _of(mesh, metric)
     if not declared.better:
         raise ParameterError(f"of {declared.name} neither a high nor a low value is better: there are no worst hexes")
-    return rank_worst(found, figures, _COUNT.check(count), declared.better)
+    return rank_worst(found, quality, _COUNT.check(count), declared.better)
 
 
 def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
     declared = METRICS[str(metric).replace("_", "-")]
-    figures = measure(mesh.points, mesh.hexes)
-    return declared, declared.of(mesh.points, mesh.hexes, figures), figures
+    quality = measure(mesh.points, mesh.hexes)
+    return declared, declared.of(mesh.points, mesh.hexes, quality), quality

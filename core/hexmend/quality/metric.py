@@ -83,7 +83,7 @@ def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float
         Function for `Metric.of`.
     """
 
-    def of(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+    def of(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
         points = as_points(points)
         hexes = as_hexes(hexes, len(points))
         values = np.empty((rows, len(hexes)))

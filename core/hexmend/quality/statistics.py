@@ -47,13 +47,13 @@ class MetricStatistics:
         return dataclasses.asdict(self)
 
 
-def metric_statistics(mesh: Mesh, figures: ElementQuality | None = None) -> dict[str, MetricStatistics]:
+def metric_statistics(mesh: Mesh, quality: ElementQuality | None = None) -> dict[str, MetricStatistics]:
     """Compute the statistics of every metric, by its name.
 
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality, optional
+    quality : ElementQuality, optional
         Quality of the hexes, if it is measured already.
 
     Returns
@@ -66,8 +66,8 @@ def metric_statistics(mesh: Mesh, figures: ElementQuality | None = None) -> dict
     >>> metric_statistics(Mesh(UNIT_CUBE, [range(8)]))["max-angle"]
     MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
-    figures = measure(mesh.points, mesh.hexes) if figures is None else figures
+    quality = measure(mesh.points, mesh.hexes) if quality is None else quality
     return {
-        name: MetricStatistics.over(metric, metric.of(mesh.points, mesh.hexes, figures))
+        name: MetricStatistics.over(metric, metric.of(mesh.points, mesh.hexes, quality))
         for name, metric in METRICS.items()
     }

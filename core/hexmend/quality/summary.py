@@ -96,14 +96,16 @@ SUMMARY_QUANTITIES: dict[str, Quantity] = {
 }
 
 
-def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
+def summarise(mesh: Mesh, quality: ElementQuality | None = None, *, figures: ElementQuality | None = None) -> Summary:
     """Summarise the quality of a mesh.
 
     Parameters
     ----------
     mesh : Mesh
-    figures : ElementQuality, optional
+    quality : ElementQuality, optional
         Quality of the hexes, if it is measured already.
+    figures : ElementQuality, optional
+        Name of `quality` in version 0.1.
 
     Returns
     -------
@@ -115,30 +117,30 @@ def summarise(mesh: Mesh, figures: ElementQuality | None = None) -> Summary:
     >>> summarise(Mesh(UNIT_CUBE, [range(8)])).q_norm
     1.0
     """
-    figures = measure(mesh.points, mesh.hexes) if figures is None else figures
-    q = figures.q
+    quality = quality or figures or measure(mesh.points, mesh.hexes)
+    q = quality.q
     return Summary(
         hexes=mesh.n_hexes,
         nodes=int(np.count_nonzero(mesh.topology.used)),
         free_nodes=int(np.count_nonzero(mesh.free)),
-        inverted=figures.n_inverted,
-        locked_inverted=int(np.count_nonzero(locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))),
+        inverted=quality.n_inverted,
+        locked_inverted=int(np.count_nonzero(locked(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))),
         q_min=float(q.min()),
         q_mean=float(q.mean()),
         q_max=float(q.max()),
         q_std=float(q.std()),
         q_norm=float(1 / np.sqrt(np.mean(1 / np.square(q)))) if q.min() > 0 else 0.0,
-        scaled_jacobian_min=float(figures.scaled_jacobian.min()),
-        objective=objective(figures),
+        scaled_jacobian_min=float(quality.scaled_jacobian.min()),
+        objective=objective(quality),
     )
 
 
-def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> float | None:
+def objective(quality: ElementQuality, p: float = 2.0, offset: float = 1.0) -> float | None:
     """Compute the objective of a mesh at delta = 0: the sum of eta(H)^p, the p-th power of (3.3).
 
     Parameters
     ----------
-    figures : ElementQuality
+    quality : ElementQuality
     p, offset : float
         Exponent and offset of `hexmend.energy.ObjectiveNorm`; the defaults are those of `Summary.objective`.
 
@@ -150,12 +152,12 @@ def objective(figures: ElementQuality, p: float = 2.0, offset: float = 1.0) -> f
     Examples
     --------
     >>> from hexmend.mesh.hexahedron import UNIT_CUBE
-    >>> figures = measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
-    >>> objective(figures), objective(figures, p=4.0, offset=0.0)
+    >>> quality = measure(UNIT_CUBE, np.arange(8, dtype=np.int32)[None])
+    >>> objective(quality), objective(quality, p=4.0, offset=0.0)
     (0.0, 1.0)
     """
-    if figures.n_inverted:
+    if quality.n_inverted:
         return None
     with np.errstate(over="ignore"):
-        total = float(((figures.eta + (1 - offset)) ** p).sum())
+        total = float(((quality.eta + (1 - offset)) ** p).sum())
     return total if np.isfinite(total) else None

@@ -10,16 +10,16 @@ from tests.core.grids import grid
 
 
 def ball(n: int) -> Mesh:
-    """A cube of n x n x n whose shells are blown up to spheres; its boundary lies on the unit sphere."""
+    """Make a grid of n x n x n hexes whose shells are mapped to spheres; its boundary is the unit sphere."""
     mesh = grid(n)
     x = 2 * mesh.points / n - 1
-    x = np.tan(np.pi / 4 * x)  # so that angles are alike
+    x = np.tan(np.pi / 4 * x)  # for similar angles
     size, far = np.abs(x).max(axis=1, keepdims=True), np.linalg.norm(x, axis=1, keepdims=True)
     return Mesh(x * size / np.where(far > 0, far, 1), mesh.hexes, name="ball")
 
 
 def cylinder(around: int = 32, layers: int = 5) -> Mesh:
-    """A block whose layers are blown up to discs of radius 1; its height is 1."""
+    """Make a block whose layers are mapped to discs of radius 1; its height is 1."""
     n = around // 4
     mesh = grid(n, n, layers)
     x = 2 * mesh.points[:, :2] / n - 1
@@ -32,12 +32,12 @@ def cylinder(around: int = 32, layers: int = 5) -> Mesh:
 
 
 def wavy(mesh: Mesh, height: float, seed: int = 0) -> Mesh:
-    """Every node displaced at random by up to `height` in each direction."""
+    """Displace all nodes at random by up to `height` in each direction."""
     return mesh.with_points(mesh.points + np.random.default_rng(seed).uniform(-height, height, mesh.points.shape))
 
 
 def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
-    """Every node displaced at random by up to so many mean edge lengths, those of the boundary along it; corners stay."""
+    """Displace all nodes but corners at random by up to `amplitude` mean edge lengths, boundary nodes along the boundary."""
     sliding = SlidingBoundary(mesh)
     shift = np.random.default_rng(seed).uniform(-amplitude, amplitude, mesh.points.shape) * mesh.mean_edge_length
     points = mesh.points + shift * sliding.mesh.free[:, None]
@@ -46,6 +46,6 @@ def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
 
 
 def project(surface: Surface, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
-    """Where nodes at x are put back on their own curves and patches, and the directions there."""
+    """Project nodes at x onto their curves and patches; returns positions and the directions there."""
     found = surface.trees.closest(x, surface.group_of(nodes))
     return found.places, surface.directions(found, smooth)

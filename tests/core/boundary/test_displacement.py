@@ -69,4 +69,4 @@ def test_distance_from_the_surface_is_that_of_boundary_nodes_alone():
     beside = (MESH.hexes == np.flatnonzero(on_face)[0]).any(axis=1)
     np.testing.assert_allclose(values[beside], 0.25, rtol=1e-12)
     assert not values[~beside].any()
-    assert movement.updated(points, movement.figures).before.skin(MESH) is movement.before.skin(MESH)
+    assert movement.updated(points, movement.quality).before.skin(MESH) is movement.before.skin(MESH)

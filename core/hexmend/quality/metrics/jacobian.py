@@ -12,11 +12,11 @@ from hexmend.quality.metric import METRICS, Metric, kernel_metric
 _at_centre = kernel_metric(metrics.centre, rows=1, row=0, worst=-math.inf)
 
 
-def _least(points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+def _least(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np.ndarray:
     """Least of the centre's determinant and of sigma at the corners, the same that `ElementQuality.inverted` tests."""
-    if len(figures.sigma) != len(hexes):
-        raise MeshError(f"the figures are of {len(figures.sigma)} hexes: expected those of the same {len(hexes)}")
-    return np.fmin(figures.sigma, _at_centre(points, hexes, figures))
+    if len(quality.sigma) != len(hexes):
+        raise MeshError(f"the quality is that of {len(quality.sigma)} hexes: expected that of the same {len(hexes)}")
+    return np.fmin(quality.sigma, _at_centre(points, hexes, quality))
 
 
 JACOBIAN = METRICS.add(

@@ -13,6 +13,6 @@ Q = METRICS.add(
         acceptable=(0.3, 1.0),
         better=1,
         meaning="Low values slow iterative solvers down and cost accuracy: the hex is far from a cube.",
-        of=lambda points, hexes, figures: figures.q,
+        of=lambda points, hexes, quality: quality.q,
     ),
 )

@@ -13,6 +13,6 @@ SCALED_JACOBIAN = METRICS.add(
         acceptable=(0.2, 1.0),
         better=1,
         meaning="At 0 and below the hex is inverted at a corner: most solvers refuse it.",
-        of=lambda points, hexes, figures: figures.scaled_jacobian,
+        of=lambda points, hexes, quality: quality.scaled_jacobian,
     ),
 )
