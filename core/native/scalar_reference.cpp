@@ -6,21 +6,20 @@
 
 namespace hexmend {
 
-void scalar::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out,
+void scalar::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted,
                       std::span<double> eta) {
-    (delta != 0 ? energies_of<true, double> : energies_of<false, double>)(points, hexes, delta, offset, left_out, eta);
+    (delta != 0 ? energies_of<true, double> : energies_of<false, double>)(points, hexes, delta, offset, omitted, eta);
 }
 
-void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
                       CornerVectors shares) {
-    (delta != 0 ? gradient_of<true, double> : gradient_of<false, double>)(points, hexes, delta, power, left_out,
-                                                                          shares);
+    (delta != 0 ? gradient_of<true, double> : gradient_of<false, double>)(points, hexes, delta, norm, omitted, shares);
 }
 
-void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                             OmittedCorners left_out, CornerVectors shares) {
-    (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, power,
-                                                                        left_out, shares);
+void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                             OmittedCorners omitted, CornerVectors shares) {
+    (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, norm,
+                                                                        omitted, shares);
 }
 
 std::int64_t scalar::sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,

@@ -7,13 +7,13 @@
 
 namespace hexmend::scalar {
 
-void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta);
 
-void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
               CornerVectors shares);
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                     OmittedCorners left_out, CornerVectors shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                     OmittedCorners omitted, CornerVectors shares);
 
 std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                    const NodeStepSettings &settings);

@@ -84,7 +84,7 @@ class AssembledHessian(SymmetricOperator):
     def _product(self, v: np.ndarray) -> np.ndarray:
         x = v.reshape(-1, 3)
         y = np.empty_like(x)
-        kernels.product(*self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
+        kernels.product(self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
     def _slotted(self, v: np.ndarray) -> np.ndarray:
@@ -130,7 +130,7 @@ class AssembledHessian(SymmetricOperator):
         b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
         x = np.empty_like(b)
         count, end = kernels.solve(
-            *self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
+            self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
@@ -145,7 +145,7 @@ class AssembledHessian(SymmetricOperator):
         """Convert to a sparse matrix of SciPy, (3 k, 3 k), with about 243 entries for each free node."""
         from scipy.sparse import coo_array
 
-        _, start, columns = self.couplings.pattern
+        start, columns = self.couplings.row_start, self.couplings.columns
         slots = np.arange(self.order.size)
         rows, off = np.repeat(slots, np.diff(start)), self.off[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])

@@ -214,5 +214,5 @@ class Hessian(SymmetricOperator):
     def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
         energy, shares = self.energy, self.energy.couplings.shares(threads())
-        assembly.assemble(self.x, self.delta, energy.power, energy.left_out, *shares, matrix.off, matrix.diagonal)
+        assembly.assemble(self.x, self.delta, energy.power, energy.left_out, shares, matrix.off, matrix.diagonal)
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

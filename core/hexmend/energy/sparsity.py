@@ -8,6 +8,8 @@ import numpy as np
 
 from hexmend.kernels import ordering
 from hexmend.kernels import sparsity as kernels
+from hexmend.kernels.assembly import HexShares
+from hexmend.kernels.conjugate_gradients import BlockPattern
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.size_limits import MAX_ITEMS, overflow_as_mesh_error
 
@@ -62,29 +64,10 @@ class BlockSparsity:
                 self.slots, self.nodes, corners.start, corners.items, MAX_ITEMS
             )
         self._hexes = mesh.hexes
-        self._shares: dict[int, tuple[np.ndarray, ...]] = {}
+        self._shares: dict[int, HexShares] = {}
 
-    def shares(self, count: int) -> tuple[np.ndarray, ...]:
-        """Divide the slots into shares for threads, with the hexes at the slots of each, for `assembly.assemble`.
-
-        Parameters
-        ----------
-        count : int
-            Number of shares.
-
-        Returns
-        -------
-        bounds : (count + 1,) int32
-            Limits of the shares, in slots.
-        start : (count + 1,) int32
-            Limits of each share's hexes in the following arrays.
-        chosen : (j,) int32
-            Numbers of hexes; a hex at slots of several shares is in each.
-        hexes, slots : (j, 8) int32
-            Nodes and slots of their corners.
-        target : (j, 28) int32
-            Blocks of their pairs of corners.
-        """
+    def shares(self, count: int) -> HexShares:
+        """The slots in `count` shares, and the hexes at the slots of each."""
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
             slots = self.slots
@@ -94,13 +77,14 @@ class BlockSparsity:
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]
             start = np.cumsum([0, *map(len, there)], dtype=np.int32)
             chosen = np.concatenate(there)
-            self._shares[count] = bounds, start, chosen, self._hexes[chosen], slots[chosen], self.target[chosen]
+            hexes, target = self._hexes[chosen], self.target[chosen]
+            self._shares[count] = HexShares(bounds, start, chosen, hexes, slots[chosen], target)
         return self._shares[count]
 
     @property
-    def pattern(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """First arguments of the kernels of `conjugate_gradients`: `bounds`, `row_start` and `columns`."""
-        return self.bounds, self.row_start, self.columns
+    def pattern(self) -> BlockPattern:
+        """`bounds`, `row_start` and `columns` as kernels take them; a view, cheap to make."""
+        return BlockPattern(self.bounds, self.row_start, self.columns)
 
     @property
     def blocks(self) -> int:

@@ -60,15 +60,8 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
     }
 }
 
-// The hexes of all shares in the order in which they are processed.
-struct HexShares {
-    Indices bounds, start, chosen;
-    Hexes hexes, slots;
-    BlockTargets target;
-};
-
 template <bool soft, class Real>
-void assemble_of(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, const HexShares &shared,
+void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
                  std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
@@ -78,14 +71,14 @@ void assemble_of(Points points, double delta, ObjectiveNorm power, OmittedCorner
             int count = std::min(LANES, shared.start[share + 1] - first);
             auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
             Bits bits{};
-            for (int i = 0; i < count; ++i) bits[i] = left_out[shared.chosen[first + i]];
+            for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
             // The target blocks are scattered in memory: prefetch them while the values are computed.
             for (int i = 0; i < count; ++i)
                 for (auto s : shared.target[first + i])
                     if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);
             *sums = HessianSums{};
             unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
-            weigh_hessian<Real>(*sums, power, values.get());
+            weigh_hessian<Real>(*sums, norm, values.get());
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off, diagonal);
         }
@@ -95,17 +88,15 @@ void assemble_of(Points points, double delta, ObjectiveNorm power, OmittedCorner
 }  // namespace
 
 template <class Real>
-void assemble(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, Indices bounds, Indices start,
-              Indices chosen, Hexes hexes, Hexes slots, BlockTargets target, std::span<std::array<Real, 9>> off,
-              std::span<std::array<Real, 6>> diagonal) {
-    HexShares shared{bounds, start, chosen, hexes, slots, target};
-    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, power, left_out, shared, off,
+void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
+              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
+    (delta != 0 ? assemble_of<true, Real> : assemble_of<false, Real>)(points, delta, norm, omitted, shared, off,
                                                                       diagonal);
 }
 
-#define FOR_REAL(Real)                                                                                            \
-    template void assemble<Real>(Points, double, ObjectiveNorm, OmittedCorners, Indices, Indices, Indices, Hexes, \
-                                 Hexes, BlockTargets, std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
+#define FOR_REAL(Real)                                                                             \
+    template void assemble<Real>(Points, double, ObjectiveNorm, OmittedCorners, const HexShares &, \
+                                 std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
 FOR_REAL(float)
 FOR_REAL(double)
 

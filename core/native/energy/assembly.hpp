@@ -11,16 +11,21 @@ namespace hexmend {
 
 using BlockTargets = std::span<const std::array<std::int32_t, PAIRS>>;
 
+// Slots divided into shares that are assembled in parallel: share s has the slots bounds[s] to bounds[s + 1] - 1 and
+// all hexes at these, rows start[s] to start[s + 1] - 1 of the other arrays.
+struct HexShares {
+    Indices bounds, start;
+    Indices numbers;      // of the hexes in the mesh; a hex at slots of several shares is in each
+    Hexes hexes, slots;   // (.., 8): nodes and slots of the corners, -1 where a corner is fixed
+    BlockTargets target;  // (.., 28): block of each pair of corners: -1 if one is fixed, -2 - slot if both are one node
+};
+
 // Add the Hessian of sum eta(H)^p to the blocks off (blocks + 1, 9) and diagonal (k, 6).
 //
-// Slots are divided into shares, slots bounds[s] to bounds[s + 1] - 1 each, which are assembled in parallel. A share
-// computes all hexes at its slots, numbers start[s] to start[s + 1] - 1 of the arrays chosen (hex of the mesh), hexes
-// and slots (.., 8), and target (.., 28), so that each block is summed in one order for any number of shares. target is
-// the block of each pair of corners: -1 if a corner is fixed, -2 - slot if both are one node. left_out (m,) omits
-// corner tetrahedra.
+// Each share computes all its hexes, so that each block is summed in one order for any number of shares. omitted (m,)
+// omits corner tetrahedra.
 template <class Real>
-void assemble(Points points, double delta, ObjectiveNorm power, OmittedCorners left_out, Indices bounds, Indices start,
-              Indices chosen, Hexes hexes, Hexes slots, BlockTargets target, std::span<std::array<Real, 9>> off,
-              std::span<std::array<Real, 6>> diagonal);
+void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
+              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal);
 
 }  // namespace hexmend

@@ -101,9 +101,9 @@ inline Lanes clamp(Lanes value) {
 // Write the second derivatives of eta(H)^p, first * values + second * g g', clamped, for each hex of the block.
 //
 // Translating a hex does not change its energy: the blocks of each corner sum to zero, which gives the diagonal ones.
-template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm power, Real (*out)[HEX_STRIDE]) {
+template <class Real> void weigh_hessian(const HessianSums &sums, ObjectiveNorm norm, Real (*out)[HEX_STRIDE]) {
     Lanes g[24], h[24], own[48] = {}, rows[8];
-    auto [first, second] = LanePowerDerivatives<Lanes>(sums.eta * 0.125 - power.offset, power.p);
+    auto [first, second] = LanePowerDerivatives<Lanes>(sums.eta * 0.125 - norm.offset, norm.p);
     std::memcpy(g, &sums.g, sizeof g);
     for (int k = 0; k < 24; ++k) h[k] = second * g[k];
     int row = 0;

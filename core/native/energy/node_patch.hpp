@@ -107,7 +107,7 @@ template <class T> class NodePatch {
 
     // Sum of eta(H)^p with the node displaced by alpha times the direction: (3.3) without its root, (B.20).
     template <bool soft>
-    inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm power) const {
+    inline __attribute__((always_inline)) double value_along(double alpha, double delta, ObjectiveNorm norm) const {
         double far = alpha * alpha * squared_length_, total = 0;
         for (int b = 0; b < blocks(); ++b) {
             const auto &block = blocks_[b];
@@ -117,14 +117,14 @@ template <class T> class NodePatch {
                 T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
             }
-            total += sum_of_powers(eta, power, b);
+            total += sum_of_powers(eta, norm, b);
         }
         return total;
     }
 
     // Value and gradient at the node's position: (B.3), (B.21), (C.1). Stores the terms that `hessian` needs.
     template <bool soft>
-    __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm power) {
+    __attribute__((noinline)) ValueAndGradient value_and_gradient(double delta, ObjectiveNorm norm) {
         ValueAndGradient answer{};
         for (int b = 0; b < blocks(); ++b) {
             auto &block = blocks_[b];
@@ -136,10 +136,10 @@ template <class T> class NodePatch {
                 // d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ], the first of which is f b . y
                 g += t.energy.f * t.b - t.energy.eta() * (2.0 / 3.0) / t.energy.r * t.g;
             }
-            block.eta = eta * 0.125 - power.offset;
+            block.eta = eta * 0.125 - norm.offset;
             block.gradient = broadcast<T>(0.125) * g;
-            answer.value += sum_of_powers(eta, power, b);
-            block.weights = LanePowerDerivatives<T>(block.eta, power.p);
+            answer.value += sum_of_powers(eta, norm, b);
+            block.weights = LanePowerDerivatives<T>(block.eta, norm.p);
             V3<T> weighted = block.weights.first * block.gradient;
             answer.gradient += V3<double>{sum(weighted.x, b), sum(weighted.y, b), sum(weighted.z, b)};
         }
@@ -212,11 +212,11 @@ template <class T> class NodePatch {
     }
 
     // Sum of eta(H)^p over the hexes of block b, from their sums of eta(T).
-    double sum_of_powers(T sum_of_eta, ObjectiveNorm power, int b) const {
-        T energy = hex_energy(sum_of_eta, power.offset);
-        if (power.p == 2) return sum(energy * energy, b);
+    double sum_of_powers(T sum_of_eta, ObjectiveNorm norm, int b) const {
+        T energy = hex_energy(sum_of_eta, norm.offset);
+        if (norm.p == 2) return sum(energy * energy, b);
         double total = 0;
-        for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), power.p);
+        for (int i = 0; i < width<T> && b * width<T> + i < size_; ++i) total += std::pow(lane(energy, i), norm.p);
         return total;
     }
 

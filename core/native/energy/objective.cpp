@@ -4,25 +4,25 @@
 
 namespace hexmend {
 
-void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta) {
-    expect(left_out.size() == hexes.size() && eta.size() == hexes.size(),
-           "left_out and eta: one for each hex is expected");
-    (delta != 0 ? energies_of<true, Lanes> : energies_of<false, Lanes>)(points, hexes, delta, offset, left_out, eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta) {
+    expect(omitted.size() == hexes.size() && eta.size() == hexes.size(),
+           "omitted and eta: one for each hex is expected");
+    (delta != 0 ? energies_of<true, Lanes> : energies_of<false, Lanes>)(points, hexes, delta, offset, omitted, eta);
 }
 
-void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
               CornerVectors shares) {
-    expect(left_out.size() == hexes.size() && shares.size() == hexes.size(),
-           "left_out and shares: one for each hex is expected");
-    (delta != 0 ? gradient_of<true, Lanes> : gradient_of<false, Lanes>)(points, hexes, delta, power, left_out, shares);
+    expect(omitted.size() == hexes.size() && shares.size() == hexes.size(),
+           "omitted and shares: one for each hex is expected");
+    (delta != 0 ? gradient_of<true, Lanes> : gradient_of<false, Lanes>)(points, hexes, delta, norm, omitted, shares);
 }
 
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                     OmittedCorners left_out, CornerVectors shares) {
-    expect(left_out.size() == hexes.size() && slots.size() == hexes.size() && shares.size() == hexes.size(),
-           "left_out, slots and shares: one for each hex is expected");
-    (delta != 0 ? product_of<true, Lanes> : product_of<false, Lanes>)(points, hexes, slots, values, delta, power,
-                                                                      left_out, shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                     OmittedCorners omitted, CornerVectors shares) {
+    expect(omitted.size() == hexes.size() && slots.size() == hexes.size() && shares.size() == hexes.size(),
+           "omitted, slots and shares: one for each hex is expected");
+    (delta != 0 ? product_of<true, Lanes> : product_of<false, Lanes>)(points, hexes, slots, values, delta, norm,
+                                                                      omitted, shares);
 }
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows) {

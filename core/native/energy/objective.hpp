@@ -11,16 +11,16 @@
 namespace hexmend {
 
 // Write eta(H) = mean eta(T) - offset of every hex, (m,).
-void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta);
 
 // Write the gradient of sum eta(H)^p by the corners of every hex: (B.3), (B.21).
-void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
               CornerVectors shares);
 
 // Write the Hessian of sum eta(H)^p times a displacement, (B.19) corrected. values (k, 3) are the displacements of the
 // free nodes, slots (m, 8) the number of each corner among these, -1 if it is fixed.
-void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                     OmittedCorners left_out, CornerVectors shares);
+void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                     OmittedCorners omitted, CornerVectors shares);
 
 // Write rows (k, 3): the sums of the contributions at each of `nodes` (k,), over its corners in ascending order.
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows);

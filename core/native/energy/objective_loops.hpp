@@ -8,12 +8,12 @@
 namespace hexmend {
 
 template <bool soft, class T>
-void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners left_out,
+void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted,
                  std::span<double> eta) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
         T sum{};
-        with_corner_mask<T>(left_out, first, count, [&](auto counted) {
+        with_corner_mask<T>(omitted, first, count, [&](auto counted) {
             unroll<8>([&](auto t) {
                 auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
                 sum += counted(t) ? e.eta() : broadcast<T>(1.0);
@@ -25,11 +25,11 @@ void energies_of(Points points, Hexes hexes, double delta, double offset, Omitte
 }
 
 template <bool soft, class T>
-void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm power, OmittedCorners left_out,
+void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
                  CornerVectors shares) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
-        CornerMask<T> counted(left_out, first, count);
+        CornerMask<T> counted(omitted, first, count);
         Corners<T> g;
         T sum{};
         unroll<8>([&](auto t) {
@@ -39,19 +39,19 @@ void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm power, 
             sum += counted(t) ? d.eta : broadcast<T>(1.0);
             g.template scatter<t>(gradient(d, s, cof));
         });
-        LanePowerDerivatives<T> by(sum * 0.125 - power.offset, power.p);
+        LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
         for (auto &corner : g.at) corner = by.first * corner;
         store(g, first, count, shares);
     });
 }
 
 template <bool soft, class T>
-void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm power,
-                OmittedCorners left_out, CornerVectors shares) {
+void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                OmittedCorners omitted, CornerVectors shares) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
         auto v = gather_corners_or_zero<T>(values, slots, first, count);
-        CornerMask<T> counted(left_out, first, count);
+        CornerMask<T> counted(omitted, first, count);
         Corners<T> g, h;
         T sum{}, slope{};
         unroll<8>([&](auto t) {
@@ -64,7 +64,7 @@ void product_of(Points points, Hexes hexes, Hexes slots, Points values, double d
             g.template scatter<t>(gradient(d, s, cof));
             h.template scatter<t>(product(d, s, cof, a, along));
         });
-        LanePowerDerivatives<T> by(sum * 0.125 - power.offset, power.p);
+        LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
         T along = by.second * slope;
         for (int c = 0; c < 8; ++c) h.at[c] = by.first * h.at[c] + along * g.at[c];
         store(h, first, count, shares);

@@ -42,19 +42,24 @@ template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
 
-// A matrix with blocks of type Real for vectors of type Number. bounds, row_start and columns are those of ordering.hpp
-// and sparsity.hpp.
+// Pattern of a matrix: bounds (2 parts,) of the parts of slots and then of the separators, see ordering.hpp; row_start
+// (k + 1,) and columns of the blocks above the diagonal, see sparsity.hpp.
+struct BlockPattern {
+    Indices bounds, row_start, columns;
+};
+
+// A matrix with blocks of type Real for vectors of type Number.
 template <class Real, class Number = Real> class BlockMatrix {
   public:
     using V = Vec4<Number>;
 
-    BlockMatrix(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off)
-        : bounds_(bounds),
-          row_start_(row_start),
-          columns_(columns),
+    BlockMatrix(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off)
+        : bounds_(pattern.bounds),
+          row_start_(pattern.row_start),
+          columns_(pattern.columns),
           off_(off.data()->data()),
-          parts_(static_cast<int>(bounds.size()) / 2),
-          size_(bounds.back()) {}
+          parts_(static_cast<int>(bounds_.size()) / 2),
+          size_(bounds_.back()) {}
 
     std::int64_t size() const { return size_; }
 

@@ -145,11 +145,11 @@ template <class Real> class PreconditionedCG {
 }  // namespace
 
 template <class Real>
-std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
+std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off,
                           std::span<const std::array<Real, 6>> diagonal, double damping,
-                          std::span<const std::array<Real, 4>> right, double tolerance, int most,
+                          std::span<const std::array<Real, 4>> right, double tolerance, int max_iterations,
                           std::span<std::array<Real, 4>> x, std::span<Real> work) {
-    BlockMatrix<Real> system(bounds, row_start, columns, off);
+    BlockMatrix<Real> system(pattern, off);
     if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
         throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
     PreconditionedCG<Real> solver(system, diagonal, damping, work);
@@ -157,7 +157,7 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
     double square = solver.start(right);
     if (square == 0) return {0, DONE};
     double goal = tolerance * tolerance * square, beta = 0;
-    for (int count = 1; count <= most; ++count) {
+    for (int count = 1; count <= max_iterations; ++count) {
         solver.next_direction(static_cast<Real>(beta));
         double curvature = solver.curvature();
         if (!(curvature > 0)) {
@@ -169,15 +169,15 @@ std::pair<int, int> solve(Indices bounds, Indices row_start, Indices columns, st
         if (square <= goal) return {count, DONE};
         beta = square / before;
     }
-    return {most, TOO_MANY};
+    return {max_iterations, TOO_MANY};
 }
 
 template <class Real>
-void product(Indices bounds, Indices row_start, Indices columns, std::span<const std::array<Real, 9>> off,
+void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off,
              std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
              std::span<Point> y) {
     using V = Vec4<double>;
-    BlockMatrix<Real, double> system(bounds, row_start, columns, off);
+    BlockMatrix<Real, double> system(pattern, off);
     std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
     V *const w[2] = {below[0].data(), below[1].data()};
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};
@@ -188,12 +188,12 @@ void product(Indices bounds, Indices row_start, Indices columns, std::span<const
     for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
 }
 
-#define FOR_REAL(Real)                                                                                                 \
-    template std::pair<int, int> solve<Real>(                                                                          \
-        Indices, Indices, Indices, std::span<const std::array<Real, 9>>, std::span<const std::array<Real, 6>>, double, \
-        std::span<const std::array<Real, 4>>, double, int, std::span<std::array<Real, 4>>, std::span<Real>);           \
-    template void product<Real>(Indices, Indices, Indices, std::span<const std::array<Real, 9>>,                       \
-                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,           \
+#define FOR_REAL(Real)                                                                                            \
+    template std::pair<int, int> solve<Real>(                                                                     \
+        const BlockPattern &, std::span<const std::array<Real, 9>>, std::span<const std::array<Real, 6>>, double, \
+        std::span<const std::array<Real, 4>>, double, int, std::span<std::array<Real, 4>>, std::span<Real>);      \
+    template void product<Real>(const BlockPattern &, std::span<const std::array<Real, 9>>,                       \
+                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,      \
                                 std::span<Point>);
 FOR_REAL(float)
 FOR_REAL(double)

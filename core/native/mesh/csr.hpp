@@ -38,13 +38,13 @@ inline int widest(Indices start) {
 // The largest number of items: row ends are 32-bit numbers.
 constexpr std::int64_t MOST_ITEMS = std::numeric_limits<std::int32_t>::max();
 
-// Replace row lengths start[i] by row ends. Throws std::overflow_error if there are more than `most` items.
-inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_ITEMS) {
+// Replace row lengths start[i] by row ends. Throws std::overflow_error if there are more than `max_items` items.
+inline void accumulate(std::span<std::int32_t> start, std::int64_t max_items = MOST_ITEMS) {
     std::int64_t total = 0;
     for (auto count : start) total += count;
-    if (total > most)
-        throw std::overflow_error("there are " + std::to_string(total) + " items: expected " + std::to_string(most) +
-                                  " at most");
+    if (total > max_items)
+        throw std::overflow_error("there are " + std::to_string(total) + " items: expected " +
+                                  std::to_string(max_items) + " at most");
     for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
 }
 
@@ -52,8 +52,8 @@ inline void accumulate(std::span<std::int32_t> start, std::int64_t most = MOST_I
 template <class Item> class CSRBuilder {
   public:
     // row(i, items) writes the items of row i, at most `width`, and returns their number; all `count` rows together may
-    // have `most` items.
-    template <class Row> CSRBuilder(std::int64_t count, std::int64_t width, std::int64_t most, const Row &row) {
+    // have `max_items` items.
+    template <class Row> CSRBuilder(std::int64_t count, std::int64_t width, std::int64_t max_items, const Row &row) {
         start_.resize(count + 1);
         chunks_.resize((count + ROWS_PER_CHUNK - 1) / ROWS_PER_CHUNK);
         parallel_chunks(count, ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
@@ -63,7 +63,7 @@ template <class Item> class CSRBuilder {
                 chunk.insert(chunk.end(), items.data(), items.data() + size);
             }
         });
-        accumulate(start_, most);
+        accumulate(start_, max_items);
     }
 
     std::int64_t size() const { return start_.back(); }

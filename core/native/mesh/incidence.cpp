@@ -108,8 +108,8 @@ OwnedArray<std::int32_t> component_numbers(Indices parent) {
     return {std::move(number)};
 }
 
-CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most) {
-    return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Node *ring) {
+CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items) {
+    return arrays(CSRBuilder<Node>(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Node *ring) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s)
             for (int k = 1; k < 4; ++k) {

@@ -23,8 +23,8 @@ void join(std::span<std::int32_t> parent, Indices items, int width);
 // Component of each item, numbered in the order of their lowest items.
 OwnedArray<std::int32_t> component_numbers(Indices parent);
 
-// Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `most`.
-CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t most);
+// Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `max_items`.
+CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items);
 
 // Colour of each chosen node, so that two nodes of one hex differ; -1 for the others.
 OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);

@@ -29,8 +29,8 @@ struct Edge {
 
 std::tuple<OwnedArray<Node, 2>, OwnedArray<std::int32_t>, OwnedArray<bool>> edges(
     Hexes hexes, Indices start, Indices corners, std::span<const std::array<std::int32_t, 6>> neighbours,
-    std::int64_t most) {
-    CSRBuilder<Edge> rows(start.size() - 1, 3 * widest(start) + 1, most, [&](std::int64_t i, Edge *row) {
+    std::int64_t max_items) {
+    CSRBuilder<Edge> rows(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Edge *row) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s) {
             int h = corners[s] / 8, c = corners[s] % 8;

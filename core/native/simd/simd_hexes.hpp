@@ -133,25 +133,25 @@ inline void store(const Lanes &x, std::int64_t first, int count, std::span<doubl
 // Corner tetrahedra of a block that count: bit t of a hex's byte is set if tetrahedron t is omitted (see
 // `OmittedCorners`).
 template <class T> struct CornerMask {
-    bits_of<T> left_out;
+    bits_of<T> omitted;
 
     CornerMask(OmittedCorners bits, std::int64_t first, int count) {
         alignas(64) std::int64_t buffer[width<T>] = {};
         for (int i = 0; i < count; ++i) buffer[i] = bits[first + i];
-        std::memcpy(&left_out, buffer, sizeof left_out);
+        std::memcpy(&omitted, buffer, sizeof omitted);
     }
 
-    auto operator()(int t) const { return (left_out & (std::int64_t{1} << t)) == 0; }
+    auto operator()(int t) const { return (omitted & (std::int64_t{1} << t)) == 0; }
 };
 
 // Call body(counted) for a block of hexes; counted(t) is the mask of the hexes whose tetrahedron t counts. Blocks
 // without omitted tetrahedra, nearly all, get a compile-time constant instead of a mask.
 template <class T, class Body>
-inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners left_out, std::int64_t first, int count,
+inline __attribute__((always_inline)) void with_corner_mask(OmittedCorners omitted, std::int64_t first, int count,
                                                             const Body &body) {
     bool some = false;
-    for (int i = 0; i < count; ++i) some |= left_out[first + i] != 0;
-    if (some) body(CornerMask<T>(left_out, first, count));
+    for (int i = 0; i < count; ++i) some |= omitted[first + i] != 0;
+    if (some) body(CornerMask<T>(omitted, first, count));
     else body([](int) { return std::true_type{}; });
 }
 

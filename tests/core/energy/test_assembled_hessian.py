@@ -179,7 +179,7 @@ def test_how_a_solve_ended_is_told():
         assert isinstance(assembled, AssembledHessian)
         right = np.ones((assembled.order.size, 4), np.float32) * np.float32([1, 1, 1, 0])
         return conjugate_gradients.solve(
-            *assembled.couplings.pattern,
+            assembled.couplings.pattern,
             assembled.off,
             assembled.diagonal,
             0.0,

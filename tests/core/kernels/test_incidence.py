@@ -103,7 +103,7 @@ def test_more_than_64_colours_are_given_as_greedily_as_the_first():
 
 def test_blocks_of_a_hessian_are_the_pairs_of_free_nodes_that_share_a_hex():
     at = BlockSparsity(MESH, parts=2)
-    _, rows, columns = at.pattern
+    rows, columns = at.row_start, at.columns
     pairs = at.slots[:, [(a, b) for a in range(8) for b in range(8)]].reshape(-1, 2)
     pairs = pairs[(pairs[:, 0] >= 0) & (pairs[:, 1] > pairs[:, 0])]
     start, expected = by_node(pairs, at.nodes.size)

@@ -6,26 +6,41 @@ namespace hexmend {
 namespace {
 
 template <class Real> void bind_assemble(nb::module_ &m) {
-    m.def("assemble", &assemble<Real>, "points"_a, "delta"_a, "power"_a, "left_out"_a, "bounds"_a, "start"_a,
-          "chosen"_a, "hexes"_a, "slots"_a, "target"_a, "off"_a, "diagonal"_a, ReleaseGil(),
-          "Add the Hessian of sum eta(H)^p to off and diagonal, in their precision.\n"
-          "\n"
-          "Slots are divided into shares that are assembled in parallel. Each share computes all hexes at its slots, "
-          "some\n"
-          "of them twice, so that every block is summed over its hexes in one order for any number of shares. The "
-          "slots of\n"
-          "share k are bounds[k] to bounds[k + 1] - 1; its hexes are numbers start[k] to start[k + 1] - 1 of chosen, "
-          "their\n"
-          "numbers in the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from\n"
-          "`sparsity.pattern`. Bit t of left_out is set where corner tetrahedron t of a hex is omitted.\n"
-          "off (blocks + 1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz "
-          "zz.");
+    m.def(
+        "assemble", &assemble<Real>, "points"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a, "off_diagonal"_a,
+        "diagonal"_a, ReleaseGil(),
+        "Add the Hessian of sum eta(H)^p to off_diagonal and diagonal, in their precision.\n"
+        "\n"
+        "Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal\n"
+        "(blocks + 1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.");
 }
 
 }  // namespace
 
 void bind_assembly(nb::module_ &m) {
     m.doc() = "Assembly of the Hessian of a mesh's energy.";
+    nb::class_<HexShares>(m, "HexShares",
+                          "Slots divided into shares that are assembled in parallel, with the hexes at the slots of "
+                          "each.\n\n"
+                          "Each share computes all its hexes, some of which are in several, so that every block is "
+                          "summed over its\n"
+                          "hexes in one order for any number of shares.")
+        .def(
+            "__init__",
+            [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Hexes slots,
+               BlockTargets target) {
+                expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
+                expect(numbers.size() == hexes.size() && slots.size() == hexes.size() && target.size() == hexes.size(),
+                       "numbers, hexes, slots and target: as many rows in each are expected");
+                new (self) HexShares{bounds, start, numbers, hexes, slots, target};
+            },
+            "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "target"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::keep_alive<1, 7>(),
+            "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of "
+            "numbers, in\n"
+            "the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from\n"
+            "`sparsity.pattern`; all int32. Arrays are not copied.");
     bind_assemble<float>(m);
     bind_assemble<double>(m);
 }

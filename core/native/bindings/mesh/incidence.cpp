@@ -22,9 +22,9 @@ void bind_incidence(nb::module_ &m) {
           "Union-find: parent[i] is an item of i's component, at most i.");
     m.def("component_numbers", &component_numbers, "parent"_a, ReleaseGil(),
           "Component of each item, (n,) int32, numbered in the order of their lowest items.\n");
-    m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "most"_a = MOST_ITEMS, ReleaseGil(),
+    m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
           "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
-          "OverflowError where the rows have more than `most` items.");
+          "OverflowError where the rows have more than `max_items` items.");
     m.def("greedy_colours", &greedy_colours, "start"_a, "corners"_a, "chosen"_a, ReleaseGil(),
           "Colour the chosen nodes (n,) bool so that two of one hex never share a colour, greedily in node order.\n\n"
           "Returns (n,) int32, -1 for nodes that were not chosen.");
