@@ -6,6 +6,7 @@ import pytest
 from hexmend.energy import SQUARES, ObjectiveNorm, objective
 from hexmend.gallery import make
 from hexmend.kernels import local
+from hexmend.kernels.line_search import LineSearch
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother, Optimiser
@@ -106,9 +107,8 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
     for node in np.flatnonzero(mesh.free):
         star = corners[node]
         _, value, _, _ = local.patch_energy(mesh.points, hexes, star, 0.0, 0.05, SQUARES)
-        _, _, slope, _, _, alpha, _, trials = local.visit(
-            mesh.points, hexes, star, direction, 0.05, SQUARES, first, 0.7, c1, 100
-        )
+        settings = local.NodeStepSettings(direction, 0.05, SQUARES, LineSearch(first, c1=c1))
+        _, _, slope, _, _, alpha, _, trials = local.recorded_step(mesh.points, hexes, star, settings)
         if alpha:
             steps, reached, _ = np.reshape(trials, (-1, 3)).T
             enough = reached < value + c1 * steps * slope
