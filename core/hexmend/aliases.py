@@ -100,7 +100,11 @@ NAMES = {
     "hexmend.run.Stop": "hexmend.iteration.StoppingCriteria",
 }
 
+_LINE_SEARCH = {"first_step": "initial_step", "max_cuts": "max_backtracks", "shrink": "backtrack_factor"}
+
 PARAMETERS: dict[str, dict[str, str]] = {
+    **{f"global-{direction}": _LINE_SEARCH for direction in ("sd", "nr", "mnr")},
+    **{f"local-{direction}": _LINE_SEARCH for direction in ("sd", "nr", "mnr", "patch")},
     "general": {"similar": "max_size_ratio", "sufficient": "q_target"},
     "getme-sequential": {"setback": "rejection_penalty"},
     "mend": {"highest_p": "max_p", "softness": "initial_epsilon"},

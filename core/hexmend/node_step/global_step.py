@@ -55,7 +55,7 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     if not taken.slope < 0:
         return NodeStep(**known, after=before, energy=taken.value, energy_after=taken.value, verdict=StepStatus.FLAT)
     curve = np.empty((PLACES, 2))
-    curve[:, 0] = np.linspace(0, reach_of(smoother.first_step, taken.alpha), PLACES)
+    curve[:, 0] = np.linspace(0, reach_of(smoother.initial_step, taken.alpha), PLACES)
     curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
     return NodeStep(
         **known,

@@ -35,5 +35,5 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         fallback=fallback,
         shift=shift,
         trials=tuple(Trial(*row) for row in trials.tolist()),
-        curve=patch.curve(direction, reach_of(smoother.first_step, alpha)) if searched else np.empty((0, 2)),
+        curve=patch.curve(direction, reach_of(smoother.initial_step, alpha)) if searched else np.empty((0, 2)),
     )  # fmt: skip

@@ -44,7 +44,7 @@ def test_it_is_what_a_sweep_does_to_this_node(name, seed, amplitude, p, delta):
 @given(st.sampled_from(LOCAL), st.integers(0, 2**32 - 1), st.sampled_from([0.2, 0.9]))
 def test_the_line_search_is_algorithm_a_5(name, seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
-    smoother = METHODS[name](first_step=2.0, shrink=0.5)
+    smoother = METHODS[name](initial_step=2.0, backtrack_factor=0.5)
     step = explain(mesh, smoother, int(np.flatnonzero(mesh.free)[seed % 8]))
     assert step.verdict is StepStatus.MOVED
     np.testing.assert_array_equal([t.alpha for t in step.trials], 2.0 * 0.5 ** np.arange(len(step.trials)))
@@ -101,7 +101,7 @@ def test_a_node_that_cannot_move_says_why():
     assert step.verdict is StepStatus.INFINITE
     assert np.isnan(step.eigenvalues).all()
     np.testing.assert_array_equal(step.after, step.before)
-    step = explain(mesh, METHODS["local-sd"](first_step=1e3, max_cuts=1), node)
+    step = explain(mesh, METHODS["local-sd"](initial_step=1e3, max_backtracks=1), node)
     assert step.verdict is StepStatus.NO_DESCENT
     assert (len(step.trials), step.alpha, step.move) == (2, 0, 0)
 

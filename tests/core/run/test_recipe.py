@@ -151,8 +151,8 @@ def test_a_recipe_that_version_0_1_wrote_is_read_with_its_values():
     assert recipe == Recipe.of(
         METHODS["general"](max_size_ratio=2.5, q_target=0.8),
         METHODS["getme-sequential"](rejection_penalty=0.02),
-        METHODS["local-patch"](max_cuts=40, shrink=0.6, first_step=0.5),
-        METHODS["global-nr"](max_cuts=30),
+        METHODS["local-patch"](max_backtracks=40, backtrack_factor=0.6, initial_step=0.5),
+        METHODS["global-nr"](max_backtracks=30),
         METHODS["mend"](initial_epsilon=0.05, max_p=8.0, boundary="slide"),
         title="Written by 0.1",
     )

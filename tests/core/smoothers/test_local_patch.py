@@ -136,7 +136,7 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
     count = len(patches.chosen[0])
     assert derivatives == count
     assert energies % count == 0
-    alpha = smoother.shrink ** (energies // count - 1)
+    alpha = smoother.backtrack_factor ** (energies // count - 1)
     np.testing.assert_allclose(move, alpha * step, atol=1e-8 * np.abs(step).max() + 1e-12)
 
 
@@ -150,7 +150,7 @@ def test_large_systems_are_solved_by_conjugate_gradients_as_well(overlap):
     x = small.points / energy.unit
     gradient, hessian = energy.gradient(x).ravel(), energy.hessian(x).assembled(np.float64).matrix()
     points, (energies, derivatives) = swept(mesh, patches, 0, smoother, 0.0)
-    alpha = smoother.shrink ** (energies // derivatives - 1)
+    alpha = smoother.backtrack_factor ** (energies // derivatives - 1)
     step = ((points[used] - mesh.points[used])[small.free] / unit / energy.unit / alpha).ravel()
     best = gradient @ np.linalg.solve(hessian.toarray(), -gradient) / 2  # of the quadratic model
     assert gradient @ step + step @ (hessian @ step) / 2 == pytest.approx(best, rel=0.01)

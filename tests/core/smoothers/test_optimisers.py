@@ -92,7 +92,7 @@ def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
     trials = []
     for c1 in (1e-6, 0.5):
         # One and a half times Newton's step gains three eighths of what the slope promises.
-        method = METHODS[name](c1=c1, first_step=1.5, boundary=boundary)
+        method = METHODS[name](c1=c1, initial_step=1.5, boundary=boundary)
         run = iterate(mesh, method, StoppingCriteria(max_iterations=1, tolerance=0))
         trials.append(sum(step.diagnostics["energies" if "energies" in step.diagnostics else "cuts"] for step in run))
     assert trials[0] < trials[1]

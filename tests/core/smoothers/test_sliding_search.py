@@ -18,7 +18,10 @@ def test_a_step_that_is_cut_once_is_tried_again(name):
     usual = {"boundary": "slide"}
     right, long = (
         METHODS[name](**usual, **how).steps(mesh)
-        for how in ({"first_step": 0.2, "max_cuts": 1}, {"first_step": 20.0, "shrink": 0.01, "max_cuts": 1})
+        for how in (
+            {"initial_step": 0.2, "max_backtracks": 1},
+            {"initial_step": 20.0, "backtrack_factor": 0.01, "max_backtracks": 1},
+        )
     )
     moved = []
     for steps in (right, long):

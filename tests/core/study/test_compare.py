@@ -127,7 +127,7 @@ def test_settings_reach_the_methods_that_declare_them():
     )
     assert (laplacian.name, descent.name, newton.name) == ("laplacian", "local-sd", "local-nr")
     assert (descent.delta, newton.delta) == (0.1, 0.2)
-    assert (descent.max_cuts, newton.max_cuts) == (7, 7)
+    assert (descent.max_backtracks, newton.max_backtracks) == (7, 7)
 
 
 @pytest.mark.parametrize(("names", "settings", "message"), [

@@ -26,15 +26,17 @@ class GlobalDescent(Optimiser):
         choices=("edge", "mesh"),
         help="Of what delta is in cubes: the mesh's mean edge length, or its own unit of length (Table 4.3).",
     )
-    first_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
-    shrink: float = parameter(0.7, low=0.01, high=0.99, help="Factor λ by which the line search cuts a step (A.5).")
+    initial_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
+    backtrack_factor: float = parameter(
+        0.7, low=0.01, high=0.99, help="Factor λ by which a rejected step is shortened (A.5)."
+    )
     c1: float = parameter(1e-4, low=0, high=0.5, help="Share c₁ of the slope that a step must descend (Armijo, A.5).")
-    max_cuts: int = parameter(100, low=1, high=500, help="Cuts of a step after which the method gives up.")
+    max_backtracks: int = parameter(100, low=1, high=500, help="Backtracks of a step after which the method gives up.")
 
     @property
     def line_search(self) -> LineSearch:
         """The line search with the method's parameters."""
-        return LineSearch(self.first_step, self.shrink, self.c1, self.max_cuts)
+        return LineSearch(self.initial_step, self.backtrack_factor, self.c1, self.max_backtracks)
 
     @abstractmethod
     def direction(self) -> Direction:
