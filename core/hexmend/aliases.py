@@ -73,6 +73,7 @@ NAMES = {
     "hexmend.iteration.Limits": "hexmend.iteration.ActiveSet",
     "hexmend.iteration.Stop": "hexmend.iteration.StoppingCriteria",
     "hexmend.iteration.result.Limits": "hexmend.iteration.ActiveSet",
+    "hexmend.iteration.result.Step": "hexmend.iteration.Step",
     "hexmend.iteration.stopping.Stop": "hexmend.iteration.StoppingCriteria",
     "hexmend.mesh.topology.Rows": "hexmend.mesh.topology.CSR",
     "hexmend.node_step.Verdict": "hexmend.node_step.StepStatus",

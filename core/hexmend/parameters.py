@@ -1,13 +1,13 @@
-"""Declared parameters: one declaration from which the form, the command line's option, the docs and the tests come.
+"""Declared parameters: forms, options of the command line, docs and tests are derived from one declaration.
 
 A configurable thing is a frozen dataclass whose fields are made by `parameter`::
 
     @dataclass(frozen=True)
     class Blend(Parametrised):
-        rho: float = parameter(0.5, low=0, high=1, help="share of the new place")
+        rho: float = parameter(0.5, low=0, high=1, help="share of the new position")
 
-`declared(Blend)` lists the declarations, `from_strings(Blend, {"rho": "0.7"})` makes one from text, and making one
-with a value out of bounds raises `ParameterError`.
+`declared(Blend)` lists the declarations, `from_strings(Blend, {"rho": "0.7"})` makes a `Blend` from text, and a value
+out of bounds raises `ParameterError`.
 """
 
 from __future__ import annotations
@@ -26,12 +26,27 @@ from hexmend.errors import ParameterError
 
 T = TypeVar("T")
 
+_TRUE, _FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
+
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter as declared: name, type, default, bounds (inclusive), choices, unit and a sentence of help.
+    """Declaration of a parameter.
 
-    A number that is a limit may have a word for no limit, which is then a value as well.
+    Parameters
+    ----------
+    name : str
+    type : type
+        bool, int, float or str.
+    default : object
+    low, high : number or None
+        Bounds, inclusive.
+    choices : tuple of str or None
+    unit : str
+    help : str
+        A sentence.
+    no_limit : str
+        Word that stands for no limit, where the number is one; then it is a value as well.
     """
 
     name: str
@@ -97,21 +112,12 @@ class Parameter:
         return f"{words}, or {self.no_limit}" if self.no_limit else words
 
     def parse(self, text: str) -> Any:
-        """The value that a word of the command line or of a recipe stands for; raises `ParameterError` for none."""
+        """Convert text, of the command line for example, to a value; raises `ParameterError` where it is none."""
         if self.type is bool:
-            words = {
-                "true": True,
-                "yes": True,
-                "on": True,
-                "1": True,
-                "false": False,
-                "no": False,
-                "off": False,
-                "0": False,
-            }
-            if text.strip().lower() not in words:
+            word = text.strip().lower()
+            if word not in _TRUE + _FALSE:
                 raise ParameterError(f"{self.name} = {text!r} is not a switch: expected true or false")
-            return words[text.strip().lower()]
+            return word in _TRUE
         if self.type is int:
             try:
                 return self.check(int(text))
@@ -134,7 +140,7 @@ class Parameter:
 
 
 def _shown(value: object) -> str:
-    """A value for a message: on one line, of an array its beginning."""
+    """Represent a value in a message: one line, of an array the beginning."""
     return " ".join(repr(value).split())[:80]
 
 
@@ -148,20 +154,17 @@ def parameter(
     help: str,
     no_limit: str = "",
 ) -> Any:
-    """Declare a dataclass field as a parameter; its type is the field's annotation.
-
-    `no_limit` is the word that may stand for a number that is a limit, where there is to be none.
-    """
+    """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 
 def declared(kind: type | Any) -> tuple[Parameter, ...]:
-    """The parameters that a `Parametrised` class (or an instance of it) declares, in order."""
+    """List the parameters that a `Parametrised` class, or an instance of it, declares, in order."""
     return _declared(kind if isinstance(kind, type) else type(kind))
 
 
-@functools.cache  # each value that is made is checked by them
+@functools.cache  # every construction needs them
 def _declared(cls: type) -> tuple[Parameter, ...]:
     types = typing.get_type_hints(cls)
     return tuple(
@@ -173,7 +176,7 @@ def _declared(cls: type) -> tuple[Parameter, ...]:
 
 @dataclass(frozen=True)
 class Parametrised:
-    """Base of frozen dataclasses with declared parameters: their values are checked as they are made."""
+    """Base of frozen dataclasses with declared parameters, whose values are checked at construction."""
 
     def __post_init__(self) -> None:
         for declaration in declared(self):

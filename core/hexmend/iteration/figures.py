@@ -1,4 +1,4 @@
-"""The figures of an iteration: those of every history, and what a method may note beside them."""
+"""Declarations of the figures of an iteration: those of every history, and the diagnostics of methods."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ HISTORY: dict[str, Quantity] = {
 
 
 def objective_changes(rows: Sequence[Mapping[str, Any]]) -> list[int]:
-    """Numbers of the rows of a history from which on the objective is another one: there its curve is interrupted.
+    """Find the rows of a history from which on the objective is another one: there its curve is interrupted.
 
     >>> objective_changes([{"objective_formula": "Σ η²"}, {"objective_formula": "Σ η⁴"}, {"objective_formula": "Σ η⁴"}])
     [1]
@@ -45,7 +45,7 @@ def objective_changes(rows: Sequence[Mapping[str, Any]]) -> list[int]:
     return [k for k in range(1, len(rows)) if formulas[k] != formulas[k - 1]]
 
 
-#: What methods note of a step.
+#: Diagnostics of a step that charts and tables show.
 NOTES: dict[str, Quantity] = {
     figure.key: figure
     for figure in (

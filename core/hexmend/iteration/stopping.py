@@ -1,4 +1,4 @@
-"""When a run ends by itself, and which of its iterates is kept."""
+"""Stopping criteria of a run."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend.parameters import Parametrised, parameter
 
 @dataclass(frozen=True)
 class StoppingCriteria(Parametrised):
-    """When a run ends by itself, and which of its iterates is kept."""
+    """Limits at which a run ends by itself, and the choice of the iterate that it keeps."""
 
     max_iterations: int = parameter(300, low=0, high=1_000_000, help="Most iterations of a run.")
     tolerance: float = parameter(

@@ -1,4 +1,4 @@
-"""BLAS beside the kernels: one thread of it while SciPy's solvers work, so that the cores are the kernels'."""
+"""Limit of BLAS to one thread while SciPy's solvers work, which leaves the cores to the kernels."""
 
 from __future__ import annotations
 
@@ -12,14 +12,16 @@ if TYPE_CHECKING:
 
 @cache
 def _libraries() -> ThreadpoolController:
-    import scipy.linalg  # noqa: F401  (brings a library of its own, which has to be there to be found)
+    import scipy.linalg  # noqa: F401  (loads a BLAS of its own, which threadpoolctl finds only then)
     from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController()
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
-    """It shares out vectors of 10,000 numbers already, and its threads wait by spinning: on two busy cores a product of
-    two vectors of 90,000 numbers, with them, takes longer than a gradient. Its sums depend on their number too.
+    """Context in which BLAS uses one thread.
+
+    BLAS splits vectors of 10,000 numbers already, and its threads wait by spinning: on two busy cores its product of
+    two vectors of 90,000 numbers takes longer than a gradient. Its sums also depend on the number of threads.
     """
     return _libraries().limit(limits=1, user_api="blas")

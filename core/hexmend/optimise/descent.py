@@ -1,4 +1,4 @@
-"""One step of all free nodes down an energy: a direction, and as far along it as it descends."""
+"""Step of all free nodes down an energy: a search direction, and a line search along it."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from hexmend.optimise.search_direction import Direction, SearchDirection, steepe
 
 @dataclass(frozen=True, eq=False)
 class Descent:
-    """A step that was taken.
+    """Step down an energy.
 
     Parameters
     ----------
     x : (n, 3) float64
-        Where it led, in mean edge lengths.
+        Points after the step, in mean edge lengths.
     value, slope : float
         Energy before the step, and its slope along the direction.
     gradient_norm : float
@@ -28,9 +28,9 @@ class Descent:
     found : SearchDirection
         The direction.
     alpha : float
-        Step length; 0 where none descends, and x is where it was.
+        Step length; 0 where no step descends and x is unchanged.
     cuts : int
-        Of the line search.
+        Backtracks of the line search.
     """
 
     x: np.ndarray
@@ -42,7 +42,7 @@ class Descent:
     cuts: int
 
     def diagnostics(self, delta: float) -> dict[str, float | int]:
-        """What a `Step` tells of it."""
+        """Diagnostics of a `Step`."""
         return {
             "delta": delta,
             "gradient_norm": self.gradient_norm,
@@ -61,15 +61,29 @@ def descend(
     search: LineSearch,
     reach: float = np.inf,
 ) -> Descent | None:
-    """Take one step from x (n, 3); None where the energy or its gradient is infinite.
+    """Take one step.
 
     A direction that does not descend is replaced by steepest descent.
 
     Parameters
     ----------
+    energy : MeshEnergy
+    x : (n, 3) float64
+        Points in mean edge lengths.
+    delta : float
+        In cubes of the mean edge length.
+    find : Direction
+        Search direction: Algorithm A.2, A.3 or A.4.
+    search : BackLineSearch
+        Line search: Algorithm A.5.
     reach : float
-        How far a node may go, in mean lengths of its edges: the few that a direction throws far off do not cut the step
-        of all others.
+        Longest move of a node, in mean lengths of its edges: the few nodes that a direction throws far away do not
+        shorten the step of all others.
+
+    Returns
+    -------
+    Descent or None
+        None where the energy or its gradient is infinite.
     """
     value = energy.value(x, delta)
     if not np.isfinite(value):
@@ -99,70 +113,72 @@ def descend(
     for trial in range(TRIALS):
         alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
         there = energy.moved(x, found.p, alpha)
-        strayed = energy.infeasible_nodes(x, there)
-        if strayed is None:
+        infeasible = energy.infeasible_nodes(x, there)
+        if infeasible is None:
             return Descent(there, value, slope, length, found, alpha, cuts)
-        found.p[strayed[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
+        found.p[infeasible[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.p, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
 
 
-#: The longest coordinate of a step, in the mesh's own unit of length: squares of what is further leave the range of
-#: numbers.
+#: Largest coordinate of a step, in the mesh's own unit of length: squares of larger ones overflow.
 LONGEST = 1e100
 
 
 def shorten_to_range(step: np.ndarray, unit: float) -> None:
-    """Shorten a step (k, 3), in lengths of so many units of the mesh, where it leads out of the range of numbers."""
+    """Shorten a step (k, 3), changed, that would overflow; `unit` is its unit of length in units of the mesh."""
     size = float(np.abs(step).max(initial=0.0))
     if size > LONGEST / unit:
         step *= LONGEST / unit / size
 
 
-#: How often nodes that stray are held back before there is no step; half of these times their way is halved, then they
-#: stay.
+#: Line searches before no step is taken. After each of the first half the steps of infeasible nodes are halved, later
+#: they are set to 0.
 TRIALS = 6
 
-#: By how many roundings the eta of a cube may differ from 0.
+#: Rounding errors by which the eta of a cube may differ from 0.
 ROUNDING = 8
 
-#: What a step may make of a hex's energy, as a factor and a summand, and how often it is halved around the others; of
-#: what share of its step on a node stays where it is that would stray: it is at the end of its room.
-WORSE, MORE, HALVINGS, STAYS = 2.0, 1.0, 8, 0.25
+#: Bound of a hex's energy after a step: a factor of the energy before, and a summand.
+GROWTH_FACTOR, GROWTH_SUMMAND = 2.0, 1.0
+#: How often steps are halved around hexes above that bound.
+HALVINGS = 8
+#: Share of its step from which on an infeasible node stays: it has come to the end of its band.
+STAY_BELOW = 0.25
 
 
 def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
-    """Halve the steps of nodes that stray or whose hexes would be spoilt, again and again: the rest need not wait.
+    """Halve the steps of infeasible nodes, and of nodes whose hexes would get much worse, so that others keep theirs.
 
     Parameters
     ----------
     energy : MeshEnergy
     x : (n, 3) float64
-        Where the nodes are, in mean edge lengths.
+        Points in mean edge lengths.
     delta : float
     step : (k, 3) float64
-        Of the free nodes; changed.
+        Of the free nodes, in mean edge lengths; changed.
     """
     hexes, share = energy.mesh.hexes, np.ones(energy.mesh.n_nodes)
-    limit = WORSE * energies(x, hexes, delta, energy.left_out) + MORE
+    limit = GROWTH_FACTOR * energies(x, hexes, delta, energy.left_out) + GROWTH_SUMMAND
     for _ in range(HALVINGS):
         there = energy.moved(x, share[energy.nodes, None] * step)
-        spoilt = ~(energies(there, hexes, delta, energy.left_out) <= limit)
-        strayed = energy.infeasible_nodes(x, there)
-        halved = np.zeros(len(x), dtype=bool) if strayed is None else strayed.copy()
-        share[halved & (share <= STAYS)] = 0.0
-        halved[hexes[spoilt]] = True
+        worsened = ~(energies(there, hexes, delta, energy.left_out) <= limit)
+        infeasible = energy.infeasible_nodes(x, there)
+        halved = np.zeros(len(x), dtype=bool) if infeasible is None else infeasible.copy()
+        share[halved & (share <= STAY_BELOW)] = 0.0
+        halved[hexes[worsened]] = True
         if not halved.any():
             break
         share[halved] *= 0.5
     else:
-        if strayed is not None:
-            share[strayed] = 0.0  # step by step they would go out of their room all the same
+        if infeasible is not None:
+            share[infeasible] = 0.0  # in many steps they would leave their band all the same
     step *= share[energy.nodes, None]
 
 
 def perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
-    """Whether every hex is a cube but for rounding, so that gradient and Hessian are nothing but noise."""
+    """Return True if every hex is a cube but for rounding: gradient and Hessian are noise then."""
     eta, power = ROUNDING * np.finfo(float).eps, energy.power
     highest = power.of(eta) if delta == 0 else eta**power.p  # softened, a hex may have less energy than a cube
     return bool(value <= energy.mesh.n_hexes * highest)

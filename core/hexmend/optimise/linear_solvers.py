@@ -15,10 +15,10 @@ Vector = np.ndarray
 
 
 class LinearSolver(Protocol):
-    """Solves H x = b."""
+    """Function that solves H x = b."""
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
-        """Solution (3 k,), as good as the solver got it, and the number of iterations."""
+        """Solve for a right-hand side (3 k,); returns the solution (3 k,) and the number of iterations."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Minres:
     tolerance : float
         Of the residual, relative to the right-hand side.
     iterations : int
-        Limit, after which the solution so far is taken as it is.
+        Limit, after which the solution so far is returned.
     precision : type
         Of the matrix.
     """
@@ -47,17 +47,16 @@ class Minres:
 
 @dataclass(frozen=True)
 class ConjugateGradients:
-    """Conjugate gradients, preconditioned by symmetric Gauss-Seidel, that end at a direction of negative curvature
-    (Steihaug 1983).
+    """Conjugate gradients with symmetric Gauss-Seidel, ended at a direction of negative curvature (Steihaug 1983).
 
     Parameters
     ----------
     tolerance : float
         Of the residual, relative to the right-hand side, both in the norm of the preconditioner.
     iterations : int
-        As for `Minres`.
+        See `Minres`.
     precision : type
-        Of matrix and vectors: single precision is twice as fast, and enough for a direction.
+        Of matrix and vectors: single precision is twice as fast and accurate enough for a direction.
     """
 
     tolerance: float = 1e-6

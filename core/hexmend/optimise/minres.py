@@ -1,4 +1,4 @@
-"""Minimum residuals (Paige and Saunders 1975), ended by the residual beside the right-hand side."""
+"""Minimum residuals (Paige and Saunders 1975), ended by the residual relative to the right-hand side."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ def minres(
 ) -> tuple[np.ndarray, int]:
     """Solve A x = b with a symmetric A, which may be indefinite, from x = 0.
 
-    It ends where |b - A x| <= tolerance |b|, which is the rule of MATLAB's `minres` (4.1.2). SciPy's ends where the
-    residual is small beside |A| |x|: with a matrix of bad condition much sooner, and the direction is a poor one.
+    It ends at |b - A x| <= tolerance |b|, the rule of MATLAB's `minres` (4.1.2). SciPy's ends where the residual is
+    small relative to |A| |x|: with an ill-conditioned matrix much sooner, with a poor direction.
 
     Parameters
     ----------
@@ -25,8 +25,8 @@ def minres(
         b.
     tolerance : float
     iterations : int
-        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual. So it
-        is where A or b leave the range of numbers.
+        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual. It is
+        returned too where A or b overflow.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def minres(
     if residual == 0 or not np.isfinite(residual):
         return x, 0
     last, now = np.zeros(right.size), right / beta  # Lanczos's vectors
-    before, way = np.zeros(right.size), np.zeros(right.size)  # columns of V R^-1
+    before, direction = np.zeros(right.size), np.zeros(right.size)  # columns of V R^-1
     below = off = epsilon = 0.0
     c, s = -1.0, 0.0  # the last Givens rotation
     for count in range(1, iterations + 1):
@@ -57,15 +57,15 @@ def minres(
         alpha = dot(now, following)
         following -= alpha * now
         beta = norm(following)
-        if not np.isfinite(beta):  # the matrix has left the range of numbers: no iterate after this one has any
+        if not np.isfinite(beta):  # overflow: no later iterate is finite
             return x, count
         # A column of the tridiagonal matrix becomes one of R = Q T.
         upper, delta, gamma = epsilon, c * off + s * alpha, s * off - c * alpha
         epsilon, off = s * beta, -c * beta
         length = float(np.hypot(gamma, beta)) or np.finfo(float).tiny
         c, s = gamma / length, beta / length
-        before, way = way, (now - upper * before - delta * way) / length
-        x += c * residual * way
+        before, direction = direction, (now - upper * before - delta * direction) / length
+        x += c * residual * direction
         residual *= s
         if residual <= goal or beta == 0:
             return x, count

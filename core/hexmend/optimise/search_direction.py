@@ -16,15 +16,16 @@ from hexmend.optimise.linear_solvers import LinearSolver
 
 @dataclass(frozen=True)
 class SearchDirection:
-    """A search direction.
+    """Search direction of the free nodes.
 
     Parameters
     ----------
     p : (k, 3) float64
+        In mean edge lengths.
     solver_iterations : int
-        Of the linear solver; 0 where there is none.
+        Of the linear solver; 0 where none is used.
     shift : float
-        What was added to the diagonal of the Hessian: to each entry, or, by `TruncatedNewton`, in multiples of it.
+        Added to each diagonal entry of the Hessian, by `TruncatedNewton` as a multiple of the entry.
     """
 
     p: np.ndarray
@@ -33,10 +34,10 @@ class SearchDirection:
 
 
 class Direction(Protocol):
-    """Finds a search direction for sum eta^p."""
+    """Function that finds a search direction for sum eta^p."""
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-        """Search direction at a point of this value, gradient (k, 3) and Hessian."""
+        """Find the direction from value, gradient (k, 3) and Hessian."""
 
 
 def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
@@ -56,10 +57,12 @@ class Newton:
         return SearchDirection(p.reshape(-1, 3), count, hessian.shift)
 
 
-#: What is left of the first gradient where a solution is as good as rounding lets it be.
+#: Share of the first gradient at which a solution is as good as rounding allows.
 ENOUGH = 1e-9
-#: How often the damping is raised in a step, by what factor, from what on; by what factor it falls where it was enough.
-RAISES, RISE, FIRST, FALL = 4, 4.0, 0.05, 4.0
+#: Most raises of the damping in a step, and the factor of each.
+RAISES, RISE = 4, 4.0
+#: Smallest damping that is not 0, as a share of the diagonal, and the divisor after a step for which it was enough.
+FIRST, FALL = 0.05, 4.0
 
 
 class TruncatedNewton:
@@ -68,9 +71,9 @@ class TruncatedNewton:
     The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
     1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
     would fall below `ENOUGH` of the first. Where the Hessian is not positive definite its diagonal is raised until it
-    is (Levenberg 1944): the matrix stands, and a solution costs less than the way that would be lost.
+    is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
 
-    One object serves one sequence of steps: it remembers the last.
+    An object serves one sequence of steps: tolerance and damping follow from the step before.
 
     Parameters
     ----------
@@ -115,7 +118,7 @@ class TruncatedNewton:
 
 @dataclass(frozen=True)
 class ModifiedNewton:
-    """Algorithm A.4: the same after the least eigenvalue is raised to a thousandth of the greatest."""
+    """Algorithm A.4: Newton's direction after the least eigenvalue is raised to a thousandth of the greatest."""
 
     solver: LinearSolver
 
@@ -127,14 +130,22 @@ class ModifiedNewton:
 
 
 def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
-    """Least and greatest eigenvalue by Lanczos's method, good to a thousandth of their distance.
+    """Find the least and the greatest eigenvalue by Lanczos's method, to a thousandth of their distance.
 
-    The least is found as the greatest of lambda_max I - H, where it stands apart; where that does not converge in 50
+    The least is found as the greatest of lambda_max I - H, where it is isolated; where that does not converge in 50
     iterations it is taken to be zero (A.2).
+
+    Parameters
+    ----------
+    hessian : Hessian
+
+    Returns
+    -------
+    least, greatest : float
     """
     from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-    start = np.ones(hessian.shape[0])  # ARPACK's own would be random
+    start = np.ones(hessian.shape[0])  # ARPACK's own start is random
     matrix = hessian.assembled()
     size = float(np.abs(matrix.diagonal_blocks).max(initial=0.0))
     if size == 0:

@@ -1,4 +1,4 @@
-"""Sweeps of local Newton steps (A.4) around the hexes that hold back the step of all nodes."""
+"""Sweeps of local Newton steps (A.4) around hexes that would shorten the step of all nodes."""
 
 from __future__ import annotations
 
@@ -14,26 +14,27 @@ from hexmend.mesh.validation import as_bools, points_like
 def local_sweeps(
     energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, sweeps: int
 ) -> np.ndarray:
-    """Make sweeps of local Newton steps over the inner nodes of some hexes and of their neighbours.
+    """Sweep over the inner nodes of some hexes and of their neighbours with local Newton steps.
 
-    Nodes at hexes of which corners are left out stay: a local energy would count these corners.
+    Nodes at hexes with omitted corners stay: a local energy would count these corners.
 
     Parameters
     ----------
     energy : MeshEnergy
     x : (n, 3) float64
-        Where the nodes are, in mean edge lengths.
+        Points in mean edge lengths.
     around : (m,) bool
         The hexes.
     left_out : (m,) uint8
-        A bit for each corner that is left out of the energy.
+        A bit for each corner that the energy omits.
     delta : float
+        In cubes of the mean edge length.
     sweeps : int
 
     Returns
     -------
     (n, 3) float64
-        Where the nodes are then.
+        Points after the sweeps.
 
     Raises
     ------

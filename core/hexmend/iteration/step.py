@@ -1,0 +1,87 @@
+"""Steps that a smoother yields, and outcomes of runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+import numpy as np
+
+from hexmend.aliases import reads_old_names
+from hexmend.energy.norm import ObjectiveNorm
+from hexmend.quality import ElementQuality
+
+
+class Outcome(Enum):
+    """Reason why a run ended, as a sentence."""
+
+    CONVERGED = "Converged: no node moved more than the tolerance."
+    MAX_ITERATIONS = "Stopped at the iteration limit before it converged."
+    MAX_SECONDS = "Stopped at the time limit before it converged."
+    STOPPED = "Stopped by the user."
+    NOTHING_FREE = "Nothing to do: every node is fixed."
+    FINISHED = "The method has no further step to make."
+    NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
+    SUFFICIENT = "Done: the quality that was asked for is reached."
+    NO_DESCENT = "Stopped: along the search direction no step descends, however short."
+    NOT_FINITE = "Stopped: a step gave coordinates that are no numbers; what was reached before it is kept."
+
+    @property
+    def key(self) -> str:
+        """The name in reports, such as `converged` or `max-iterations`."""
+        return self.name.lower().replace("_", "-")
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveSet:
+    """Corners that let the least scaled Jacobian rise no further.
+
+    Parameters
+    ----------
+    hexes, nodes : (k,) int64
+        Hex and apex node of each active corner, by their multipliers, the heaviest first: no displacement raises all
+        of them.
+    locked : (l,) int64
+        Hexes with a lower corner all of whose nodes are fixed, the lowest first, each once.
+    """
+
+    hexes: np.ndarray
+    nodes: np.ndarray
+    locked: np.ndarray
+
+
+@reads_old_names
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Step of a smoother.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Never changed after it was yielded.
+    diagnostics : mapping
+        Numbers that describe the step, by name: delta, rejected moves...
+    decision : str
+        Sentence about a decision that the method has just taken; the run's message repeats it.
+    intermediate : bool
+        True while another stage follows: however little this step moved, the run has not converged.
+    quality : ElementQuality, optional
+        `measure(points, hexes)`, if the method has measured it.
+    infeasible : bool
+        True where nodes are outside the admissible band: such an iterate is never the result.
+    limits : ActiveSet, optional
+        Corners that let the method go no further, if it has found them.
+    power : ObjectiveNorm, optional
+        p and offset of the objective that this step lowers, if they differ from the smoother's `power`.
+    """
+
+    points: np.ndarray
+    diagnostics: Mapping[str, Any] = field(default_factory=dict)
+    decision: str = ""
+    intermediate: bool = False
+    quality: ElementQuality | None = None
+    infeasible: bool = False
+    limits: ActiveSet | None = None
+    power: ObjectiveNorm | None = None
