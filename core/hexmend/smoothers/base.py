@@ -1,4 +1,4 @@
-"""What a smoother is, and the registry of them."""
+"""Base class of the smoothers, and their registry."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
 from hexmend.registry import Registry, load_entry_points
 
-#: What a smoother's `steps` gives.
+#: Type of the generator that `Smoother.steps` returns.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
 
-#: The least fall of q(H) that four decimals tell: near its optimum an optimiser goes up and down by less.
-_TOLD = 0.5e-4
+#: Least fall of q(H) that four decimals show: near its optimum an optimiser goes up and down by less.
+_VISIBLE_FALL = 0.5e-4
 
 
 @dataclass(frozen=True)
 class Smoother(Parametrised, ABC):
-    """A method that moves nodes of a mesh: the free ones, and, if it is told to, those of the boundary along it.
+    """Method that moves the free nodes of a mesh and, if its parameters say so, boundary nodes along the surface.
 
     A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
     record and no window: `hexmend.run` does.
@@ -37,10 +37,10 @@ class Smoother(Parametrised, ABC):
     title: ClassVar[str]
     help: ClassVar[str]
     source: ClassVar[str]
-    #: Whether it goes to a minimum of the energy.
+    #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
-    #: Bytes a hex that its run holds at most beside the open mesh, topology included: as `hexmend bench --only memory`
-    #: measures it, and a fifth more. See `hexmend.run.memory`.
+    #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
+    #: bench --only memory`, with a fifth added. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000
 
     def __post_init__(self) -> None:
@@ -49,44 +49,60 @@ class Smoother(Parametrised, ABC):
 
     @property
     def power(self) -> ObjectiveNorm:
-        """p and offset of the objective that its runs end at the minimum of.
+        """p and offset of the objective that its runs minimise.
 
-        It is recorded of every step that names no other (`Step.power`). A method that minimises nothing has the default
-        values.
+        It is recorded for every step that names no other (`Step.power`). A method that minimises nothing has the
+        default values.
         """
         return SQUARES
 
     @property
     def slides(self) -> bool:
-        """Whether nodes of the boundary slide on the surface."""
+        """True if nodes of the boundary slide on the surface."""
         return False
 
     def movable(self, mesh: Mesh) -> np.ndarray:
-        """True for each node that the method may move, (n,) bool: the free ones, and those that slide."""
+        """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
-        """Yield the initial points once what the method prepares is ready, then the points after each step.
+        """Yield the initial points once the method is prepared, then the points after each step.
 
-        The generator goes on until nobody asks for more, or returns the outcome where the method has no further step.
         A run copies what is yielded, unless it is immutable already. Rows of nodes that the method may not move stay as
         they are to the last bit.
+
+        Parameters
+        ----------
+        mesh : Mesh
+
+        Yields
+        ------
+        Step
+
+        Returns
+        -------
+        Outcome or None
+            Where the method has no further step; a run may stop asking before.
         """
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
-        """What an iterate is kept for, the lower the better; of equals the last is kept.
+        """Sort key of an iterate: the smallest is kept, of equals the last.
 
-        Inverted hexes come first. Then the least q(H) counts; of an optimiser only whether it is lower than at the
-        start, in the digits of tables, as its iterates get better by the objective, not by the least q(H).
+        Inverted hexes come first, then the least q(H). Of an optimiser it counts only whether that is visibly lower
+        than at the start: its iterates improve by the objective, not by the least q(H).
 
         Parameters
         ----------
         start, now : ElementQuality
-            As the stage began, and of the iterate.
+            At the beginning of the stage, and of the iterate.
+
+        Returns
+        -------
+        tuple of float
         """
         least = float(now.q.min())
-        return now.n_inverted, least < start.q.min() - _TOLD if self.optimises else -least
+        return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
         """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""

@@ -1,4 +1,4 @@
-"""What the optimisers of (3.3) share: the objective, and the barrier that untangles."""
+"""Bases of the optimisers of (3.3): the objective, and the barrier that untangles."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
 @dataclass(frozen=True)
 class ObjectiveSmoother(SlidingSmoother):
-    """A method that lowers (3.3)."""
+    """Method that lowers (3.3)."""
 
     optimises = True
 
@@ -33,7 +33,7 @@ class ObjectiveSmoother(SlidingSmoother):
 
 @dataclass(frozen=True)
 class Optimiser(ObjectiveSmoother):
-    """One that untangles by a barrier softened by delta."""
+    """Method that untangles by a barrier softened by delta."""
 
     delta: float = parameter(
         0.01,

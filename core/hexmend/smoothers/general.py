@@ -21,7 +21,7 @@ from hexmend.smoothers.sliding_smoother import SlidingSmoother
 @method
 @dataclass(frozen=True)
 class General(SlidingSmoother):
-    """GETMe first; then, where that does not suffice, the optimiser that suits the mesh."""
+    """GETMe first; then, unless its result is good enough, the optimiser that suits the mesh."""
 
     name = "general"
     title = "General (GETMe, then an optimiser)"
@@ -50,7 +50,7 @@ class General(SlidingSmoother):
         quality = measure(points, mesh.hexes)
         if not quality.n_inverted and quality.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
-        ratio = size_ratio(points, mesh.hexes)
+        ratio = edge_length_ratio(points, mesh.hexes)
         sizes = f"{'similar' if ratio <= self.max_size_ratio else 'different'} sizes (ratio {ratio:.2g})"
         count = quality.n_inverted
         inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
@@ -64,7 +64,7 @@ class General(SlidingSmoother):
         return {one.name: getattr(self, one.name) for one in dataclasses.fields(SlidingSmoother)}
 
     def _getme(self, mesh: Mesh) -> Generator[Step, None, np.ndarray]:
-        """GETMe to its end; returns the points."""
+        """Run GETMe to its end; returns the points."""
         points, unit = mesh.points, mesh.mean_edge_length or 1.0
         getme = METHODS["getme"](**self._sliding_values()).steps(mesh)
         yield dataclasses.replace(next(getme), intermediate=True)
@@ -78,7 +78,7 @@ class General(SlidingSmoother):
 
 
 def _beginning_with(decision: str, steps: Steps) -> Steps:
-    """The steps, the first of them telling the decision that led to it."""
+    """Attach the decision to the first of some steps."""
     while True:
         try:
             step = next(steps)
@@ -88,8 +88,8 @@ def _beginning_with(decision: str, steps: Steps) -> Steps:
         decision = ""
 
 
-def size_ratio(points: np.ndarray, hexes: np.ndarray) -> float:
-    """Ratio of the 95th to the 5th percentile of the mean edge lengths of hexes (m, 8); inf if some have no extent."""
+def edge_length_ratio(points: np.ndarray, hexes: np.ndarray) -> float:
+    """Ratio of the 95th to the 5th percentile of the hexes' mean edge lengths; inf if some have no extent."""
     total = np.zeros(len(hexes))
     for a, b in EDGES:
         total += np.linalg.norm(points[hexes[:, a]] - points[hexes[:, b]], axis=1)

@@ -1,4 +1,4 @@
-"""What methods share whose boundary nodes stay, or slide on the surface, as they are told: 5.2.1."""
+"""Base of methods whose boundary nodes stay or slide on the surface (Wilson 5.2.1)."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from hexmend.smoothers.base import Smoother
 
 T = TypeVar("T")
 
-#: The word for a surface tolerance that sets no limit: nodes slide, wherever the boundary between them goes.
+#: Surface tolerance without a limit: nodes slide, wherever the boundary between them goes.
 UNLIMITED = "unlimited"
 
-#: Sweeps in which a node would leave the room around the surface before it is not tried any more.
+#: Sweeps in which a node would leave the band around the surface before it stays for good.
 PATIENCE = 3
 
 
 @dataclass(frozen=True)
 class SlidingSmoother(Smoother):
-    """A method that may let the nodes of the boundary slide on the surface, which they never leave."""
+    """Method that may let the nodes of the boundary slide on the surface."""
 
     boundary: str = parameter(
         "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
@@ -52,51 +52,57 @@ class SlidingSmoother(Smoother):
         return mesh.free if sliding is None else sliding.mesh.free
 
     def sliding(self, mesh: Mesh) -> SlidingBoundary | None:
-        """What the nodes of a mesh's boundary slide on; None where they stay."""
+        """The surface on which the boundary nodes of a mesh slide; None where they stay."""
         if not self.slides:
             return None
         return SlidingBoundary(mesh, self.feature_angle, self.max_deviation(mesh))
 
     def max_deviation(self, mesh: Mesh) -> float:
-        """How far the boundary may leave the surface, in the mesh's unit of length."""
+        """Distance from the surface that the boundary may have, in the mesh's unit of length."""
         return np.inf if self.surface_tolerance == UNLIMITED else self.surface_tolerance * mesh.mean_edge_length
 
 
 class Sweeps:
-    """Sweeps that move node after node, each sweep without the nodes that would leave the room around the surface.
+    """Sweeps that move node after node and keep the boundary in the band around the surface.
 
-    Where a sweep has left the room, it is made again with the nodes staying at which it did. A node that had to stay in
-    `PATIENCE` sweeps stays for good.
+    A sweep that leaves the band is repeated without the nodes at which it did. A node that had to stay in `PATIENCE`
+    sweeps stays for good.
 
     Parameters
     ----------
     sliding : SlidingBoundary or None
-        None where the boundary stays: a sweep is a sweep.
+        None where the boundary is fixed.
     n : int
         Number of nodes.
     """
 
     def __init__(self, sliding: SlidingBoundary | None, n: int):
-        self.sliding, self._often = sliding, np.zeros(n, dtype=np.int64)
+        self.sliding, self._rejections = sliding, np.zeros(n, dtype=np.int64)
 
     def __call__(self, points: np.ndarray, sweep: Callable[[np.ndarray, np.ndarray], T]) -> tuple[np.ndarray, T]:
-        """The points after a sweep from points (n, 3), and what it returned.
+        """Sweep, and repeat it while it leaves the band.
 
         Parameters
         ----------
         points : (n, 3) float64
-            Stay as they are.
+            Not changed.
         sweep : callable
-            Takes points that it moves, and which nodes have to stay, (n,) bool.
+            Takes points (n, 3), which it changes, and the nodes that have to stay, (n,) bool.
+
+        Returns
+        -------
+        points : (n, 3) float64
+        answer : object
+            The returned value of the sweep.
         """
-        stays = self._often >= PATIENCE
+        stays = self._rejections >= PATIENCE
         while True:
             moved = points.copy()
             told = sweep(moved, stays)
             beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.outside_band(moved)
             beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
             if not beyond.size:
-                return moved, told
+                return moved, answer
             stays = stays.copy()
             stays[beyond] = True
-            self._often[beyond] += 1
+            self._rejections[beyond] += 1

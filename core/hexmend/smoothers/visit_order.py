@@ -1,7 +1,7 @@
-"""In what order a sweep visits the free nodes, 5.2.6.
+"""Orders in which a sweep visits the free nodes (Wilson 5.2.6).
 
-"Since the mesh boundary is fixed, information propagates from it to the mesh interior": a sweep may follow it, go
-against it, or take no notice.
+"Since the mesh boundary is fixed, information propagates from it to the mesh interior": a sweep may follow it or go
+against it.
 """
 
 from __future__ import annotations
@@ -15,52 +15,52 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import CSR
 from hexmend.quality import measure
 
-#: The free nodes in the order of a sweep, (k,) int32: of the places of all nodes (n, 3) as it begins, and its number
-#: from 0.
+#: Function of the points (n, 3) at the beginning of a sweep and of its number, from 0, that gives the free nodes in the
+#: order of the sweep, (k,) int32.
 Sequence: TypeAlias = Callable[[np.ndarray, int], np.ndarray]
 
 
 def colour(mesh: Mesh) -> Sequence:
     """Colour by colour, each by number."""
-    return _always(mesh.topology.colouring(mesh.free).items)
+    return _constant(mesh.topology.colouring(mesh.free).items)
 
 
 def natural(mesh: Mesh) -> Sequence:
-    """By number, as Algorithms 3.1 and 3.2 write it."""
-    return _always(_free(mesh))
+    """By number, as in Algorithms 3.1 and 3.2."""
+    return _constant(_free_nodes(mesh))
 
 
 def reverse(mesh: Mesh) -> Sequence:
     """By number, the last first."""
-    return _always(_free(mesh)[::-1].copy())
+    return _constant(_free_nodes(mesh)[::-1].copy())
 
 
 def random(mesh: Mesh) -> Sequence:
-    """By chance, anew in each sweep; its number is the seed, so that a run can be done again."""
-    nodes = _free(mesh)
+    """Random in each sweep, whose number is the seed: runs can be repeated."""
+    nodes = _free_nodes(mesh)
     return lambda points, sweep: np.random.default_rng(sweep).permutation(nodes)
 
 
 def inward(mesh: Mesh) -> Sequence:
     """Level by level from the fixed nodes, each by number."""
-    return _always(_by_level(mesh))
+    return _constant(_by_level(mesh))
 
 
 def outward(mesh: Mesh) -> Sequence:
-    """The way back: the nodes farthest from the fixed ones first."""
-    return _always(_by_level(mesh)[::-1].copy())
+    """Level by level towards the fixed nodes, the farthest first."""
+    return _constant(_by_level(mesh)[::-1].copy())
 
 
 def alternating(mesh: Mesh) -> Sequence:
-    """Inward and outward in turn."""
-    there = _by_level(mesh)
-    both = there, there[::-1].copy()
+    """Inward and outward in turns."""
+    inwards = _by_level(mesh)
+    both = inwards, inwards[::-1].copy()
     return lambda points, sweep: both[sweep % 2]
 
 
 def worst_first(mesh: Mesh) -> Sequence:
     """By the least q(H) of the hexes at each node as the sweep begins, the worst first."""
-    nodes, corners = _free(mesh), mesh.topology.node_corners
+    nodes, corners = _free_nodes(mesh), mesh.topology.node_corners
     start = corners.start[:-1][mesh.topology.used]
 
     def sequence(points: np.ndarray, sweep: int) -> np.ndarray:
@@ -71,7 +71,7 @@ def worst_first(mesh: Mesh) -> Sequence:
     return sequence
 
 
-#: Orders by the name that a method's parameter gives.
+#: Orders by the value of a method's parameter.
 ORDERS: dict[str, Callable[[Mesh], Sequence]] = {
     "colour": colour,
     "natural": natural,
@@ -85,7 +85,7 @@ ORDERS: dict[str, Callable[[Mesh], Sequence]] = {
 
 
 class Visits:
-    """Whom the sweeps over a mesh visit, and who can be visited at the same time.
+    """Order of the nodes in the sweeps over a mesh, in groups that can be visited at the same time.
 
     Parameters
     ----------
@@ -101,14 +101,19 @@ class Visits:
         self._groups: CSR | None = None
 
     def groups(self, points: np.ndarray, sweep: int) -> CSR:
-        """The nodes of a sweep in groups that share no hex: one group after another does what the sequence does.
+        """Group the nodes of a sweep so that nodes of a group share no hex; the result is that of the sequence.
 
         Parameters
         ----------
         points : (n, 3) float64
-            Where the nodes are as the sweep begins.
+            At the beginning of the sweep.
         sweep : int
             Its number, from 0.
+
+        Returns
+        -------
+        CSR
+            A row of nodes for each group.
         """
         nodes = self.sequence(points, sweep)
         if nodes is not self._nodes:
@@ -116,14 +121,14 @@ class Visits:
         return self._groups
 
 
-def _always(nodes: np.ndarray) -> Sequence:
+def _constant(nodes: np.ndarray) -> Sequence:
     return lambda points, sweep: nodes
 
 
-def _free(mesh: Mesh) -> np.ndarray:
+def _free_nodes(mesh: Mesh) -> np.ndarray:
     return np.flatnonzero(mesh.free).astype(np.int32)
 
 
 def _by_level(mesh: Mesh) -> np.ndarray:
-    nodes = _free(mesh)
+    nodes = _free_nodes(mesh)
     return nodes[np.argsort(mesh.topology.levels(mesh.fixed)[nodes], kind="stable")]

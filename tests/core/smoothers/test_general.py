@@ -10,7 +10,7 @@ from hexmend.iteration import Outcome
 from hexmend.quality import measure
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS, general
-from hexmend.smoothers.general import size_ratio
+from hexmend.smoothers.general import edge_length_ratio
 from tests.core.grids import grid, scrambled
 
 General = METHODS["general"]
@@ -47,11 +47,11 @@ def test_what_it_chooses_and_why_is_in_the_message(mesh, getme_iterations, said)
 
 def test_size_ratio_looks_past_one_hex_in_twenty():
     mesh = grid(6)
-    assert size_ratio(mesh.points, mesh.hexes) == pytest.approx(1)
+    assert edge_length_ratio(mesh.points, mesh.hexes) == pytest.approx(1)
     points = mesh.points.copy()
     points[:, 0] *= 5.0 ** np.arange(7)[points[:, 0].astype(int)]
-    assert size_ratio(points, mesh.hexes) > 100
-    assert size_ratio(np.zeros_like(points), mesh.hexes) == np.inf
+    assert edge_length_ratio(points, mesh.hexes) > 100
+    assert edge_length_ratio(np.zeros_like(points), mesh.hexes) == np.inf
 
 
 def test_getme_comes_first_and_the_iterations_of_both_are_counted():
@@ -65,7 +65,7 @@ def test_getme_comes_first_and_the_iterations_of_both_are_counted():
 
 @pytest.mark.parametrize(("ratio", "name"), [(2.0, "global-nr"), (2.5, "global-nr"), (2.6, "local-sd")])
 def test_sizes_are_similar_up_to_the_ratio_that_is_given(monkeypatch, ratio, name):
-    monkeypatch.setattr(general, "size_ratio", lambda points, hexes: ratio)
+    monkeypatch.setattr(general, "edge_length_ratio", lambda points, hexes: ratio)
     method = General(getme_iterations=0, max_size_ratio=2.5, q_target=1.0)
     result = smooth(scrambled(grid(3), 0.1), method, StoppingCriteria(max_iterations=2))
     assert f"{'similar' if ratio <= 2.5 else 'different'} sizes" in result.message

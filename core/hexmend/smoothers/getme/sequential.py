@@ -1,4 +1,4 @@
-"""Sequential GETMe: the second stage."""
+"""Sequential GETMe, which follows simultaneous GETMe."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.base import Steps, method
-from hexmend.smoothers.getme.simultaneous import standing
+from hexmend.smoothers.getme.simultaneous import merit
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
 
-#: A sweep that raises q_min by less than this has not raised it.
+#: Least rise of q_min in a sweep that counts.
 RISE = 1e-4
 
-#: How often the relaxation is halved before the method ends.
+#: Halvings of the relaxation before the method ends.
 HALVINGS = 6
 
 
 @method
 @dataclass(frozen=True)
 class SequentialGETMe(SlidingSmoother):
-    """The worst hex takes its step alone, then whichever is worst by then, as many steps a sweep as there are hexes."""
+    """The worst hex takes its step alone, again and again; a sweep has as many steps as there are hexes."""
 
     name = "getme-sequential"
     title = "GETMe, sequential"
@@ -58,7 +58,7 @@ class SequentialGETMe(SlidingSmoother):
             before, quality = quality, measure(points, mesh.hexes)
             # Algorithm A.1 does not apply: a sweep may end where it began, and a finer one still raise q_min.
             yield Step(points, {"relaxation": relaxation, "taken_back": taken_back}, intermediate=True, quality=quality)
-            if not np.any((standing(quality) - standing(before))[:2] > RISE):
+            if not np.any((merit(quality) - merit(before))[:2] > RISE):
                 relaxation /= 2
         return Outcome.NO_IMPROVEMENT
 

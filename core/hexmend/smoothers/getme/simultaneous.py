@@ -16,14 +16,14 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
-#: A rise of q_min or q_mean that is less than this is none.
+#: Least rise of q_min or q_mean that counts.
 RISE = 1e-6
 
 
 @method
 @dataclass(frozen=True)
 class GETMe(SlidingSmoother):
-    """Every hex grows more regular by itself; each node goes to a mean of the places that its hexes give it."""
+    """Every hex is made more regular by itself; each node goes to a mean of the places that its hexes give it."""
 
     name = "getme"
     title = "GETMe, simultaneous"
@@ -50,7 +50,7 @@ class GETMe(SlidingSmoother):
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         places = np.empty((mesh.n_hexes, 8, 3))
         points, quality = mesh.points, measure(mesh.points, mesh.hexes)
-        best = standing(quality)
+        best = merit(quality)
         idle = 0
         yield Step(points)
         while idle < self.patience:
@@ -60,14 +60,14 @@ class GETMe(SlidingSmoother):
             if sliding is not None:
                 moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
             points, quality, relaxed = _without_harm(mesh, points, quality, moved, sliding)
-            now = standing(quality)
+            now = merit(quality)
             idle = 0 if np.any(now > best + RISE) else idle + 1
             best = np.maximum(best, now)
             yield Step(points, {"relaxed_nodes": relaxed}, quality=quality)
         return Outcome.NO_IMPROVEMENT
 
     def weigh(self, q: np.ndarray) -> np.ndarray:
-        """Weight of every hex of these q(H), (m,); the worse, the heavier, and never infinite or zero."""
+        """Weights of hexes by their q(H), (m,) float64: the worse, the heavier; finite and positive."""
         if self.weights == "quality":
             return 1 / np.sqrt(np.maximum(q, 0.01))
         if self.weights == "paper":
@@ -75,15 +75,15 @@ class GETMe(SlidingSmoother):
         return np.ones(len(q))
 
 
-def standing(quality: ElementQuality) -> np.ndarray:
-    """What a heuristic wants to raise: less inverted hexes, q_min, q_mean; (3,)."""
+def merit(quality: ElementQuality) -> np.ndarray:
+    """Figures of merit that GETMe raises, (3,) float64: minus the number of inverted hexes, q_min, q_mean."""
     return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])
 
 
 def _without_harm(
     mesh: Mesh, points: np.ndarray, quality: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
-    """The moved points, relaxed where a hex that was sound would be inverted; their quality; how many were relaxed."""
+    """Relax moves that would invert a sound hex; returns the points, their quality and the number of relaxed nodes."""
     after = measure(moved, mesh.hexes)
     harmed = np.flatnonzero(after.inverted & ~quality.inverted).astype(np.int32)
     if not harmed.size and (sliding is None or not sliding.rejected_nodes(points, moved).size):

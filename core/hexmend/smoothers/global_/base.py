@@ -1,4 +1,4 @@
-"""What the global methods share: Algorithm 3.3, all free nodes at once."""
+"""Base of the global methods: Algorithm 3.3, all free nodes at once."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hexmend.smoothers.base_optimiser import Optimiser
 
 @dataclass(frozen=True)
 class GlobalDescent(Optimiser):
-    """A search direction for all free nodes, a line search along it, and so on; a method names the direction."""
+    """Search direction for all free nodes and a line search along it, repeated; a method chooses the direction."""
 
     delta_unit: str = parameter(
         "edge",
@@ -43,7 +43,7 @@ class GlobalDescent(Optimiser):
         """The search direction: Algorithm A.2, A.3 or A.4."""
 
     def policy(self, energy: MeshEnergy) -> DeltaPolicy:
-        """What delta is, in the energy's unit of length."""
+        """Policy of delta, in the energy's unit of length."""
         return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -1,4 +1,4 @@
-"""What the global Newton methods share: the linear system and its solvers."""
+"""Base of the global Newton methods: the linear system and its solvers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SOLVERS = {"minres": Minres, "cg": ConjugateGradients}
 
 @dataclass(frozen=True)
 class GlobalNewton(GlobalDescent):
-    """Newton's direction for all free nodes; a method says what is done to the Hessian before."""
+    """Newton's direction for all free nodes; a method chooses the treatment of the Hessian."""
 
     bytes_per_hex = 3000
 
@@ -30,5 +30,5 @@ class GlobalNewton(GlobalDescent):
     )
 
     def linear_solver(self) -> LinearSolver:
-        """The solver that is chosen."""
+        """The solver with the method's parameters."""
         return SOLVERS[self.solver](self.solver_tolerance, self.solver_iterations)

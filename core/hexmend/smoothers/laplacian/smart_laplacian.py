@@ -1,4 +1,4 @@
-"""Smart Laplacian smoothing: Algorithm 3.1 with the moves that harm taken back (3.1.1)."""
+"""Smart Laplacian smoothing: Algorithm 3.1 in which harmful moves are rejected (3.1.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the local optimisers share: the energy of a patch, and the line search on it."""
+"""Base of the local optimisers: the energy of a patch, and the line search on it."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from hexmend.parameters import parameter
 from hexmend.quality import measure
 from hexmend.smoothers.base_optimiser import Optimiser
 
-#: How many mean edge lengths the units of delta are: a patch of eight hexes is two wide.
+#: Units of delta in mean edge lengths: a patch of eight hexes is two wide.
 EDGES = {"edge": 1.0, "extent": 2.0}
 
 
 @dataclass(frozen=True)
 class LocalOptimiser(Optimiser):
-    """Line-searched steps for the energy of one patch after another, each scaled to unit mean edge length."""
+    """Steps with line search on the energy of one patch after another, each scaled to unit mean edge length."""
 
     delta_unit: str = parameter(
         "edge",

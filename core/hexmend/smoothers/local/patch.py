@@ -22,7 +22,7 @@ from hexmend.smoothers.sliding_smoother import Sweeps
 class LocalPatch(LocalOptimiser):
     """One Newton step per patch of connected free nodes, with the rest of the mesh fixed, sweep after sweep.
 
-    Nodes that slide are in no patch: after each sweep they step one by one.
+    Nodes that slide belong to no patch: after each sweep they step one by one.
     """
 
     name = "local-patch"

@@ -1,4 +1,4 @@
-"""What the local methods of one node at a time share: Algorithm 3.2."""
+"""Base of the local methods that move one node at a time: Algorithm 3.2."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from hexmend.smoothers.visit_order import ORDERS, Visits
 
 @dataclass(frozen=True)
 class LocalDescent(LocalOptimiser):
-    """One line-searched step per free node, sweep after sweep, on the node's patch scaled to unit mean edge length."""
+    """One step with line search per free node and sweep, on the node's patch scaled to unit mean edge length."""
 
     #: Search direction, one of `hexmend.kernels.local`.
     direction: ClassVar[int]

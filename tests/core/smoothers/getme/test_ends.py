@@ -8,7 +8,7 @@ import pytest
 from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.getme.sequential import HALVINGS
-from hexmend.smoothers.getme.simultaneous import standing
+from hexmend.smoothers.getme.simultaneous import merit
 from tests.core.grids import grid, scrambled
 
 GETMe, Sequential = METHODS["getme"], METHODS["getme-sequential"]
@@ -21,10 +21,10 @@ def test_a_grid_of_cubes_ends_after_so_many_iterations_without_a_rise(patience):
 
 def test_where_something_has_risen_lately_it_goes_on():
     steps = list(GETMe(patience=2).steps(scrambled(grid(3), 0.3)))
-    best, idle = standing(measure(steps[0].points, grid(3).hexes)), 0
+    best, idle = merit(measure(steps[0].points, grid(3).hexes)), 0
     for step in steps[1:]:
         assert idle < 2
-        now = standing(step.quality)
+        now = merit(step.quality)
         idle = 0 if (now > best + 1e-6).any() else idle + 1
         best = np.maximum(best, now)
     assert idle == 2
@@ -33,7 +33,7 @@ def test_where_something_has_risen_lately_it_goes_on():
 def test_what_is_to_rise_are_inverted_hexes_with_a_minus_and_the_least_and_mean_quality():
     figures = measure(*(getattr(scrambled(grid(3), 1.0, 2), name) for name in ("points", "hexes")))
     assert figures.n_inverted > 0
-    assert standing(figures).tolist() == [-figures.n_inverted, figures.q.min(), figures.q.mean()]
+    assert merit(figures).tolist() == [-figures.n_inverted, figures.q.min(), figures.q.mean()]
 
 
 def test_weights_are_their_formulas():
