@@ -98,7 +98,7 @@ class Sweeps:
         stays = self._rejections >= PATIENCE
         while True:
             moved = points.copy()
-            told = sweep(moved, stays)
+            answer = sweep(moved, stays)
             beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.outside_band(moved)
             beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
             if not beyond.size:
