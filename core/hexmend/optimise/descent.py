@@ -98,18 +98,10 @@ def descend(
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
     if not np.isfinite(found.p).all():
         found = steepest_descent(value, gradient, hessian)
-    shorten_to_range(found.p, energy.unit)
-    if np.isfinite(reach):
-        ring = energy.mesh.topology.rings
-        shorten(found.p, x, ring.start, ring.items, energy.nodes, reach)
-        restrain(energy, x, delta, found.p)
-    slope = energy.directional_derivative(x, delta, found.p, gradient)
+    slope = _limit(energy, x, delta, found.p, gradient, reach)
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
-        shorten_to_range(found.p, energy.unit)
-        if np.isfinite(reach):
-            restrain(energy, x, delta, found.p)
-        slope = energy.directional_derivative(x, delta, found.p, gradient)
+        slope = _limit(energy, x, delta, found.p, gradient, reach, by_edges=False)
     for trial in range(TRIALS):
         alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
         there = energy.moved(x, found.p, alpha)
@@ -119,6 +111,25 @@ def descend(
         found.p[infeasible[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.p, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
+
+
+def _limit(
+    energy: MeshEnergy,
+    x: np.ndarray,
+    delta: float,
+    step: np.ndarray,
+    gradient: np.ndarray,
+    reach: float,
+    by_edges: bool = True,
+) -> float:
+    """Limit a step (k, 3), changed, to the range of numbers, the reach and the hexes around; returns its slope."""
+    shorten_to_range(step, energy.unit)
+    if np.isfinite(reach):
+        if by_edges:
+            ring = energy.mesh.topology.rings
+            shorten(step, x, ring.start, ring.items, energy.nodes, reach)
+        restrain(energy, x, delta, step)
+    return energy.directional_derivative(x, delta, step, gradient)
 
 
 #: Largest coordinate of a step, in the mesh's own unit of length: squares of larger ones overflow.

@@ -14,8 +14,8 @@ def minres(
 ) -> tuple[np.ndarray, int]:
     """Solve A x = b with a symmetric A, which may be indefinite, from x = 0.
 
-    It ends at |b - A x| <= tolerance |b|, the rule of MATLAB's `minres` (4.1.2). SciPy's ends where the residual is
-    small relative to |A| |x|: with an ill-conditioned matrix much sooner, with a poor direction.
+    It ends at |b - A x| <= tolerance |b|, as MATLAB's (4.1.2). SciPy's rule compares with |A| |x|: with an
+    ill-conditioned matrix it ends much sooner, with a poor direction.
 
     Parameters
     ----------
@@ -25,8 +25,8 @@ def minres(
         b.
     tolerance : float
     iterations : int
-        Limit, after which the solution so far is returned: no other in the Krylov space has a smaller residual. It is
-        returned too where A or b overflow.
+        Limit, after which the solution so far is returned, as it is where A or b overflow: none in the Krylov space
+        has a smaller residual.
 
     Returns
     -------
@@ -40,9 +40,8 @@ def minres(
     >>> x.round(8).tolist(), count
     ([1.0, -1.0, 2.0], 3)
     """
-    x = np.zeros(right.size)
-    beta = residual = goal = norm(right)
-    goal *= tolerance
+    x, residual = np.zeros(right.size), norm(right)
+    beta, goal = residual, tolerance * residual
     if residual == 0 or not np.isfinite(residual):
         return x, 0
     last, now = np.zeros(right.size), right / beta  # Lanczos's vectors

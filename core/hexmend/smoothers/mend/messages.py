@@ -56,7 +56,7 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
     elif places == 1:
         who = f"{count} of them hold each other there, in the hexes"
     else:
-        who = f"{count} of them can go no further there, in {places} places apart, in the hexes"
+        who = f"{count} of them can go no further there, in {places} separate places, in the hexes"
     least = f"The least scaled Jacobian of the corners that can be moved is {active.least:.4f}"
     sentence = f"{least}: {who} {_first_hexes(active.hexes)}."
     locked = locked_below(optimiser, active)

@@ -21,7 +21,7 @@ class ShapeOptimumConfig:
     Parameters
     ----------
     poor : float
-        Energy eta from which on a hex is poor: a few of them beside the barrier would shorten the step of all nodes,
+        Energy eta from which on a hex is poor: a few of them close to the barrier would shorten the step of all nodes,
         so that local sweeps work around them first.
     sweeps : int
         Sweeps of local Newton steps around poor hexes before a step of all nodes.
@@ -94,7 +94,7 @@ def _minimise(
     config: ShapeOptimumConfig,
     newton: NewtonConfig,
 ) -> Generator[Step, None, ShapeOptimum]:
-    """Minimise the energy with one p; where p `rises` afterwards, until no node moves far."""
+    """Minimise the energy with one p; if p `rises` afterwards, only until no node moves far."""
     omitted, hexes, find = energy.left_out, energy.mesh.hexes, newton.direction()
     min_fall = config.min_fall_omitting if omitted.any() else config.min_fall
     x, uncut = energy.to_edge_units(points), False

@@ -101,7 +101,7 @@ def test_corners_that_are_apart_are_not_said_to_hold_each_other(name):
     corner = (mesh.hexes[limits.hexes] == limits.nodes[:, None]).argmax(axis=1)
     places = len(set(MovableCorners(mesh, result.mesh.points).groups(8 * limits.hexes + corner)))
     assert places > 1
-    assert f"{limits.hexes.size} of them can go no further there, in {places} places apart" in result.message
+    assert f"{limits.hexes.size} of them can go no further there, in {places} separate places" in result.message
     assert "hold each other" not in result.message
 
 
