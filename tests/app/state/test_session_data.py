@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from hexmend.io.formats import session
+from hexmend.iteration import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state import session_data
+from hexmend_app.state.order import OrderData
 
 _FILES = Path(__file__).parent / "files"
 
@@ -42,3 +44,9 @@ def test_a_surface_tolerance_of_0_was_no_limit_up_to_version_3(tmp_path, monkeyp
     session_data.write(tmp_path / "old.hexmend", data)
     monkeypatch.undo()
     assert session_data.read(tmp_path / "old.hexmend").order.stage.smoother.surface_tolerance == read
+
+
+def test_values_that_version_0_1_kept_for_a_method_have_their_names_of_today():
+    stage = Stage(METHODS["mend"](), StoppingCriteria())
+    order = OrderData(stage, "", {"mend": {"softness": 0.05, "highest_p": 4.0}, "general": {"sufficient": 0.5}})
+    assert order.values == {"mend": {"initial_epsilon": 0.05, "max_p": 4.0}, "general": {"q_target": 0.5}}
