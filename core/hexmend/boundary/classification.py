@@ -75,9 +75,14 @@ class Boundary:
 
 
 def boundary_of(
-    mesh: Mesh, degrees: float = FEATURE_ANGLE, *, turn: float | None = None, whisker: float = WHISKER_FACTOR,
-    sharp: np.ndarray | None = None, corners: np.ndarray | None = None,
-) -> Boundary:  # fmt: skip
+    mesh: Mesh,
+    degrees: float = FEATURE_ANGLE,
+    *,
+    turn: float | None = None,
+    whisker: float = WHISKER_FACTOR,
+    sharp: np.ndarray | None = None,
+    corners: np.ndarray | None = None,
+) -> Boundary:
     """Classify the boundary nodes of a mesh.
 
     Parameters
@@ -115,15 +120,26 @@ def boundary_of(
     sharp = marked_edges(mesh) if sharp is None else sharp
     corners = marked_corners(mesh) if corners is None else corners
     return classify(
-        mesh.points, mesh.topology.boundary_faces, degrees,
-        turn=turn, whisker=whisker, sharp=sharp, corners=corners,
-    )  # fmt: skip
+        mesh.points,
+        mesh.topology.boundary_faces,
+        degrees,
+        turn=turn,
+        whisker=whisker,
+        sharp=sharp,
+        corners=corners,
+    )
 
 
 def classify(
-    points: np.ndarray, faces: np.ndarray, degrees: float = FEATURE_ANGLE, *, turn: float | None = None,
-    whisker: float = WHISKER_FACTOR, sharp: np.ndarray | None = None, corners: np.ndarray | None = None,
-) -> Boundary:  # fmt: skip
+    points: np.ndarray,
+    faces: np.ndarray,
+    degrees: float = FEATURE_ANGLE,
+    *,
+    turn: float | None = None,
+    whisker: float = WHISKER_FACTOR,
+    sharp: np.ndarray | None = None,
+    corners: np.ndarray | None = None,
+) -> Boundary:
     """Classify the nodes of any surface of triangles or quads; see `boundary_of`.
 
     A curve is a chain of feature edges from corner to corner, or a loop without corners. Corners are nodes at which

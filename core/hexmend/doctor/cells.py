@@ -42,10 +42,11 @@ class DuplicateHexes(Problem):
         return np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return Finding(
-            self.name, where.size, f"{count_phrase(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
-            "Remove the duplicates.", True, where,
-        )  # fmt: skip
+        return self.finding(
+            where,
+            f"{count_phrase(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
+            "Remove the duplicates.",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         rows = np.sort(mesh.hexes, axis=1)
@@ -68,12 +69,13 @@ class DegenerateHexes(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         wedges, flat = _wedges(mesh, where)
         kinds = f"{len(wedges):,} of them are wedges, {len(flat):,} flat" if len(wedges) + len(flat) else ""
-        return Finding(
-            self.name, where.size,
+        return self.finding(
+            where,
             f"{count_phrase(where.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
-            "Make them wedges, or mesh them anew.", 0 < len(wedges) + len(flat) < mesh.n_hexes, where,
-        )  # fmt: skip
+            "Make them wedges, or mesh them anew.",
+            mendable=0 < len(wedges) + len(flat) < mesh.n_hexes,
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         wedges, flat = _wedges(mesh, self.locate(mesh))

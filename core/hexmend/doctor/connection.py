@@ -26,11 +26,12 @@ class NonManifoldFaces(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         count = mesh.topology.n_nonmanifold_faces
-        return Finding(
-            self.name, count,
+        return self.finding(
+            where,
             f"{count:,} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
-            "Look for overlapping hexes.", hexes=where,
-        )  # fmt: skip
+            "Look for overlapping hexes.",
+            count=count,
+        )
 
 
 @register_problem
@@ -49,10 +50,11 @@ class DisconnectedParts(Problem):
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         sizes = np.bincount(parts_of(mesh, others=True))
         more = len(sizes) - 1
-        return Finding(
-            self.name, more,
+        return self.finding(
+            where,
             f"The mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
             f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
             "Where they should be joined, merge their coincident nodes: hexmend repair MESH -o OUT --only "
-            "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself.", hexes=where,
-        )  # fmt: skip
+            "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself.",
+            count=more,
+        )

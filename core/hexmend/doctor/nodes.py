@@ -18,6 +18,7 @@ class CoincidentNodes(Problem):
     """Nodes at one position; where boundary faces coincide as well, blocks have not been merged."""
 
     name, title = "coincident-nodes", "Coincident nodes"
+    items = "nodes"
     rank = 4
     action = "merge them, so that faces on each other become one"
 
@@ -30,13 +31,12 @@ class CoincidentNodes(Problem):
         faces = np.sort(_merge_targets(mesh)[mesh.topology.boundary_faces], axis=1)
         pairs = len(faces) - len(np.unique(faces, axis=0))
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
-        return Finding(
-            self.name, where.size,
-            f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{blocks}" + (
-                "" if blocks else " Hexes that should be joined may be apart there."
-            ),
-            "Merge them, unless parts are meant to slide on each other.", True, nodes=where,
-        )  # fmt: skip
+        return self.finding(
+            where,
+            f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{blocks}"
+            + ("" if blocks else " Hexes that should be joined may be apart there."),
+            "Merge them, unless parts are meant to slide on each other.",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         target = _merge_targets(mesh)
@@ -48,6 +48,7 @@ class UnusedNodes(Problem):
     """Nodes that no cell uses."""
 
     name, title = "unused-nodes", "Unused nodes"
+    items = "nodes"
     rank = 6
     action = "remove them"
 
@@ -55,11 +56,11 @@ class UnusedNodes(Problem):
         return np.flatnonzero(~referenced_nodes(mesh))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return Finding(
-            self.name, where.size,
+        return self.finding(
+            where,
             f"{count_phrase(where.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
-            "Remove them.", True, nodes=where,
-        )  # fmt: skip
+            "Remove them.",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         used = referenced_nodes(mesh)
@@ -71,6 +72,7 @@ class HangingNodes(Problem):
     """Nodes in the middle of an edge or face of hexes that do not use them, as between fine and coarse blocks."""
 
     name, title = "hanging-nodes", "Hanging nodes"
+    items = "nodes"
     rank = 7
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -86,12 +88,12 @@ class HangingNodes(Problem):
         return np.unique(nodes[near[np.isfinite(far)]])
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return Finding(
-            self.name, where.size,
+        return self.finding(
+            where,
             f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
             "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
-            "transitions frees them.", nodes=where,
-        )  # fmt: skip
+            "transitions frees them.",
+        )
 
 
 def _count_repeated(rows: np.ndarray) -> int:

@@ -89,6 +89,8 @@ class Problem(ABC):
     rank: ClassVar[int]
     #: Action of `repair`, as words after "to"; "" if there is none.
     action: ClassVar[str] = ""
+    #: Kind of numbers that `locate` returns, "hexes" or "nodes".
+    items: ClassVar[str] = "hexes"
 
     def find(self, mesh: Mesh, quick: bool = False) -> Finding | None:
         """Find the problem in a mesh; None if it does not occur. `quick` leaves out searches in space."""
@@ -102,6 +104,26 @@ class Problem(ABC):
     @abstractmethod
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         """Describe the problem; `where` is the result of `locate` and not empty."""
+
+    def finding(
+        self, where: np.ndarray, message: str, remedy: str, *, count: int | None = None, mendable: bool | None = None
+    ) -> Finding:
+        """Make the finding of this problem.
+
+        Parameters
+        ----------
+        where : (k,) int
+            Hexes or nodes that have the problem.
+        message, remedy : str
+            Description and advice, as sentences.
+        count : int, optional
+            Number that the message names; that of `where` by default.
+        mendable : bool, optional
+            True if `mend` repairs it; by default if there is an `action`.
+        """
+        count = where.size if count is None else count
+        mendable = bool(self.action) if mendable is None else mendable
+        return Finding(self.name, count, message, remedy, mendable, **{self.items: where})
 
     def mend(self, mesh: Mesh) -> Mesh:
         """Return the mesh with the problem repaired as far as possible."""

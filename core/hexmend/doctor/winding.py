@@ -24,10 +24,11 @@ class MirroredParts(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         whole = "All hexes" if where.size == mesh.n_hexes else f"{where.size:,} hexes, which make whole parts,"
-        return Finding(
-            self.name, where.size, f"{whole} are inside out: their corners are numbered left-handed.",
-            "Number them the other way: nodes stay where they are.", True, where,
-        )  # fmt: skip
+        return self.finding(
+            where,
+            f"{whole} are inside out: their corners are numbered left-handed.",
+            "Number them the other way: nodes stay where they are.",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         return mirror_hexes(mesh, mirrored_parts(mesh))
@@ -45,12 +46,12 @@ class FlippedHexes(Problem):
         return np.flatnonzero(self._which(mesh))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return Finding(
-            self.name, where.size,
+        return self.finding(
+            where,
             f"{count_phrase(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other "
             "way, as the neighbours are.",
-            "Number them the other way: nodes stay where they are.", True, where,
-        )  # fmt: skip
+            "Number them the other way: nodes stay where they are.",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         return mirror_hexes(mesh, self._which(mesh))
@@ -96,11 +97,12 @@ class VoxelOrder(Problem):
         return twisted[(corner_determinants(mesh.points, mesh.hexes[twisted][:, VOXEL_ORDER]) > 0).all(axis=1)]
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return Finding(
-            self.name, where.size,
+        return self.finding(
+            where,
             f"{count_phrase(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of "
-            "voxels (VTK type 11).", "Put their corners in the order of hexahedra (type 12).", True, where,
-        )  # fmt: skip
+            "voxels (VTK type 11).",
+            "Put their corners in the order of hexahedra (type 12).",
+        )
 
     def mend(self, mesh: Mesh) -> Mesh:
         which = self.locate(mesh)

@@ -71,7 +71,10 @@ class BlockSparsity:
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
             slots = self.slots
-            lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # so a fixed corner is no least one
+            lowest, highest = (
+                slots.view(np.uint32).min(axis=1),
+                slots.max(axis=1),
+            )  # -1, a fixed corner, becomes the largest
             order = np.argsort(lowest, kind="stable").astype(np.int32)
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]

@@ -19,10 +19,8 @@ def box_hexes(nx: int, ny: int, nz: int) -> np.ndarray:
     """
     number = np.arange((nx + 1) * (ny + 1) * (nz + 1)).reshape(nz + 1, ny + 1, nx + 1)
     low, high = slice(None, -1), slice(1, None)
-    places = [
-        (low, low, low), (low, low, high), (low, high, high), (low, high, low),
-        (high, low, low), (high, low, high), (high, high, high), (high, high, low),
-    ]  # fmt: skip
+    square = [(low, low), (low, high), (high, high), (high, low)]  # corners 0 to 3 by y and x
+    places = [(z, *yx) for z in (low, high) for yx in square]
     return np.column_stack([number[place].ravel() for place in places])
 
 

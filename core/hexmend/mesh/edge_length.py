@@ -8,9 +8,9 @@ from hexmend.kernels import elements
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.validation import as_hexes, as_points
 
-#: Edges count as outliers where they make the mean of all more than so many times the trimmed mean.
+#: The longest edges are outliers if the mean of all exceeds this multiple of the trimmed mean.
 OUTLIER_FACTOR = 4.0
-#: About how many hexes the trimmed mean is taken over.
+#: Approximate number of hexes in the sample for the trimmed mean.
 _SAMPLE_HEXES = 10_000
 
 

@@ -53,7 +53,7 @@ def mirrored_parts(mesh: Mesh) -> np.ndarray:
     """
     determinants = np.empty((mesh.n_hexes, 8))
     elements.corner_determinants(mesh.points, mesh.hexes, determinants)
-    with np.errstate(all="ignore"):  # of coordinates that are very large
+    with np.errstate(all="ignore"):  # very large coordinates overflow
         volumes = determinants.sum(axis=1)
         wrong = volumes < 0
         if not wrong.any():

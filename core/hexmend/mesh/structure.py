@@ -64,9 +64,7 @@ def find_structure(mesh: Mesh) -> Structure:
     sharp = sharp_edges(mesh.points, topology.boundary_faces)
     inside, outside = topology.irregular_edges, topology.irregular_boundary_edges
     smooth = outside[~np.isin(_key(edges[outside], mesh.n_nodes), _key(sharp, mesh.n_nodes))]
-    return Structure(
-        edges[inside], valence[inside], topology.irregular_nodes, edges[smooth], valence[smooth], sharp
-    )  # fmt: skip
+    return Structure(edges[inside], valence[inside], topology.irregular_nodes, edges[smooth], valence[smooth], sharp)
 
 
 def sharp_edges(points: np.ndarray, faces: np.ndarray, degrees: float = SHARP_DEGREES) -> np.ndarray:
