@@ -1,4 +1,4 @@
-"""Nodes of one boundary on another surface: which slide on a curve, which on a patch, and which stay."""
+"""Attaching the nodes of a boundary to another surface: to curves, to patches, or not at all."""
 
 import numpy as np
 import pytest

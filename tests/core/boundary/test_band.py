@@ -1,4 +1,4 @@
-"""How far a boundary and another surface are apart, both ways, at first and as nodes move."""
+"""Two-sided distance of a boundary and a surface, initially and as nodes move."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from tests.core.grids import grid
 
 
 def band_of(shift=0.0, size=1.0, target=True):
-    """The boundary of a cube of edge 2, and one that is shifted along x as its surface."""
+    """Make a cube of edge 2, and the band of its boundary around one shifted along x."""
     mesh, other = grid(2), grid(4)
     faces = mesh.topology.boundary_faces
     surface = SkinSurface(other.points / 2 + [shift, 0, 0], other.topology.boundary_faces) if target else None

@@ -1,4 +1,4 @@
-"""Kinds of nodes: on solids whose corners, curves and patches are known, and what holds on every mesh."""
+"""Classification of boundary nodes: on solids with known corners, curves and patches, and invariants."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def counts(boundary):
 
 
 def check(mesh, boundary):
-    """What holds on every mesh."""
+    """Check the invariants of a classification."""
     kind, part = boundary.node_class, boundary.part
     assert kind.dtype == np.uint8
     assert part.dtype == np.int32
@@ -97,7 +97,7 @@ def test_kinds_depend_neither_on_the_numbering_nor_on_place_and_unit(random, uni
 
 
 def touching(shared):
-    """Two cubes that share one or two nodes."""
+    """Make two cubes that share one or two nodes."""
     cube = grid(1)
     points = np.concatenate([cube.points, cube.points + ([1, 1, 1] if shared == 1 else [1, 1, 0])])
     places, number = np.unique(points, axis=0, return_inverse=True)
@@ -121,7 +121,7 @@ def test_cubes_that_touch_in_an_edge_have_a_curve_there_however_large_the_angle(
 
 
 def dented(length):
-    """A plate of 12 x 10 x 2 with a groove of so many edges in its upper side, of 53 degrees."""
+    """Make a plate of 12 x 10 x 2 with a groove of some edges, of 53 degrees, in its upper side."""
     mesh = grid(12, 10, 2)
     points = mesh.points.copy()
     x, y, z = points.T

@@ -1,4 +1,4 @@
-"""Distances of boundaries against brute force and where they are known."""
+"""Distances of boundaries against brute force and known values."""
 
 import numpy as np
 import pytest

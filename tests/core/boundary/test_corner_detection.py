@@ -1,4 +1,4 @@
-"""Bends of curves that hold a hex's corner open do not slide."""
+"""Nodes at bends of curves that keep a hex's corner open do not slide."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
 
 
-def test_bends_that_alone_hold_a_corner_open_are_kept():
+def test_bends_that_alone_keep_a_corner_open_do_not_slide():
     mesh = cylinder(16, 3)
     bends = bend_corners(mesh, boundary_of(mesh))
     assert len(bends) == 8  # four on each rim: there a square's corner has been made a bend of a circle

@@ -1,4 +1,4 @@
-"""What has moved, and since when."""
+"""Displacements and changes since a reference state."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Edges of faces: each once, known by its nodes whatever its direction."""
+"""Unique edges of faces, whatever their direction."""
 
 import numpy as np
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""The closest places of a boundary, by the nodes that make them, of quads and of triangles."""
+"""Closest points of a surface of quads or triangles, by nodes and weights."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ def skin(request):
     return SkinSurface(mesh.points, np.ascontiguousarray(faces))
 
 
-def test_the_closest_place_is_made_of_the_nodes_of_one_face(skin):
+def test_the_closest_point_is_a_weighted_mean_of_the_nodes_of_one_face(skin):
     x = np.random.default_rng(5).uniform(-1, 3, (40, 3))
     places, nodes, weights = skin.closest_on(x)
     np.testing.assert_array_equal(places, skin.closest(x))
@@ -27,7 +27,7 @@ def test_the_closest_place_is_made_of_the_nodes_of_one_face(skin):
     assert all(tuple(sorted(row)) in faces for row in nodes.tolist())
 
 
-def test_samples_are_nodes_then_middles_of_edges_then_of_faces_and_all_lie_on_the_surface(skin):
+def test_samples_are_nodes_then_midpoints_of_edges_and_faces_on_the_surface(skin):
     samples = skin.samples()
     n, e = len(skin.nodes), len(skin.edges.nodes)
     assert len(samples) == n + e + len(skin.faces)

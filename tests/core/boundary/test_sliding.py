@@ -1,4 +1,4 @@
-"""Which nodes of a boundary slide, and what the methods are handed of it."""
+"""Sliding nodes of a boundary, their neighbours and their projection."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
             assert all(kind[other] != NodeClass.INSIDE for other in ring)
 
 
-def test_a_mesh_keeps_the_surface_that_it_is_told_to():
+def test_a_mesh_keeps_its_surface_on_request():
     mesh = ball(3)
     moved = mesh.keeping_surface().with_points(1.1 * mesh.points)
     np.testing.assert_array_equal(moved.surface_points, mesh.points)

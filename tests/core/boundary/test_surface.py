@@ -1,4 +1,4 @@
-"""Closest points against what makes a point the closest, and surfaces on which nodes slide."""
+"""Closest points against their optimality condition, and surfaces for sliding."""
 
 import itertools
 from concurrent.futures import ThreadPoolExecutor
@@ -196,7 +196,7 @@ def test_any_number_of_threads_gives_the_same():
         np.testing.assert_array_equal(getattr(one, field), getattr(three, field))
 
 
-def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
+def test_nodes_that_do_not_slide_and_invalid_positions_are_refused():
     mesh = grid(3)
     boundary, surface, nodes = sliding(mesh)
     (corner, *_), (inside, *_) = (
@@ -212,7 +212,7 @@ def test_nodes_that_do_not_slide_and_places_that_are_none_are_refused():
 
 
 def as_triangles(mesh):
-    """The boundary's quads as two triangles each, numbered by themselves, as a file of a surface holds them."""
+    """Divide the boundary's quads into two triangles each, with own numbering, as in a surface file."""
     nodes, faces = np.unique(mesh.topology.boundary_faces, return_inverse=True)
     quads = faces.reshape(-1, 4).astype(np.int32)
     return mesh.points[nodes], np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])

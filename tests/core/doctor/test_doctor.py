@@ -1,4 +1,4 @@
-"""The doctor finds what was done to a mesh, and nothing in a sound one; what it mends is sound again."""
+"""The doctor finds planted problems, none in a valid mesh, and repairs leave a valid mesh."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def with_hexes(hexes):
 
 
 def blocks(gap=0.0):
-    """Two blocks side by side whose nodes were never merged."""
+    """Make two adjacent blocks whose nodes are not merged."""
     other = SOUND.points + [SOUND.points[:, 0].max() + gap, 0, 0]
     return Mesh(np.vstack([SOUND.points, other]), np.vstack([SOUND.hexes, SOUND.hexes + SOUND.n_nodes]))
 
@@ -40,14 +40,14 @@ def flipped(*which):
 
 
 def collapsed():
-    """A corner hex whose edges 01 and 45 are collapsed: a wedge."""
+    """Make a mesh whose corner hex has edges 01 and 45 collapsed, a wedge."""
     hexes = SOUND.hexes.copy()
     hexes[0, 1], hexes[0, 5] = hexes[0, 0], hexes[0, 4]
     return with_hexes(hexes)
 
 
 def hanging():
-    """A hex with four hexes of half its size on one of its faces."""
+    """Make a hex with four hexes of half its size on one of its faces."""
     fine = grid(2)
     fine = Mesh(fine.points * 0.5, fine.hexes)
     coarse = UNIT_CUBE * np.ptp(fine.points[:, 0]) + [fine.points[:, 0].max(), 0, 0]
@@ -71,7 +71,7 @@ TROUBLES = [
 
 
 @pytest.mark.parametrize(("mesh", "kind", "count", "mendable"), TROUBLES, ids=[case[1] for case in TROUBLES])
-def test_trouble_is_found_and_counted_with_its_places(mesh, kind, count, mendable):
+def test_problems_are_found_and_counted_with_their_hexes_or_nodes(mesh, kind, count, mendable):
     found = found_in(mesh)
     assert kind in found
     finding = found[kind]
@@ -97,7 +97,7 @@ def test_what_is_mended_is_found_no_more_and_every_hex_is_sound(mesh, kind):
     assert measure(after.points, after.hexes).n_inverted <= measure(mesh.points, mesh.hexes).n_inverted
 
 
-def test_parts_that_other_cells_join_are_not_apart():
+def test_parts_that_other_cells_connect_are_not_disconnected():
     apart = with_hexes(SOUND.hexes[[0, 26]])
     bridge = Cells("tetra", np.array([[*apart.hexes[0][:2], *apart.hexes[1][:2]]], np.int32))
     assert "hexmend repair" in found_in(apart)["parts"].remedy

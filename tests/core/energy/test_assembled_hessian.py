@@ -1,4 +1,4 @@
-"""The assembled Hessian against the matrix-free product, and what is solved with it."""
+"""Assembled Hessian against the matrix-free product, and its linear solver."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def some_left_out(mesh, share, seed):
 
 
 def by_parts(hessian, parts):
-    """The same matrix with another division of its slots."""
+    """Assemble the matrix with another division of its slots."""
     hessian.energy.couplings = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
@@ -171,7 +171,7 @@ def test_the_solution_for_nothing_is_nothing_at_once(precision):
     assert not solved.x.any()
 
 
-def test_how_a_solve_ended_is_told():
+def test_the_end_of_a_solve_is_reported():
     hessian = hessian_of(scrambled(grid(5), 0.15, 3))
 
     def end(shift, most):

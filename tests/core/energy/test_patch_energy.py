@@ -11,7 +11,7 @@ from tests.core.grids import grid, scrambled
 
 
 def patch_of(mesh, node, delta, power=SQUARES):
-    """Its hexes' corners at the node, the factor of its lengths, value, gradient, second derivatives."""
+    """Return a patch's corners at the node, length scale, value, gradient and second derivatives."""
     star = mesh.topology.node_corners[node]
     return star, *local.patch_energy(mesh.points, mesh.hexes, star, 0.0, delta, power)
 

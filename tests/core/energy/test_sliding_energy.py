@@ -14,7 +14,7 @@ SOLIDS = {"block": lambda: grid(3, 2, 2), "cylinder": lambda: cylinder(16, 3), "
 
 
 def along_the_surface(sliding, points, seed):
-    """A step of unit size for each free node, along the surface; 0 for those that are next to an edge of a facet."""
+    """Make a tangential unit step for each free node; 0 for nodes next to an edge of a facet."""
     mesh, random = sliding.mesh, np.random.default_rng(seed)
     step = random.uniform(-1, 1, mesh.points.shape) * mesh.free[:, None]
     nodes = sliding.nodes
@@ -27,7 +27,7 @@ def along_the_surface(sliding, points, seed):
 
 
 def at(solid, seed, p):
-    """The energy of a solid whose nodes have slid, their places in mean edge lengths, a step along the surface."""
+    """Return the energy of a solid with moved nodes, their positions in mean edge lengths, and a tangential step."""
     there = slid(SOLIDS[solid](), 0.2, seed)
     sliding = SlidingBoundary(SOLIDS[solid]())
     energy = SlidingEnergy(sliding, ObjectiveNorm(p))

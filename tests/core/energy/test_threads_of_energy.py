@@ -1,4 +1,4 @@
-"""Energies of one mesh that several threads use at once."""
+"""Energies of one mesh used by several threads at once."""
 
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
@@ -14,14 +14,14 @@ POWERS = ObjectiveNorm(2.0, 1.0), ObjectiveNorm(4.0, 0.0)
 
 
 def energies_of(kind):
-    """Two energies of one mesh, the second of which shares with the first what depends on the mesh alone."""
+    """Make two energies of one mesh that share the data that depend on the mesh alone."""
     mesh = make("bridge-sharp", size=2000)
     first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(SlidingBoundary(mesh), POWERS[0])
     return first, first.with_objective(POWERS[1], first.left_out)
 
 
 def answers(energy, x, steps=30):
-    """Gradients and Hessian products at places of which each is another."""
+    """Compute gradients and Hessian products at different points."""
     found = []
     for k in range(steps):
         there = x * (1 + 1e-3 * k)

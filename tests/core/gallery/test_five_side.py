@@ -26,7 +26,7 @@ THESIS = [
 
 
 def outline(quads):
-    """Nodes of sides that only one quad has."""
+    """Return the nodes of edges of only one quad."""
     sides = np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
     sides, times = np.unique(sides, axis=0, return_counts=True)
     assert times.max() == 2

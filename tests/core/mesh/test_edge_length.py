@@ -1,4 +1,4 @@
-"""The mean edge length: each edge once a hex, and not spoilt by a node that has gone far away."""
+"""Mean edge length: every edge counts once a hex, and a distant node does not distort it."""
 
 import numpy as np
 import pytest

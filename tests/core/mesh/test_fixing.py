@@ -1,4 +1,4 @@
-"""Nodes that stay by the names of sets, and regions that alone move."""
+"""Nodes pinned by named sets, and regions outside which all nodes are pinned."""
 
 import json
 

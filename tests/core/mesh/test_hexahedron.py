@@ -1,4 +1,4 @@
-"""The reference hexahedron against itself."""
+"""Consistency of the tables of the reference hexahedron."""
 
 import numpy as np
 

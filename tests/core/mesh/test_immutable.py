@@ -1,4 +1,4 @@
-"""Arrays of a mesh: nobody can write to them, and meshes share those of which that is certain."""
+"""Immutable arrays of a mesh: they cannot be written to, and meshes share them."""
 
 import copy
 import pickle
@@ -17,7 +17,7 @@ TWO = grid(2, 1, 1)
 
 
 def writable_alias(hexes):
-    """Read-only hexes that own their memory, and what still writes to them: a view that was made before."""
+    """Make read-only hexes that own their memory, with an older view that is still writable."""
     mine = np.array(hexes)
     alias = mine[:]
     mine.flags.writeable = False
@@ -25,7 +25,7 @@ def writable_alias(hexes):
 
 
 def thawed(hexes):
-    """Read-only hexes that own their memory, which NumPy lets their owner make writable again."""
+    """Make read-only hexes that own their memory: NumPy can make them writable again."""
     mine = np.array(hexes)
     mine.flags.writeable = False
 
@@ -37,7 +37,7 @@ def thawed(hexes):
 
 
 def unpickled(hexes):
-    """Hexes out of a pickle, whose memory is of a `bytes` and writable nevertheless."""
+    """Make hexes from a pickle: their memory belongs to `bytes`, but is writable."""
     mine = pickle.loads(pickle.dumps(np.array(hexes), protocol=4))
     alias = mine[:]
     mine.flags.writeable = False
@@ -45,7 +45,7 @@ def unpickled(hexes):
 
 
 def buffered(hexes):
-    """Hexes that are read through a read-only memoryview of an array that stays writable."""
+    """Make hexes from a read-only memoryview of a writable array."""
     mine = np.array(hexes)
     return np.asarray(memoryview(mine).toreadonly()), lambda: mine.__setitem__((0, 0), 10**9)
 
@@ -123,7 +123,7 @@ def test_copies_of_a_mesh_share_its_arrays():
 
 @dataclass(frozen=True)
 class Reuses(hx.Smoother):
-    """A method that goes on writing to the array that it yields."""
+    """Method that overwrites the array that it has yielded."""
 
     name = title = "reuses"
     help = source = "Moves its own array."

@@ -1,4 +1,4 @@
-"""Mesh: validation, immutability, what is shared."""
+"""Mesh: validation, immutability and sharing."""
 
 import numpy as np
 import pytest

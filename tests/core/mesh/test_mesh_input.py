@@ -1,4 +1,4 @@
-"""What a mesh is given: numbers of every type and shape, arrays that stay their owner's, and more hexes than there can be."""
+"""Input of a mesh: numbers of every type and shape, ownership of arrays, too many hexes."""
 
 import os
 import subprocess
@@ -108,7 +108,7 @@ def test_points_that_are_no_real_numbers_are_refused(points, words):
         ("cells", 5, "cells are of type int: expected a tuple"),
     ],
 )
-def test_what_a_mesh_carries_is_checked_when_it_is_made_and_when_it_is_replaced(field, value, words):
+def test_fields_of_a_mesh_are_checked_when_it_is_made_and_when_they_are_replaced(field, value, words):
     with pytest.raises(MeshError, match=words):
         Mesh(TWO.points, TWO.hexes, **{field: value})
     with pytest.raises(MeshError, match=words):
@@ -189,7 +189,7 @@ def test_points_that_nobody_can_change_are_shared():
 
 @dataclass(frozen=True)
 class Short(hx.Smoother):
-    """A method that forgets nodes."""
+    """Method that omits nodes."""
 
     name = "short"
     title = "Short"

@@ -1,4 +1,4 @@
-"""Parts wound the other way are turned, with what is said of their faces; single inverted hexes are not."""
+"""Left-handed parts are renumbered with their side sets; single inverted hexes are not."""
 
 import numpy as np
 import pytest
@@ -17,21 +17,21 @@ from tests.core.grids import grid
 
 
 def mirrored(mesh, which):
-    """The mesh with some hexes numbered left-handed, and the side sets of the sound one on the same faces as before."""
+    """Number some hexes of a mesh left-handed, with the side sets on the same faces."""
     hexes = mesh.hexes.copy()
     hexes[which] = hexes[which][:, MIRRORED_CORNERS]
     return mesh.rebuilt(hexes=hexes, side_sets={})
 
 
 def two_grids():
-    """Two grids apart, of 8 hexes and of 1."""
+    """Make two disconnected grids, of 8 hexes and of 1."""
     one, other = grid(2), grid(1)
     points = np.concatenate([one.points, other.points + 5])
     return Mesh(points, np.concatenate([one.hexes, other.hexes + one.n_nodes]))
 
 
 def nodes_of(mesh, name):
-    """The nodes of each face of a side set, as sets."""
+    """Return the nodes of each face of a side set, as sets."""
     return [frozenset(mesh.hexes[hexa, FACES[face]].tolist()) for hexa, face in mesh.side_sets[name]]
 
 

@@ -1,4 +1,4 @@
-"""Hexes of second order: their shape functions, and the Jacobian at nodes and Gauss points."""
+"""Second-order hexes: their shape functions, and the Jacobian at nodes and Gauss points."""
 
 import json
 

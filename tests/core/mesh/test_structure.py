@@ -25,7 +25,7 @@ _PLACES = [
 
 
 def tetrahedron():
-    """Four hexes around one node, three around each of the four edges from there to the middles of the sides."""
+    """Make four hexes around one node, three around each of its four edges to the centres of the sides."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
     points = np.array([corners[sorted(place)].mean(axis=0) for place in _PLACES])
     hexes = []

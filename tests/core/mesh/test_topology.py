@@ -81,14 +81,14 @@ def test_rows_know_their_number():
 
 @st.composite
 def loose(draw):
-    """Some hexes of a grid, numbered anyhow."""
+    """Take some hexes of a grid, in any order."""
     mesh = grid(*draw(SIZES))
     chosen = draw(st.lists(st.sampled_from(range(mesh.n_hexes)), min_size=1, unique=True))
     return Topology(np.ascontiguousarray(mesh.hexes[chosen]), mesh.n_nodes)
 
 
 def closed(size):
-    """A grid whose opposite sides are one: no face is a boundary."""
+    """Make a periodic grid without boundary faces."""
     number = np.arange(np.prod(size)).reshape(size)
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
     columns = [np.roll(number, [-c for c in corner], axis=(0, 1, 2)).ravel() for corner in corners]

@@ -1,4 +1,4 @@
-"""Which values of a metric are unacceptable, at the ends of its range too, and which hexes are wound the other way."""
+"""Unacceptable values of a metric, also at the ends of its range, and left-handed hexes."""
 
 import dataclasses
 
@@ -26,7 +26,7 @@ def test_what_is_worse_than_the_acceptable_range_is_unacceptable_and_its_ends_ar
 
 
 def folded(shift):
-    """Two cubes one above the other, both wound the other way; the top of the upper one is lowered by so much."""
+    """Make two stacked left-handed cubes with the top lowered."""
     mesh = grid(1, 1, 2)
     points = mesh.points.copy()
     points[points[:, 2] == 2, 2] -= shift

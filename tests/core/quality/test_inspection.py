@@ -1,4 +1,4 @@
-"""One element looked at closely, and the order of the worst."""
+"""Details of one hex and of one node, and the order of the worst hexes."""
 
 from types import SimpleNamespace
 

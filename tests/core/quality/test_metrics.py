@@ -1,4 +1,4 @@
-"""Every metric: known values, what is declared, invariances, and hexes that have no value."""
+"""Every metric: known values, declarations, invariances, and hexes for which it is undefined."""
 
 import math
 import warnings
@@ -83,7 +83,7 @@ def test_known_values(name):
 
 
 def by_plain_arithmetic(x):
-    """Every metric of one hex that is no flat one, straight from the manual."""
+    """Compute every metric of a hex that is not flat by the formulas of the manual."""
     edges, diagonals = (np.linalg.norm(x[pairs[:, 1]] - x[pairs[:, 0]], axis=1) for pairs in (EDGES, DIAGONALS))
     sides = (2 * UNIT_CUBE - 1).T
     axes, crossing = sides @ x, sides * sides[[1, 2, 0]] @ x
@@ -156,7 +156,7 @@ def test_the_jacobian_of_the_centre_counts():
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-40, 40))
-def test_metrics_do_not_depend_on_place_turn_or_size(seed, exponent):
+def test_metrics_do_not_depend_on_position_rotation_or_size(seed, exponent):
     random = np.random.default_rng(seed)
     x = UNIT_CUBE + random.uniform(-0.25, 0.25, (8, 3))
     scale = 10.0**exponent

@@ -1,4 +1,4 @@
-"""Metrics on hexes whose figures are known, and their invariances."""
+"""Quality of hexes with known values, and its invariances."""
 
 import numpy as np
 import pytest
@@ -126,7 +126,7 @@ def test_a_mesh_of_no_hexes_has_no_figures():
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-60, 60))
-def test_quality_does_not_depend_on_place_turn_or_size(seed, exponent):
+def test_quality_does_not_depend_on_position_rotation_or_size(seed, exponent):
     random = np.random.default_rng(seed)
     x = UNIT_CUBE + random.uniform(-0.25, 0.25, (8, 3))
     turned = (x @ special_ortho_group.rvs(3, random_state=random).T) * 10.0**exponent

@@ -32,7 +32,7 @@ def stage():
 @pytest.fixture
 def viewport(stage):
     viewport = Viewport(Pane(stage.window))
-    viewport.draw(Frame(MESH, THEN.figures))
+    viewport.draw(Frame(MESH, THEN.quality))
     viewport.view("iso")
     return viewport
 
@@ -78,7 +78,7 @@ def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
         viewport, Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
     )
     assert 0 < viewport.extras.arrows.drawn < every
-    move(viewport, MESH.points, THEN.figures)
+    move(viewport, MESH.points, THEN.quality)
     assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
 
 
@@ -101,7 +101,7 @@ def test_arrows_are_seen_follow_the_nodes_and_go(viewport, drawn):
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=3)))
     assert (drawn() != one).any()
     look_at(viewport, Look())
-    move(viewport, MESH.points, THEN.figures)
+    move(viewport, MESH.points, THEN.quality)
     np.testing.assert_array_equal(drawn(), without)
     assert (one != plain).any()
 

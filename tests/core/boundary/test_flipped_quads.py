@@ -1,4 +1,4 @@
-"""Nodes whose quads a step would turn over stay, but for those that may turn them."""
+"""Moves that flip quads are undone, but for exempt nodes."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from tests.core.grids import grid
 
 
 def folded():
-    """A box whose top has a node that a step takes beyond its neighbour, and that node."""
+    """Make a box with a step that takes a node of its top beyond its neighbour."""
     mesh = grid(4)
     node = int(np.flatnonzero((mesh.points == [2, 2, 4]).all(axis=1))[0])
     after = mesh.points.copy()
