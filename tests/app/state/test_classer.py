@@ -30,8 +30,8 @@ def creased():
 
 
 def test_without_whiskers_kinds_are_those_of_the_core():
-    np.testing.assert_array_equal(node_kinds(MESH, 40.0), boundary_of(MESH).kind)
-    assert np.bincount(node_kinds(ball(3), 40.0)).tolist() == np.bincount(boundary_of(ball(3)).kind).tolist()
+    np.testing.assert_array_equal(node_kinds(MESH, 40.0), boundary_of(MESH).node_class)
+    assert np.bincount(node_kinds(ball(3), 40.0)).tolist() == np.bincount(boundary_of(ball(3)).node_class).tolist()
 
 
 def test_sharp_edges_that_are_left_out_are_whiskers():
@@ -40,7 +40,7 @@ def test_sharp_edges_that_are_left_out_are_whiskers():
     assert (kinds == WHISKER).any()
     on_top = mesh.points[kinds == WHISKER][:, 2] >= 8
     assert on_top.all()
-    assert (boundary_of(mesh).kind[kinds == WHISKER] == NodeClass.PATCH).all()
+    assert (boundary_of(mesh).node_class[kinds == WHISKER] == NodeClass.PATCH).all()
 
 
 def test_locked_hexes_are_counted_with_those_that_sliding_frees():
