@@ -119,7 +119,7 @@ def _thesis(args: argparse.Namespace) -> int:
     from hexmend.report.thesis import write_plots
     from hexmend.study.thesis.experiments import load
     from hexmend.study.thesis.mesh_figures import draw_figures
-    from hexmend.study.thesis.runner import chosen_tables, run_experiments
+    from hexmend.study.thesis.runner import run_experiments, select_tables
     from hexmend_app.report.captions import write_captions
     from hexmend_app.report.case import command_line
     from hexmend_app.report.figure_set import Figure
@@ -130,14 +130,14 @@ def _thesis(args: argparse.Namespace) -> int:
     for option, value in (("--width-mm", args.width_mm), ("--only", ",".join(args.only)), ("--scene", args.scene)):
         if value:
             raise wrong(option, value, "no --thesis beside it, whose figures are as the thesis has them")
-    thesis = chosen_tables(load(), [_THESIS[args.mesh]])
+    thesis = select_tables(load(), [_THESIS[args.mesh]])
     if "max_seconds" in given_limits(args):
-        thesis = thesis.limited(given_limits(args)["max_seconds"])
+        thesis = thesis.with_max_seconds(given_limits(args)["max_seconds"])
     folder = made_folder(args.output)
     with FinishesWriting():
         with Progress() as progress:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show)
-        drawn, missing = draw_figures(folder, study.measured, formats)
+        drawn, missing = draw_figures(folder, study.results, formats)
         if missing:
             raise HexmendError(missing)
         plotted, _ = write_plots(folder, study.record(), formats)

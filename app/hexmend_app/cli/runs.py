@@ -39,12 +39,12 @@ def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], Stopping
     """The methods, and the limits of each."""
     from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
     from hexmend.smoothers import DEFAULT_METHOD
-    from hexmend.study.method_spec import chosen, split
+    from hexmend.study.method_spec import parse_methods, split_names
 
     text = args.methods or DEFAULT_METHOD
-    named = [] if text == NONE else split(text)
+    named = [] if text == NONE else split_names(text)
     settings = method_settings(args, [name for name in named if not name.endswith(".toml")])
-    return chosen(named, settings, given_limits(args)), stopping_criteria(args)
+    return parse_methods(named, settings, given_limits(args)), stopping_criteria(args)
 
 
 def names(args: argparse.Namespace, count: int) -> list[str]:

@@ -1,4 +1,4 @@
-"""Several methods on one mesh, one after another: the thesis's tables."""
+"""Comparison of methods on one mesh: the tables of the thesis."""
 
 from __future__ import annotations
 
@@ -16,18 +16,20 @@ from hexmend.study.table_row import Row, Watch, common_power, initial_record, ru
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Methods side by side.
+    """Results of methods on one mesh.
 
     Parameters
     ----------
     mesh : Mesh
-        As given.
+        The mesh as given.
     initial : Summary
+        Summary of that mesh.
     stop : StoppingCriteria
+        Limits of the runs.
     rows : tuple of Row
-        A row a method, in the order of running; methods that an interruption left out have none.
+        One for each method, in order; methods that were not run after an interruption have none.
     interrupted : bool
-        Whether the user ended it before the last method was done.
+        The user ended it before the last method was done.
     """
 
     mesh: Mesh
@@ -37,9 +39,9 @@ class Comparison:
     interrupted: bool = False
 
     def record(self) -> dict[str, Any]:
-        """The comparison for other programs: what `hexmend.report` makes tables of.
+        """Return the comparison for JSON and for the tables of `hexmend.report`.
 
-        Its one objective is that of the first method that minimises one.
+        All rows have the objective of the first method that minimises one.
         """
         power = common_power(self.rows)
         return {
@@ -60,19 +62,23 @@ def compare(
 ) -> Comparison:
     """Run methods on a mesh, each from the mesh as given.
 
-    A method that fails has its row, and the others go on. KeyboardInterrupt, or `watch` returning False, ends the
-    method at work as stopped and leaves out those after it.
+    A method that fails has a row, and the others are run. KeyboardInterrupt, or `watch` returning False, stops the
+    running method and skips the others.
 
     Parameters
     ----------
     mesh : Mesh
     methods : iterable of Smoother, Recipe or str
-        Names stand for methods with their defaults; `hexmend.study.method_spec` takes settings in words. All that are
-        registered if not given.
+        A name stands for the method with default values; `hexmend.study.method_spec.parse_methods` reads settings from
+        text. All registered methods by default.
     stop : StoppingCriteria, optional
-        Limits of each method's run; a recipe has its own.
+        Limits of each run; a recipe has its own.
     watch : callable, optional
-        See `Watch`.
+        See `hexmend.study.table_row.Watch`.
+
+    Returns
+    -------
+    Comparison
 
     Examples
     --------
@@ -84,14 +90,14 @@ def compare(
     ('inverted', 'q_min', 'scaled_jacobian')
     """
     stop = stop or StoppingCriteria()
-    smoothers = [METHODS[one]() if isinstance(one, str) else one for one in methods]
+    smoothers = [METHODS[method]() if isinstance(method, str) else method for method in methods]
     rows: list[Row] = []
     interrupted = False
     try:
         for smoother in smoothers:
-            row, go_on = run_one(mesh, smoother, stop, watch)
+            row, completed = run_one(mesh, smoother, stop, watch)
             rows.append(row)
-            if not go_on:
+            if not completed:
                 interrupted = True
                 break
     except KeyboardInterrupt:  # between two runs

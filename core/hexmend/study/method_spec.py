@@ -1,4 +1,4 @@
-"""Methods as a user names them, with settings in words."""
+"""Methods and their settings from the words of a user."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS, Smoother
 
 
-def split(text: str) -> list[str]:
-    """Names between commas; where a recipe's path has commas itself and is there, it is one name.
+def split_names(text: str) -> list[str]:
+    """Split names at commas; the path of an existing recipe is one name even if it contains commas.
 
-    >>> split("laplacian, mend")
+    >>> split_names("laplacian, mend")
     ['laplacian', 'mend']
     """
     names: list[str] = []
@@ -30,49 +30,50 @@ def split(text: str) -> list[str]:
     return names
 
 
-def chosen(
+def parse_methods(
     names: Sequence[str], settings: Mapping[str, str], limits: Mapping[str, Any] | None = None
 ) -> list[Smoother | Recipe]:
-    """Methods by name, each once, with settings in words; a name that ends in `.toml` is the file of a recipe.
+    """Make methods of names and settings, each name once; a name that ends in `.toml` is the file of a recipe.
 
     Parameters
     ----------
     names : sequence of str
     settings : mapping of str to str
-        `key` is for every one of the methods that declares it, `method.key` for that one alone, and goes before;
-        recipes have values of their own.
+        `key` applies to all methods that declare it, `method.key` to one method and overrides `key`; recipes have
+        their own values.
     limits : mapping, optional
-        limits of `StoppingCriteria` for the stages of recipes, in place of their own.
+        Limits of `StoppingCriteria` for the stages of recipes, in place of their own.
 
     Raises
     ------
     ParameterError
-        For an unknown method, a value out of bounds, a key that none of the methods declares, or recipes that one would
-        take for each other.
+        For an unknown method, a value out of bounds, a key that none of the methods declares, or recipes with equal
+        titles.
     FileError
-        For a recipe that cannot be read.
+        If a recipe cannot be read.
 
     Examples
     --------
-    >>> [one.values().get("p") for one in chosen(["laplacian", "local-sd", "local-nr"], {"p": "4", "local-nr.p": "6"})]
+    >>> methods = parse_methods(["laplacian", "local-sd", "local-nr"], {"p": "4", "local-nr.p": "6"})
+    >>> [method.values().get("p") for method in methods]
     [None, 4.0, 6.0]
     """
     recipes = {name: read_recipe(name).limited(**(limits or {})) for name in names if name.endswith(".toml")}
     _check_titles(recipes)
-    keys = {name: [one.name for one in declared(METHODS[name])] for name in names if name not in recipes}
+    keys = {name: [parameter.name for parameter in declared(METHODS[name])] for name in names if name not in recipes}
     words: dict[str, dict[str, str]] = {name: {} for name in keys}
     for setting in sorted(settings, key=lambda setting: "." in setting):
         owner, dot, key = setting.rpartition(".")
         if dot and owner not in keys:
             raise ParameterError(f"{setting!r}: {owner!r} is not among the methods compared: {', '.join(keys)}")
         today = {name: current_name(METHODS[name], key) for name in keys}
-        takers = [owner] if dot else [name for name in keys if today[name] in keys[name]]
-        if not takers:
+        owners = [owner] if dot else [name for name in keys if today[name] in keys[name]]
+        if not owners:
             key = key.replace("-", "_")
-            near = difflib.get_close_matches(key, {one for several in keys.values() for one in several}, n=1)
+            near = difflib.get_close_matches(key, {known for names in keys.values() for known in names}, n=1)
             hint = f": did you mean {near[0]}?" if near else ""
             raise ParameterError(f"none of the methods {', '.join(keys)} has a parameter {key!r}{hint}")
-        for name in takers:
+        for name in owners:
             words[name][today[name]] = settings[setting]
     return [
         recipes[name] if name in recipes else from_strings(METHODS[name], words[name], owner=name)
@@ -81,11 +82,9 @@ def chosen(
 
 
 def _check_titles(recipes: Mapping[str, Recipe]) -> None:
-    """Tables name recipes by their titles: each must have one of its own."""
-    taken: dict[str, str] = dict.fromkeys(METHODS, "a method") | {"initial": "the mesh as given"}
+    """Refuse recipes of one title, which tables could not tell apart."""
+    owners: dict[str, str] = dict.fromkeys(METHODS, "a method") | {"initial": "the mesh as given"}
     for name, recipe in recipes.items():
-        if recipe.title in taken:
-            raise ParameterError(
-                f"{name} has the title {recipe.title!r} as {taken[recipe.title]} has: give it one of its own"
-            )
-        taken[recipe.title] = name
+        if recipe.title in owners:
+            raise ParameterError(f"{name} has the title of {owners[recipe.title]}, {recipe.title!r}: change it")
+        owners[recipe.title] = name

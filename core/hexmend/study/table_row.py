@@ -1,4 +1,4 @@
-"""One method on one mesh: a row of the thesis's tables."""
+"""Row of the tables of the thesis: the result of one method on one mesh."""
 
 from __future__ import annotations
 
@@ -21,39 +21,40 @@ from hexmend.smoothers import METHODS, Smoother
 
 log = logging.getLogger(__name__)
 
-#: Bins of a distribution of q(H), of equal width from 0 to 1.
+#: Number of bins of a distribution of q(H), of equal width from 0 to 1.
 BINS = 50
 
-#: Called with the run after each of its iterations; False ends it, and what was to come after it.
+#: Called with the run after each iteration; returning False ends it and all later runs.
 Watch = Callable[[Run], Any]
 
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """What one method made of a mesh.
+    """Result of one method on a mesh.
 
     Parameters
     ----------
     method : str
-        Its name; of a recipe the title.
+        Name of the method, or title of the recipe.
     parameters : mapping
     outcome : str
         The key of an `Outcome`, or "failed".
     message : str
-        The outcome with its figures, in sentences; where the method failed, why.
+        The outcome with its figures in sentences, or the reason of a failure.
     mesh : Mesh or None
-        The smoothed mesh; None where the method failed, as is what follows from it.
+        The smoothed mesh; None if the method failed.
     after : Summary or None
+        Summary of the smoothed mesh.
     iterations : int
     seconds, setup_seconds : float
     stages : tuple of StageResult
-        As in `Result`; of one method alone none.
+        Stages of a recipe, see `Result`.
     worse : tuple of str
-        What is worse than before, as in `Result`.
+        Figures that became worse, see `Result`.
     kept : int
         Number of the iteration that is the result.
     surface : SurfaceChange or None
-        As in `Result`.
+        See `Result`.
     """
 
     method: str
@@ -72,35 +73,32 @@ class Row:
 
     @property
     def seconds_per_iteration(self) -> float | None:
-        """Mean over all iterations; None where there was none."""
+        """Mean over all iterations; None if there was none."""
         return self.seconds / self.iterations if self.iterations else None
 
     @property
     def seconds_per_iteration_and_node(self) -> float | None:
-        """The same over the number of free nodes."""
+        """Mean seconds of an iteration over the number of free nodes; None if one of them is zero."""
         per_iteration, nodes = self.seconds_per_iteration, self.after.free_nodes if self.after else 0
         return per_iteration / nodes if per_iteration is not None and nodes else None
 
     @property
     def power(self) -> ObjectiveNorm | None:
-        """p and offset of the objective that the method minimises; None of a method that minimises nothing.
-
-        Of a recipe those of its last stage that minimises something.
-        """
-        runs = [one for one in self.stages or (self,) if one.method in METHODS and METHODS[one.method].optimises]
+        """Norm of the objective (3.3) that the method, or the last optimising stage of a recipe, minimises; else None."""
+        runs = [run for run in self.stages or (self,) if run.method in METHODS and METHODS[run.method].optimises]
         return METHODS[runs[-1].method](**runs[-1].parameters).power if runs else None
 
     def objective_by(self, power: ObjectiveNorm) -> float | None:
-        """The objective of the smoothed mesh by some p and offset, at delta = 0; None while any hex is inverted."""
+        """Return the objective of the smoothed mesh at delta = 0; None if a hex is inverted."""
         return objective_of(self.mesh, self.after, power) if self.after else None
 
     def record(self, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
-        """The row for other programs: the method, its run, and the figures of `Summary` at its end.
+        """Return the row for JSON: the method, its run, and the figures of `Summary` after it.
 
         Parameters
         ----------
         power : ObjectiveNorm
-            p and offset of the objective, which rows of one table have in common: `common_power`.
+            Norm of the objective, common to the rows of a table: `common_power`.
         """
         figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
         figures |= {"objective": self.objective_by(power), "objective_formula": power.formula}
@@ -123,71 +121,78 @@ class Row:
 
 
 def common_power(rows: Iterable[Row]) -> ObjectiveNorm:
-    """p and offset of the one objective by which a table compares methods: those of the first that minimises one.
-
-    The default ones where no method minimises anything.
-    """
+    """Return the norm of the first method that minimises an objective, else the default: a table compares by it."""
     return next((power for row in rows if (power := row.power) is not None), SQUARES)
 
 
 def objective_of(mesh: Mesh, summary: Summary, power: ObjectiveNorm) -> float | None:
-    """The objective of a mesh by some p and offset, at delta = 0; None while any hex is inverted.
+    """Compute the objective (3.3) of a mesh at delta = 0; None if a hex is inverted.
 
     Parameters
     ----------
     mesh : Mesh
     summary : Summary
-        Of this mesh.
+        Summary of this mesh.
     power : ObjectiveNorm
+        p and offset.
     """
     return summary.objective if power == SQUARES else objective(measure(mesh.points, mesh.hexes), *power)
 
 
 def initial_record(mesh: Mesh, summary: Summary, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
-    """The mesh that the methods of a table began with, as `Row.record` has what they made of it."""
-    own = {"objective": objective_of(mesh, summary, power), "objective_formula": power.formula}
-    return summary.to_dict() | own | {"distribution": distribution(mesh)}
+    """Return the figures of the initial mesh of a table, with the keys of `Row.record`."""
+    values = {"objective": objective_of(mesh, summary, power), "objective_formula": power.formula}
+    return summary.to_dict() | values | {"distribution": distribution(mesh)}
 
 
 def run_one(
     mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria, watch: Watch | None = None
 ) -> tuple[Row, bool]:
-    """Run one method to its end, or a recipe, under the limits of its own.
+    """Run a method, or a recipe with its own limits, to its end.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    smoother : Smoother or Recipe
+    stop : StoppingCriteria
+        Limits of a method.
+    watch : callable, optional
+        See `Watch`.
 
     Returns
     -------
     row : Row
     go_on : bool
-        False where the user ended it.
+        False if the user ended it.
     """
-    run, go_on = None, True
+    run, completed = None, True
     name, values = (smoother.title, {}) if isinstance(smoother, Recipe) else (smoother.name, smoother.values())
     try:
         run = iterate(mesh, smoother, None if isinstance(smoother, Recipe) else stop)
         for _ in run:
             if watch is not None and watch(run) is False:
-                go_on = False
+                completed = False
                 run.close()
     except KeyboardInterrupt:
-        go_on = False
-        if run is None:  # while it was prepared
-            words = "Stopped by the user before its first iteration."
-            return Row(name, values, Outcome.STOPPED.key, words, mesh, summarise(mesh)), go_on
+        completed = False
+        if run is None:  # during its preparation
+            message = "Stopped by the user before its first iteration."
+            return Row(name, values, Outcome.STOPPED.key, message, mesh, summarise(mesh)), completed
         run.close()
-    except Exception as error:  # whatever it is, the other methods' rows are worth having
+    except Exception as error:  # the rows of the other methods are still useful
         log.info("%s failed", name, exc_info=True)
         return Row(name, values, "failed", f"Failed: {error or type(error).__name__}"), True
     rows: list[Row] = []
 
-    @uninterrupted  # what the run has reached is not lost to a signal after its last iteration
+    @uninterrupted  # a signal after the last iteration must not lose the result
     def finish() -> None:
         rows.append(_row(name, run.result()))
 
     try:
         finish()
     except KeyboardInterrupt:
-        go_on = False
-    return rows[0], go_on
+        completed = False
+    return rows[0], completed
 
 
 def _row(name: str, result: Result) -> Row:
@@ -209,6 +214,6 @@ def _row(name: str, result: Result) -> Row:
 
 
 def distribution(mesh: Mesh) -> list[int]:
-    """Numbers of hexes in `BINS` bins of q(H), from 0 to 1."""
+    """Count the hexes in `BINS` bins of q(H), from 0 to 1."""
     q = measure(mesh.points, mesh.hexes).q
     return np.histogram(q, BINS, (0.0, 1.0))[0].tolist()

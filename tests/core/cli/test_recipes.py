@@ -106,7 +106,7 @@ def test_recipes_that_one_would_take_for_each_other_are_not_compared(mesh, recip
     other.write_bytes(recipe.read_bytes())
     words = ["compare", mesh, "-o", tmp_path / "tables", "--methods", f"{recipe},{other}"]
     assert main([*map(str, words)]) == 2
-    assert "has the title 'Two' as" in capsys.readouterr().err
+    assert "two.toml, 'Two': change it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)

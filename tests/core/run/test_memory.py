@@ -12,8 +12,8 @@ from hexmend.cli.main import main
 from hexmend.run.memory import FIXED, available, needed, shortage
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend.study.bench.memory import taken
-from hexmend.study.thesis.runner import planned
+from hexmend.study.bench.memory import measure_memory
+from hexmend.study.thesis.runner import planned_runs
 
 MEBIBYTE = 1 << 20
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nobody says what is free, or what is held")
@@ -63,7 +63,7 @@ def limited(megabytes, *words):
 @pytest.mark.parametrize("name", METHODS)
 def test_a_run_takes_about_what_its_method_declares(name):
     values = {"solver_iterations": 5} if name.startswith("global-") and name != "global-sd" else {}
-    row = taken(name, 30_000, 1, **values)
+    row = measure_memory(name, 30_000, 1, **values)
     assert row["mb"] < 1.5 * row["needed_mb"]
     assert row["needed_mb"] < 4 * row["mb"] + 2 * FIXED / MEBIBYTE
 
@@ -180,11 +180,11 @@ def test_every_table_of_the_thesis_has_its_methods_planned():
 
     thesis = load()
     for quick in (True, False):
-        plans = list(planned(thesis, quick))
+        plans = list(planned_runs(thesis, quick))
         assert len(plans) == len(thesis.experiments) + len(thesis.outlooks)
         for one, (works, hexes) in zip(thesis.experiments, plans, strict=False):
             assert {work.name for work in works} >= set(one.methods)
-            assert hexes == one.asked(quick)
+            assert hexes == one.requested_hexes(quick)
 
 
 def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path, monkeypatch, capsys):

@@ -16,7 +16,7 @@ from hexmend.run.recipe_files import write_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study import table_row as one_row
 from hexmend.study.compare import compare
-from hexmend.study.method_spec import chosen, split
+from hexmend.study.method_spec import parse_methods, split_names
 from hexmend.study.table_row import BINS
 
 #: Of each row in comparison.json, beside the figures of a summary.
@@ -122,7 +122,7 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(mesh, monkeypatch)
 
 
 def test_settings_reach_the_methods_that_declare_them():
-    laplacian, descent, newton = chosen(
+    laplacian, descent, newton = parse_methods(
         ["laplacian", "local-sd", "local-nr", "local-sd"], {"local-nr.delta": "0.2", "delta": "0.1", "max-cuts": "7"}
     )
     assert (laplacian.name, descent.name, newton.name) == ("laplacian", "local-sd", "local-nr")
@@ -140,7 +140,7 @@ def test_settings_reach_the_methods_that_declare_them():
 ])  # fmt: skip
 def test_wrong_settings_are_said(names, settings, message):
     with pytest.raises(ParameterError, match=message):
-        chosen(names, settings)
+        parse_methods(names, settings)
 
 
 def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, capsys):
@@ -187,6 +187,6 @@ def test_a_recipe_in_a_folder_with_commas_is_one_method(tmp_path, monkeypatch):
     path = tmp_path / "a, b" / "c,d.toml"
     write_recipe(path, Recipe.of(METHODS["laplacian"]()))
     monkeypatch.chdir(tmp_path)
-    assert split(f"mend, {path},laplacian") == ["mend", str(path), "laplacian"]
-    assert split("a, b/c,d.toml,getme") == ["a, b/c,d.toml", "getme"]
-    assert split("a, b/e.toml") == ["a", "b/e.toml"]
+    assert split_names(f"mend, {path},laplacian") == ["mend", str(path), "laplacian"]
+    assert split_names("a, b/c,d.toml,getme") == ["a, b/c,d.toml", "getme"]
+    assert split_names("a, b/e.toml") == ["a", "b/e.toml"]

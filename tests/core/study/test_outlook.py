@@ -14,10 +14,10 @@ from hexmend.report import write_outlook, write_study
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.visit_order import ORDERS
 from hexmend.study.outlook.claims import OUTLOOK_CLAIMS, from_the_boundary, middle_ground
-from hexmend.study.outlook.experiments import NEAR, Outlook, Point, TrialResult, Variant, try_outlook
+from hexmend.study.outlook.experiments import NEAR, Outlook, Point, TrialResult, Variant, run_outlook
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiments import Experiments, load
-from hexmend.study.thesis.runner import chosen_tables, run_experiments
+from hexmend.study.thesis.runner import run_experiments, select_tables
 
 THESIS = load()
 TINY = Outlook(
@@ -32,14 +32,14 @@ def stop(method):
 
 @pytest.fixture(scope="module")
 def tried():
-    return try_outlook(TINY, stop, True)[0]
+    return run_outlook(TINY, stop, True)[0]
 
 
 def test_the_outlooks_are_about_what_there_is():
     assert {one.section for one in THESIS.outlooks} == {"5.2.5", "5.2.6"}
     for one in THESIS.outlooks:
         assert one.mesh in GALLERY
-        assert set(one.methods + one.beside) <= set(METHODS)
+        assert set(one.methods + one.additional) <= set(METHODS)
         assert one.quick < one.size
         variants = one.variants()
         assert len({smoother for smoother, _ in variants}) == len(variants)
@@ -52,34 +52,34 @@ def test_every_combination_is_run_and_keeps_its_way(tried):
     assert [tuple(one.values.values()) for one in tried.variants[2:]] == [(0, 1), (0, 8), (1, 1), (1, 8)]
     for one in tried.variants:
         assert one.row.outcome == "converged"
-        assert [point.iteration for point in one.way] == list(range(1, one.row.iterations + 1))
-        assert one.way[-1].objective == pytest.approx(one.row.after.objective)
+        assert [point.iteration for point in one.history] == list(range(1, one.row.iterations + 1))
+        assert one.history[-1].objective == pytest.approx(one.row.after.objective)
         arrival = one.arrival(tried.optimum)
-        before = one.way[: arrival.iteration - 1]
+        before = one.history[: arrival.iteration - 1]
         assert arrival.objective < (1 + NEAR) * tried.optimum <= min((point.objective for point in before), default=9e9)
 
 
 def test_evaluations_are_counted_where_the_method_tells_them(tried):
     for one in tried.variants:
-        counts = [point.evaluations for point in one.way]
+        counts = [point.evaluations for point in one.history]
         if one.row.method == "global-nr":
             assert set(counts) == {None}
         else:
             assert all(0 < a < b for a, b in itertools.pairwise(counts))
     single, node = tried.find("local-patch", overlap=0, patch=1), tried.find("local-nr")
-    assert single.way[0].evaluations == pytest.approx(node.way[0].evaluations, rel=1e-3)
+    assert single.history[0].evaluations == pytest.approx(node.history[0].evaluations, rel=1e-3)
     assert tried.find("local-patch", overlap=0, patch=9) is None
 
 
 def test_an_outlook_that_is_interrupted_keeps_what_was_run():
-    part, go_on = try_outlook(TINY, stop, True, lambda run: run.smoother.name != "global-nr")
-    assert not go_on
+    part, completed = run_outlook(TINY, stop, True, lambda run: run.smoother.name != "global-nr")
+    assert not completed
     assert [one.row.outcome for one in part.variants] == ["converged", "stopped"]
     study = run_experiments(
         Experiments((), THESIS.iterations, THESIS.seconds, outlooks=(TINY, TINY)), quick=True, watch=lambda run: False
     )
     assert study.interrupted
-    assert len(study.tried) == 1
+    assert len(study.trials) == 1
     json.dumps(study.record(), allow_nan=False)
 
 
@@ -101,7 +101,7 @@ def test_the_report_has_a_line_a_run(tried, tmp_path):
 
 
 def test_sections_are_chosen_like_tables():
-    some = chosen_tables(THESIS, ["5.2.6", "4.2"])
+    some = select_tables(THESIS, ["5.2.6", "4.2"])
     assert [one.table for one in some.experiments] == ["4.2"]
     assert [one.section for one in some.outlooks] == ["5.2.6", "5.2.6"]
 

@@ -15,7 +15,7 @@ from hexmend.study.claims import CLAIMS
 from hexmend.study.outlook.claims import OUTLOOK_CLAIMS
 from hexmend.study.thesis import mesh_figures
 from hexmend.study.thesis.experiments import INITIAL, load
-from hexmend.study.thesis.runner import chosen_tables, run_experiments
+from hexmend.study.thesis.runner import run_experiments, select_tables
 
 THESIS = load()
 
@@ -53,7 +53,7 @@ free_nodes = 1
 inverted = 0
 start = "initial"
 columns = ["initial", "local-sd"]
-beside = ["global-nr"]
+additional = ["global-nr"]
 [experiment.published]
 q_mean = [0.5, 0.625]
 [[experiment]]
@@ -106,8 +106,8 @@ def test_the_thesis_is_whole():
         assert set(one.methods) <= set(METHODS)
         assert one.start == one.columns[0]
         assert one.start == INITIAL or one.start in METHODS
-        assert {*one.columns, *one.beside} - {INITIAL} <= set(THESIS.iterations)
-        assert not set(one.beside) & set(one.columns)
+        assert {*one.columns, *one.additional} - {INITIAL} <= set(THESIS.iterations)
+        assert not set(one.additional) & set(one.columns)
         assert one.quick <= one.size <= 1.01 * one.hexes
     assert set(THESIS.quick_seconds) <= set(METHODS)
 
@@ -147,20 +147,20 @@ def test_one_mesh_has_one_initial_state_in_all_tables():
 
 
 def test_tables_are_chosen_by_their_numbers():
-    assert [one.table for one in chosen_tables(THESIS, ["4.15", "4.2"]).experiments] == ["4.2", "4.15", "4.15"]
+    assert [one.table for one in select_tables(THESIS, ["4.15", "4.2"]).experiments] == ["4.2", "4.15", "4.15"]
     with pytest.raises(ParameterError, match=r"no table '5\.1'"):
-        chosen_tables(THESIS, ["4.1", "5.1"])
+        select_tables(THESIS, ["4.1", "5.1"])
 
 
 def test_runs_that_tables_share_run_once(study, seen):
-    five = study.measured[1].mesh.n_hexes
+    five = study.results[1].mesh.n_hexes
     assert seen.count((five, "local-sd")) == 1
     assert len(seen) == len(set(seen)) == 5
-    assert study.measured[1].rows["local-sd"] is study.measured[2].rows["local-sd"]
+    assert study.results[1].rows["local-sd"] is study.results[2].rows["local-sd"]
 
 
 def test_methods_begin_where_the_start_left_off_and_get_its_delta(study):
-    bridge = study.measured[0]
+    bridge = study.results[0]
     start, descent = bridge.rows["laplacian"], bridge.rows["local-sd"]
     assert bridge.start == start.after != bridge.initial
     assert descent.parameters["delta"] == 0.05
@@ -169,21 +169,21 @@ def test_methods_begin_where_the_start_left_off_and_get_its_delta(study):
 
 
 def test_a_column_without_published_figures_is_one_of_ours_alone(study, tmp_path):
-    five = study.measured[1].record()
+    five = study.results[1].record()
     assert list(five["columns"]) == [INITIAL, "local-sd", "global-nr"]
     assert "global-nr" not in five["published"]
     write_experiment(tmp_path, five)
     with open(tmp_path / "table-2-five.csv", newline="", encoding="utf-8") as file:
         rows = {row["method"]: row for row in csv.DictReader(file)}
     assert (rows["local-sd"]["thesis_q_mean"], rows["global-nr"]["thesis_q_mean"]) == ("0.625", "")
-    assert float(rows["global-nr"]["q_mean"]) == study.measured[1].rows["global-nr"].after.q_mean
+    assert float(rows["global-nr"]["q_mean"]) == study.results[1].rows["global-nr"].after.q_mean
 
 
 def test_a_method_that_is_not_there_loses_only_its_own_column(study):
-    row = study.measured[0].rows["laplace-sd"]
+    row = study.results[0].rows["laplace-sd"]
     assert row.outcome == "failed"
     assert "there is no method 'laplace-sd'" in row.message
-    assert study.measured[0].rows["local-sd"].after.inverted == 0
+    assert study.results[0].rows["local-sd"].after.inverted == 0
 
 
 def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
@@ -194,7 +194,7 @@ def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
     with open(tmp_path / "table-1-bridge-laplace.csv", newline="", encoding="utf-8") as file:
         rows = {row["method"]: row for row in csv.DictReader(file)}
     assert [row["thesis_q_min"] for row in rows.values()] == ["0.125", "", "0.5"]
-    ours = study.measured[0].rows["local-sd"].after
+    ours = study.results[0].rows["local-sd"].after
     assert float(rows["local-sd"]["q_min"]) == ours.q_min
     index = (tmp_path / "study.md").read_text(encoding="utf-8")
     for text in (f"{ours.q_min:.4f}", "0.1250", "The mesh is ours", "## Claims", "figure-4.4-scaling.png"):
@@ -225,8 +225,8 @@ def test_a_study_that_is_interrupted_keeps_its_columns(tiny):
     left = itertools.count()
     study = run_experiments(tiny, quick=True, watch=lambda run: run.smoother.name != "local-sd" or next(left) < 2)
     assert study.interrupted
-    assert [list(one.rows) for one in study.measured] == [["laplacian", "local-sd"]]
-    assert study.measured[0].rows["local-sd"].outcome == "stopped"
+    assert [list(one.rows) for one in study.results] == [["laplacian", "local-sd"]]
+    assert study.results[0].rows["local-sd"].outcome == "stopped"
     json.dumps(study.record(), allow_nan=False)
 
 
@@ -236,7 +236,7 @@ def test_a_study_that_is_interrupted_between_two_runs_keeps_what_was_measured(ti
 
     study = run_experiments(tiny, quick=True, done=done)
     assert study.interrupted
-    assert len(study.measured) == 1
+    assert len(study.results) == 1
 
 
 @pytest.mark.slow
@@ -267,7 +267,7 @@ def test_methods_have_the_studys_settings_and_runs_its_measure_of_convergence():
 
 
 def test_every_run_can_be_given_another_limit(capsys, tmp_path):
-    assert load().limited(7.0).stop("local-sd", quick=True).max_seconds == 7
-    assert load().limited(7.0).stop("getme", quick=False).max_seconds == 7
+    assert load().with_max_seconds(7.0).stop("local-sd", quick=True).max_seconds == 7
+    assert load().with_max_seconds(7.0).stop("getme", quick=False).max_seconds == 7
     assert main(["study", "thesis", "-o", str(tmp_path), "--max-seconds", "soon"]) == 2
     assert "max_seconds = 'soon' is not a number" in capsys.readouterr().err

@@ -34,7 +34,7 @@ class TaskProgress:
 
     def show(self, count: StudyProgress) -> None:
         """Show the numbers of tasks that are done and that failed, and the latest task."""
-        text = f"{count.kept + count.done:,} of {count.tasks:,} tasks"
+        text = f"{count.reused + count.done:,} of {count.tasks:,} tasks"
         if count.failed:
             text += f", {count.failed:,} without a result"
         if count.last:

@@ -1,1 +1,1 @@
-"""Studies: meshes x methods x parameters, each task in a process of its own, on one machine or on a cluster."""
+"""Studies: meshes x methods x parameters, each task in its own process, on one machine or on a cluster."""

@@ -1,4 +1,4 @@
-"""A case of a study: what is done to each of its meshes."""
+"""Case of a study: a method with values and limits, which is run on each mesh."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend.smoothers import Smoother
 
 @dataclass(frozen=True)
 class TaskLimits(Parametrised):
-    """What the process of a task may take; past it the task has failed, and its row says so."""
+    """Limits of the process of a task; a task that exceeds them fails."""
 
     max_seconds: float = parameter(
         0.0,
@@ -36,57 +36,57 @@ class TaskLimits(Parametrised):
 
 @dataclass(frozen=True)
 class Case:
-    """A method with its values and limits, or a recipe.
+    """Method with its values and limits, or a recipe.
 
     Parameters
     ----------
     name : str
-        Its own in the study: what tables call it.
-    what : Smoother or Recipe
+        Unique in the study; tables use it.
+    smoother : Smoother or Recipe
     stop : StoppingCriteria or None
-        Limits of a method's run; None for a recipe, whose stages have theirs.
+        Limits of the run of a method; None for a recipe, whose stages have their own.
     """
 
     name: str
-    what: Smoother | Recipe
+    smoother: Smoother | Recipe
     stop: StoppingCriteria | None = None
 
     @property
     def stages(self) -> tuple[Stage, ...]:
-        """What is run, one after another."""
-        return (
-            self.what.stages if isinstance(self.what, Recipe) else (Stage(self.what, self.stop or StoppingCriteria()),)
-        )
+        """Stages of the run, in order."""
+        if isinstance(self.smoother, Recipe):
+            return self.smoother.stages
+        return (Stage(self.smoother, self.stop or StoppingCriteria()),)
 
     @property
     def method(self) -> str:
-        """The method's name, or a recipe's title."""
-        return self.what.title if isinstance(self.what, Recipe) else self.what.name
+        """Name of the method, or title of the recipe."""
+        return self.smoother.title if isinstance(self.smoother, Recipe) else self.smoother.name
 
     @property
     def parameters(self) -> str:
-        """Every value of the method, as `name=value` words; a recipe has none."""
-        values = {} if isinstance(self.what, Recipe) else self.what.values()
+        """Values of the method, as `name=value` words; "" for a recipe."""
+        values = {} if isinstance(self.smoother, Recipe) else self.smoother.values()
         return " ".join(f"{name}={value}" for name, value in values.items())
 
     @property
     def slides(self) -> bool:
-        """Whether any of it lets nodes of the boundary slide."""
+        """True if a stage lets nodes of the boundary slide."""
         return any(stage.smoother.slides for stage in self.stages)
 
     def values(self) -> dict[str, Any]:
-        """The case as data, without its name: its title if it is a recipe, and every value of its stages."""
-        title = self.what.title if isinstance(self.what, Recipe) else None
+        """Return the case as data, without its name: the title of a recipe, and all values of the stages."""
+        title = self.smoother.title if isinstance(self.smoother, Recipe) else None
         return {"recipe": title, "stages": [stage.values() for stage in self.stages]}
 
 
-def case_of(data: Mapping[str, Any]) -> Case:
-    """The case of which `data` are the `values`; it is called after its method or recipe.
+def read_case(data: Mapping[str, Any]) -> Case:
+    """Make a case from its `values`; its name is that of the method or recipe.
 
     Raises
     ------
     ParameterError
-        Where this version of Hexmend, or this machine's, does not know them.
+        For data that this version of Hexmend does not know.
     """
     stages = tuple(read_stage(number, one) for number, one in enumerate(data["stages"], 1))
     if data["recipe"] is not None:

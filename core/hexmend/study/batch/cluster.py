@@ -1,4 +1,4 @@
-"""Tasks on a cluster, through Dask's scheduler: what a worker that dies had begun, another one does again."""
+"""Tasks on a cluster, through the scheduler of Dask, which repeats tasks of workers that died on others."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ if TYPE_CHECKING:
     from distributed import Client, Future, Worker
 
 #: Seconds to wait for the scheduler.
-PATIENCE = 30
+CONNECT_SECONDS = 30
 
-#: How often a task is done again that a worker could not do; Dask itself does again what dead workers had begun.
+#: Repetitions of a task that failed on a worker; Dask itself repeats tasks of workers that died.
 RETRIES = 2
 
 
 class Cluster:
-    """Does tasks on the workers of a scheduler, which see the meshes under the same paths.
+    """Runs tasks on the workers of a scheduler; all of them see the meshes under the same paths.
 
     Parameters
     ----------
     address : str
-        The scheduler's, such as tcp://host:8786.
+        Address of the scheduler, such as tcp://host:8786.
 
     Raises
     ------
     ParameterError
-        Where Dask's `distributed` is not installed.
+        If `distributed` of Dask is not installed.
     """
 
     def __init__(self, address: str):
@@ -47,34 +47,36 @@ class Cluster:
         self._address = address
 
     def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:
-        """Each task with its answer, as it is done. Leaving it ends what is at work.
+        """Yield each task with its answer when it is done. Closing the generator ends running tasks.
 
         Raises
         ------
         HexmendError
-            Where there is no such scheduler, or it goes.
+            If there is no such scheduler, or it ends.
         """
         from distributed import as_completed
 
         with _quiet(), self._client() as client:
-            run = uuid4().hex  # else what another study has had done would be taken for it, or be done twice
-            done = {
-                client.submit(work, asdict(task), key=f"hexmend-{task.key}-{run}", retries=RETRIES, pure=False): task
+            run = uuid4().hex  # tasks of another study must not share keys with these
+            running = {
+                client.submit(
+                    run_on_worker, asdict(task), key=f"hexmend-{task.key}-{run}", retries=RETRIES, pure=False
+                ): task
                 for task in tasks
             }
             try:
-                for future in as_completed(list(done), loop=client.loop):
+                for future in as_completed(list(running), loop=client.loop):
                     row = _answer(self._address, future)
-                    future.release()  # what is here is not done again where the worker dies that has it too
-                    yield done.pop(future), row
+                    future.release()  # else Dask repeats the task if the worker that has the answer dies
+                    yield running.pop(future), row
             finally:
-                client.cancel(list(done), force=True)
+                client.cancel(list(running), force=True)
 
     def _client(self) -> Client:
         from distributed import Client
 
         try:
-            return Client(self._address, timeout=PATIENCE, set_as_default=False)
+            return Client(self._address, timeout=CONNECT_SECONDS, set_as_default=False)
         except (OSError, ValueError) as error:
             raise HexmendError(
                 f"no scheduler answers at {self._address!r} ({_first_line(error)}): start one, by  dask scheduler  "
@@ -84,7 +86,7 @@ class Cluster:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Inside the block Dask logs nothing: what is wrong is said here, in one sentence."""
+    """Context in which Dask logs nothing: errors are raised here, in one sentence."""
     loggers = [
         logging.getLogger(name) for name in list(logging.root.manager.loggerDict) if name.startswith("distributed")
     ]
@@ -98,13 +100,13 @@ def _quiet() -> Iterator[None]:
             logger.setLevel(level)
 
 
-def work(task: dict[str, Any]) -> dict[str, Any]:
-    """What a worker does: the task, in a process of its own, with the worker's share of memory."""
+def run_on_worker(task: dict[str, Any]) -> dict[str, Any]:
+    """Run a task on a worker, in its own process, with its share of the memory of the worker."""
     from distributed import get_worker
 
     worker = get_worker()
     key = worker.get_current_task()
-    row = run_task(Task(**task), memory_mb=_share_mb(worker), unwanted=lambda: _cancelled(worker, key))
+    row = run_task(Task(**task), memory_mb=_share_mb(worker), cancelled=lambda: _cancelled(worker, key))
     return row if row is not None else answer(Status.LOST, "It was cancelled.")
 
 
@@ -114,9 +116,9 @@ def _cancelled(worker: Worker, key: str) -> bool:
 
 
 def _share_mb(worker: Worker) -> int:
-    """MiB for each of the tasks that a worker does at a time."""
-    whole = worker.memory_manager.memory_limit or available() or 0
-    return (whole >> 20) // worker.state.nthreads
+    """Return the memory of each task that a worker runs at a time, MiB."""
+    total = worker.memory_manager.memory_limit or available() or 0
+    return (total >> 20) // worker.state.nthreads
 
 
 def _answer(address: str, future: Future) -> dict[str, Any]:
@@ -124,9 +126,9 @@ def _answer(address: str, future: Future) -> dict[str, Any]:
         return future.result()
     if future.status == "error":
         error = future.exception()
-        return answer(Status.LOST, f"The cluster could not do it: {type(error).__name__}: {_first_line(error)}")
+        return answer(Status.LOST, f"The cluster could not run it: {type(error).__name__}: {_first_line(error)}")
     raise HexmendError(
-        f"the scheduler at {address} has gone: what was done is kept, and the same command goes on with it"
+        f"the scheduler at {address} has gone: finished tasks are kept, and the same command continues with the others"
     )
 
 

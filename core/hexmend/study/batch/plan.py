@@ -1,6 +1,6 @@
-"""The recipe of a study as TOML: methods, lists of values that are multiplied out, and limits; docs/study-many.md.
+"""Recipe of a study as TOML: methods, lists of values whose combinations are run, and limits; docs/study-many.md.
 
-Only data is read: nothing in a file is ever run.
+Files are data: nothing in them is executed.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
 from hexmend.toml_text import parse_toml
 
-#: Cases of one study.
-MOST = 10_000
+#: Most cases of one study.
+MAX_CASES = 10_000
 
-#: What stands for the mesh's name in that of its surface.
-NAME = "{mesh}"
+#: Placeholder for the name of the mesh in that of its surface.
+MESH_NAME = "{mesh}"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a study does to each of its meshes.
+    """Cases and limits of a study.
 
     Parameters
     ----------
     title : str
     cases : tuple of Case
-        Each with a name of its own.
+        With unique names.
     limits : TaskLimits
-        Of each task.
+        Limits of each task.
     surface : Path or None
-        What the boundary slides on where it does, if not itself; `{mesh}` in it is the mesh's name without suffix.
+        Surface on which the boundary slides, if not its own; `{mesh}` in it is the name of the mesh without suffix.
     """
 
     title: str
@@ -51,41 +51,41 @@ class Plan:
     surface: Path | None = None
 
     def surface_of(self, mesh: Path) -> Path | None:
-        """The file of the surface for a mesh."""
-        return None if self.surface is None else Path(str(self.surface).replace(NAME, mesh.stem))
+        """Return the path of the surface for a mesh."""
+        return None if self.surface is None else Path(str(self.surface).replace(MESH_NAME, mesh.stem))
 
 
 def read_plan(path: str | os.PathLike[str]) -> Plan:
-    """Read the recipe of a study. Recipes and surfaces that it names are beside it.
+    """Read the recipe of a study. Paths of recipes and surfaces in it are relative to its folder.
 
     Raises
     ------
     FileError
-        Where it, or a recipe that it names, cannot be read or is none: it names the line, or the table and the key.
+        If it, or a recipe that it names, cannot be read or is malformed; names the line, or the table and the key.
     """
     path = Path(path)
-    return read_toml(path, "a recipe", lambda text: plan_of(text, path.parent, path.stem))
+    return read_toml(path, "a recipe", lambda text: parse_plan(text, path.parent, path.stem))
 
 
-def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
-    """The plan that TOML text describes.
+def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
+    """Parse the recipe of a study.
 
     Parameters
     ----------
     text : str
     folder : Path
-        Where the files are that it names.
+        Folder of the files that it names.
     title : str
-        Where it has none.
+        Title of a recipe without one.
 
     Raises
     ------
     ParameterError
-        Naming the line where it is no TOML, else the table, the key and what was expected there.
+        For malformed TOML (names the line) or values (names table, key and what was expected).
 
     Examples
     --------
-    >>> plan = plan_of('''
+    >>> plan = parse_plan('''
     ... format = 2
     ... methods = ["laplacian"]
     ... [[method]]
@@ -102,15 +102,17 @@ def plan_of(text: str, folder: Path, title: str = "Study") -> Plan:
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
     stop, boundary = table_in(data, "stop"), _boundary(table_in(data, "boundary"))
     surface = boundary.pop("surface", None)
-    made = (case for place, table in _tables(data) for case in _placed(place, _cases(table, folder, stop, boundary)))
-    cases = tuple(itertools.islice(made, MOST + 1))
+    found = (
+        case for place, table in _tables(data) for case in _locate_errors(place, _cases(table, folder, stop, boundary))
+    )
+    cases = tuple(itertools.islice(found, MAX_CASES + 1))
     if not cases:
         raise ParameterError('the study has no method: expected a line such as  methods = ["mend", "getme"]')
-    if len(cases) > MOST:
-        raise ParameterError(f"lists multiplied out make more than {MOST:,} cases: shorten them")
+    if len(cases) > MAX_CASES:
+        raise ParameterError(f"the combinations of the lists are more than {MAX_CASES:,} cases: shorten them")
     for name, count in Counter(case.name for case in cases).items():
         if count > 1:
-            raise ParameterError(f"two of the methods would be called {name!r} in tables: give them a  title  each")
+            raise ParameterError(f"two of the methods would be called {name!r} in tables: give each of them a  title")
     if surface is not None and not any(case.slides for case in cases):
         raise ParameterError("surface names what the boundary slides on, and it is fixed: say boundary = slide")
     limits = from_values(TaskLimits, table_in(data, "task"), owner="task")
@@ -125,7 +127,7 @@ def _boundary(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Each method's table, with where it stands."""
+    """Yield the table of each method, with its place in the file."""
     names, tables = data.get("methods", []), data.get("method", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
         raise ParameterError(f'methods = {names!r} is no list of names: expected such as  ["mend", "chain.toml"]')
@@ -137,8 +139,8 @@ def _tables(data: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
         yield f"[[method]] {number}", table
 
 
-def _placed(place: str, cases: Iterator[Case]) -> Iterator[Case]:
-    """The same, its errors naming the place."""
+def _locate_errors(place: str, cases: Iterator[Case]) -> Iterator[Case]:
+    """Yield the cases; errors name the place."""
     try:
         yield from cases
     except ParameterError as error:
@@ -148,7 +150,7 @@ def _placed(place: str, cases: Iterator[Case]) -> Iterator[Case]:
 def _cases(
     table: Mapping[str, Any], folder: Path, stop: Mapping[str, Any], boundary: Mapping[str, Any]
 ) -> Iterator[Case]:
-    """A case for each choice from the lists of a method's table; the last list changes first."""
+    """Yield a case for each combination of the lists in the table of a method; the last list changes first."""
     check_keys("the method's table", table, ("method", "recipe", "title", "parameters", "stop"))
     named = [key for key in ("method", "recipe") if key in table]
     if len(named) != 1:
@@ -156,37 +158,37 @@ def _cases(
     for key in (*named, "title"):
         if not isinstance(table.get(key, ""), str):
             raise ParameterError(f"{key} = {table[key]!r} is no text: expected it in quotes")
-    stops = _plain(stop) | _plain(table_in(table, "stop"))
+    stops = _underscored(stop) | _underscored(table_in(table, "stop"))
     if "recipe" in table:
         if "parameters" in table:
             raise ParameterError("a recipe has values of its own: leave out parameters, or change the recipe")
         recipe = read_recipe(folder / table["recipe"])
         for limits, words in _choices(stops):
-            from_values(StoppingCriteria, limits, owner="stop")
+            from_values(StoppingCriteria, limits, owner="stop")  # refuses unknown limits
             yield Case(table.get("title", recipe.title) + words, recipe.limited(**limits))
         return
     method = METHODS[table["method"]]
     known = {one.name for one in declared(method)}
     for key in boundary:
         if key not in known:
-            raise ParameterError(f"[boundary] {key}: {method.name} knows fixed boundaries alone")
-    for values, words in _choices(dict(boundary) | _plain(table_in(table, "parameters"))):
+            raise ParameterError(f"[boundary] {key}: {method.name} keeps the boundary fixed")
+    for values, words in _choices(dict(boundary) | _underscored(table_in(table, "parameters"))):
         smoother = from_values(method, values, owner=method.name)
         for limits, more in _choices(stops):
             name = table.get("title", method.name) + words + more
             yield Case(name, smoother, from_values(StoppingCriteria, limits, owner="stop"))
 
 
-def _plain(table: Mapping[str, Any]) -> dict[str, Any]:
+def _underscored(table: Mapping[str, Any]) -> dict[str, Any]:
     return {key.replace("-", "_"): value for key, value in table.items()}
 
 
 def _choices(table: Mapping[str, Any]) -> Iterator[tuple[dict[str, Any], str]]:
-    """Every choice of one value from each list of a table, with the chosen ones in words."""
+    """Yield each combination of one value from each list of a table, and its values as text."""
     for key, value in table.items():
         if value == []:
-            raise ParameterError(f"{key} = [] leaves nothing to be done: expected one value at least")
+            raise ParameterError(f"{key} = [] leaves nothing to run: expected at least one value")
     lists = [value if isinstance(value, list) else [value] for value in table.values()]
     for values in itertools.product(*lists):
-        chosen = dict(zip(table, values, strict=True))
-        yield chosen, "".join(f" {key}={chosen[key]}" for key, value in table.items() if isinstance(value, list))
+        choice = dict(zip(table, values, strict=True))
+        yield choice, "".join(f" {key}={choice[key]}" for key, value in table.items() if isinstance(value, list))

@@ -1,4 +1,4 @@
-"""A task in a process of its own: what ends the process is a row with its reason, and ends nothing else."""
+"""Task in its own process: if the process crashes, its row has the reason, and other tasks continue."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from hexmend.study.batch.process_group import end_group
 from hexmend.study.batch.table_columns import Status, answer, is_answer
 from hexmend.study.batch.task import Task
 
-#: Seconds between looks at whether a task is still wanted.
-LOOK = 0.25
+#: Seconds between checks whether a task was cancelled.
+POLL_SECONDS = 0.25
 
 _PROGRAM = """
 import sys
@@ -28,47 +28,47 @@ from hexmend.study.batch.worker import main
 main(__version__)
 """
 _THREADS = ("HEXMEND_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
-#: What a process says last that may have no more memory.
+#: Texts in the last line of a process that ran out of memory.
 _NO_MEMORY = ("MemoryError", "bad_alloc", "Cannot allocate memory", "Resource temporarily unavailable")
 
 
 def run_task(
-    task: Task, *, memory_mb: int, threads: int | None = None, unwanted: Callable[[], bool] = lambda: False
+    task: Task, *, memory_mb: int, threads: int | None = None, cancelled: Callable[[], bool] = lambda: False
 ) -> dict[str, Any] | None:
-    """Do a task in another process and wait for its answer.
+    """Run a task in another process and wait for its answer.
 
     Parameters
     ----------
     task : Task
     memory_mb : int
-        What it may use, where the task has no limit of its own.
+        Memory limit of a task without its own.
     threads : int, optional
-        It computes with; as the environment says if None.
+        Number of threads; that of the environment if None.
     unwanted : callable
-        Asked again and again; True ends the process.
+        Called repeatedly; True ends the process.
 
     Returns
     -------
     dict or None
-        As `hexmend.study.batch.table_columns.answer`; None where it became unwanted.
+        See `hexmend.study.batch.table_columns.answer`; None if it was cancelled.
     """
     began = monotonic()
-    own = dict.fromkeys(_THREADS, str(threads)) if threads else {}
-    with tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as errors:
+    environment = dict.fromkeys(_THREADS, str(threads)) if threads else {}
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
         try:
             process = subprocess.Popen(
                 [sys.executable, "-c", _PROGRAM, *sys.path],
                 stdin=subprocess.PIPE,
-                stdout=said,
+                stdout=output,
                 stderr=errors,
-                env=os.environ | own,
+                env=os.environ | environment,
                 start_new_session=True,
             )
         except OSError as error:
             return answer(Status.LOST, f"No process could be started for it: {error.strerror or error}.")
         try:
-            asked = {"task": asdict(task), "memory_mb": task.max_memory_mb or memory_mb}
-            late = _wait(process, json.dumps(asked), task.max_seconds, unwanted)
+            request = {"task": asdict(task), "memory_mb": task.max_memory_mb or memory_mb}
+            late = _wait(process, json.dumps(request), task.max_seconds, cancelled)
         finally:
             if process.poll() is None:
                 end_group(process.pid)
@@ -76,24 +76,24 @@ def run_task(
             process.stdin.close()
         if late is None:
             return None
-        row = _late(task) if late else _answer(process.returncode, said, errors)
+        row = _late(task) if late else _answer(process.returncode, output, errors)
     return row | {"task_seconds": round(monotonic() - began, 3)}
 
 
-def _wait(process: subprocess.Popen, asked: str, seconds: float, unwanted: Callable[[], bool]) -> bool | None:
-    """Wait for the process's end; True where it is out of time, None where it is unwanted."""
+def _wait(process: subprocess.Popen, request: str, seconds: float, cancelled: Callable[[], bool]) -> bool | None:
+    """Wait for the end of the process. Return True if it is out of time, None if it was cancelled."""
     end = monotonic() + seconds if seconds else float("inf")
     try:
-        process.stdin.write(asked.encode() + b"\n")
+        process.stdin.write(request.encode() + b"\n")
         process.stdin.flush()
-    except OSError:  # it has ended already, and has said why
+    except OSError:  # it has ended already; its last line has the reason
         pass
     while True:
         try:
-            process.wait(min(LOOK, max(0.0, end - monotonic())))
+            process.wait(min(POLL_SECONDS, max(0.0, end - monotonic())))
             return False
         except subprocess.TimeoutExpired:
-            if unwanted():
+            if cancelled():
                 return None
             if monotonic() >= end:
                 return True
@@ -103,10 +103,10 @@ def _late(task: Task) -> dict[str, Any]:
     return answer(Status.TIME, f"It was not done within {task.max_seconds:g} s, and was ended.")
 
 
-def _answer(status: int, said: IO[bytes], errors: IO[bytes]) -> dict[str, Any]:
-    said.seek(0)
+def _answer(status: int, output: IO[bytes], errors: IO[bytes]) -> dict[str, Any]:
+    output.seek(0)
     try:
-        row = json.loads(said.read())
+        row = json.loads(output.read())
         if status == 0 and is_answer(row):
             return row
     except ValueError:
@@ -125,8 +125,8 @@ def _ending(status: int) -> str:
 
 
 def _last_line(errors: IO[bytes]) -> str:
-    """The last line of what a process has said, short and printable."""
+    """Return the last line of the errors of a process, short and printable."""
     errors.seek(max(0, errors.seek(0, os.SEEK_END) - 2000))
     lines = errors.read().decode(errors="replace").split("\n")
-    last = next((line for line in reversed(lines) if line.strip()), "it did not say why.")
+    last = next((line for line in reversed(lines) if line.strip()), "it gave no reason.")
     return "".join(letter if letter.isprintable() else "?" for letter in last)[:300]

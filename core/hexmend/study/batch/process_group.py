@@ -1,4 +1,4 @@
-"""Processes with all that they start: begun apart from what the terminal signals, ended at once."""
+"""Groups of processes: a process with all that it started is ended at once."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from contextlib import suppress
 
 
 def end_group(number: int) -> None:
-    """End a process that leads a group, and all of its group; nothing happens where it has ended.
+    """End the leader of a process group and all of the group; does nothing if it has ended.
 
     Parameters
     ----------
     number : int
-        Of the process.
+        Process id of the leader.
     """
     with suppress(ProcessLookupError, PermissionError):
         if hasattr(os, "killpg"):

@@ -1,4 +1,4 @@
-"""A study: what is kept is taken, the rest is done, and all of it is one table."""
+"""Study of many meshes: reuses stored answers, runs the other tasks, and makes one table of all."""
 
 from __future__ import annotations
 
@@ -19,40 +19,40 @@ from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import PLACE, Status, answer
 from hexmend.study.batch.task import Task, content_hash
 
-#: A mesh as it was named, and the name of a case.
-_Place: TypeAlias = tuple[str, str]
-#: Tasks by their keys, with the places that each fills; and the answers by place.
-_Tasks: TypeAlias = dict[str, tuple[Task, list[_Place]]]
-_Rows: TypeAlias = dict[_Place, dict[str, Any]]
+#: Path of a mesh as given, and name of a case.
+_RowKey: TypeAlias = tuple[str, str]
+#: Tasks by key, each with the table rows that it fills; answers by table row.
+_Tasks: TypeAlias = dict[str, tuple[Task, list[_RowKey]]]
+_Rows: TypeAlias = dict[_RowKey, dict[str, Any]]
 
 
 class Workers(Protocol):
-    """Who does tasks: `Local` or `Cluster`."""
+    """Runs tasks: `Local` or `Cluster`."""
 
     def answers(self, tasks: Sequence[Task]) -> Generator[tuple[Task, dict[str, Any]]]:
-        """Each task with its answer, as it is done; closing the iterator ends what is at work."""
+        """Yield each task with its answer when it is done. Closing the generator ends running tasks."""
 
 
 @dataclass(frozen=True)
 class StudyProgress:
-    """How far a study is.
+    """Progress of a study.
 
     Parameters
     ----------
     tasks : int
-        All of them.
-    kept : int
-        Those that were done before.
+        Number of tasks.
+    reused : int
+        Tasks with stored answers.
     done : int
-        Those that have been done now.
+        Tasks that were run now.
     failed : int
-        Those without a result, of both.
+        Tasks without a result, of both.
     last : str
-        Mesh and case of the one done last.
+        Mesh and case of the last task.
     """
 
     tasks: int
-    kept: int = 0
+    reused: int = 0
     done: int = 0
     failed: int = 0
     last: str = ""
@@ -60,35 +60,35 @@ class StudyProgress:
 
 @dataclass(frozen=True)
 class StudyResult:
-    """What a study gave.
+    """Result of a study.
 
     Parameters
     ----------
     plan : Plan
     rows : tuple of dict
-        `COLUMNS` of each task that was done, mesh after mesh, in the order of the cases.
-    count : StudyProgress
+        `COLUMNS` of each finished task, mesh after mesh, in the order of the cases.
+    progress : StudyProgress
     interrupted : bool
-        Whether the user ended it; rows that are missing are left for another time.
+        The user ended it: rows are missing.
     """
 
     plan: Plan
     rows: tuple[dict[str, Any], ...]
-    count: StudyProgress
+    progress: StudyProgress
     interrupted: bool
 
     def record(self) -> dict[str, Any]:
-        """The study for other programs: what `hexmend.report` writes its tables from."""
+        """Return the study for JSON and for the tables of `hexmend.report`."""
         return {
             "title": self.plan.title,
             "cases": [case.name for case in self.plan.cases],
-            "tasks": self.count.tasks,
+            "tasks": self.progress.tasks,
             "interrupted": self.interrupted,
             "rows": list(self.rows),
         }
 
 
-def study_many(
+def run_study(
     plan: Plan,
     meshes: Sequence[Path],
     store: Store,
@@ -97,11 +97,11 @@ def study_many(
     version: str,
     again: bool = False,
     meshes_to: Path | None = None,
-    watch: Callable[[StudyProgress], Any] = lambda count: None,
+    watch: Callable[[StudyProgress], Any] = lambda progress: None,
 ) -> StudyResult:
-    """Do each of a plan's cases on each mesh, but for what is kept.
+    """Run all cases of a plan on all meshes; stored answers are reused.
 
-    KeyboardInterrupt ends it; what was done is kept.
+    KeyboardInterrupt ends it; finished tasks are stored.
 
     Parameters
     ----------
@@ -110,57 +110,50 @@ def study_many(
     store : Store
     workers : Workers
     version : str
-        Of Hexmend.
+        Version of Hexmend.
     again : bool
-        Do what is kept, too.
+        Run tasks again whose answers are stored.
     meshes_to : Path, optional
-        Folder for the meshes that result.
+        Folder for the smoothed meshes.
     watch : callable
-        Called with the count at first, and after each task.
+        Called with the progress at the start and after each task.
 
     Raises
     ------
     FileError
-        Where an answer cannot be kept.
+        If an answer cannot be stored.
     """
-    tasks, rows = _planned(plan, meshes, version, meshes_to)
+    tasks, rows = _plan_tasks(plan, meshes, version, meshes_to)
     unreadable = len(rows)
-    kept = {} if again else {key: row for key, (task, _) in tasks.items() if (row := store.kept(task)) is not None}
-    for key, row in kept.items():
+    stored = {} if again else {key: row for key, (task, _) in tasks.items() if (row := store.load(task)) is not None}
+    for key, row in stored.items():
         rows |= dict.fromkeys(tasks[key][1], row)
-    count = StudyProgress(
-        tasks=len(dict.fromkeys(meshes)) * len(plan.cases),
-        kept=len(rows) - unreadable,
-        done=unreadable,
-        failed=_failed(rows),
-    )
-    watch(count)
-    todo = [task for key, (task, _) in tasks.items() if key not in kept]
-    todo.sort(key=lambda task: -os.path.getsize(task.mesh))  # so that no large one is left for the end
+    todo = [task for key, (task, _) in tasks.items() if key not in stored]
+    todo.sort(key=lambda task: -os.path.getsize(task.mesh))  # the largest first: none is left for the end
+    count = len(dict.fromkeys(meshes)) * len(plan.cases)
+    progress = StudyProgress(count, reused=len(rows) - unreadable, done=unreadable, failed=_failed(rows))
+    watch(progress)
     interrupted = False
     try:
         with closing(workers.answers(todo)) as answers:
             for task, row in answers:
-                store.keep(task, row)
+                store.save(task, row)
                 places = tasks[task.key][1]
                 rows |= dict.fromkeys(places, row)
                 mesh, case = places[0]
-                done = count.done + len(places)
-                count = replace(count, done=done, failed=_failed(rows), last=f"{Path(mesh).name}, {case}")
-                watch(count)
+                done = progress.done + len(places)
+                progress = replace(progress, done=done, failed=_failed(rows), last=f"{Path(mesh).name}, {case}")
+                watch(progress)
     except KeyboardInterrupt:
         interrupted = True
-    return StudyResult(plan, tuple(_table(plan, meshes, tasks, rows)), count, interrupted)
+    return StudyResult(plan, tuple(_table(plan, meshes, tasks, rows)), progress, interrupted)
 
 
-def _planned(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Path | None) -> tuple[_Tasks, _Rows]:
-    """What is to be done, and the answers for meshes that cannot be read.
-
-    Files of the same content are one task.
-    """
+def _plan_tasks(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Path | None) -> tuple[_Tasks, _Rows]:
+    """Make the tasks, and the answers for meshes that cannot be read. Files of equal content are one task."""
     tasks: _Tasks = {}
     rows: _Rows = {}
-    hashed = cache(content_hash)
+    cached_hash = cache(content_hash)
     for mesh in dict.fromkeys(meshes):
         for case in plan.cases:
             place = str(mesh), case.name
@@ -168,11 +161,11 @@ def _planned(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Path |
                 surface = plan.surface_of(mesh) if case.slides else None
                 task = Task(
                     mesh=str(mesh.absolute()),
-                    mesh_hash=hashed(mesh),
+                    mesh_hash=cached_hash(mesh),
                     case=case.values(),
                     version=version,
                     surface=str(surface.absolute()) if surface else "",
-                    surface_hash=hashed(surface) if surface else "",
+                    surface_hash=cached_hash(surface) if surface else "",
                     **plan.limits.values(),
                 )
             except FileError as error:
@@ -185,7 +178,7 @@ def _planned(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Path |
 
 
 def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> Iterator[dict[str, Any]]:
-    """The rows that there are, in order and with what is known of their places."""
+    """Yield the rows that exist, in order, with the columns of their mesh and case."""
     keys = {place: (task.mesh_hash, key) for key, (task, places) in tasks.items() for place in places}
     for mesh in dict.fromkeys(map(str, meshes)):
         for case in plan.cases:
@@ -195,7 +188,7 @@ def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> It
 
 
 def _name(mesh: Path, case: Case, key: str) -> str:
-    """Of the file of a result: after mesh and case, and its own."""
+    """Return the file name of a result: mesh, case and part of the key."""
     suffix = mesh.suffix if mesh.suffix.lower() in writable_suffixes() else ".vtu"
     return f"{mesh.stem}-{re.sub(r'[^A-Za-z0-9]+', '-', case.name)[:80]}-{key[:8]}{suffix}"
 

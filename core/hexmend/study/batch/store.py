@@ -1,4 +1,4 @@
-"""Answers that are kept: a small file each, by the task's key, written as a whole or not at all."""
+"""Store of answers: a small file each, named by the key of the task, written as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.study.batch.table_columns import Status, is_answer
 from hexmend.study.batch.task import Task
 
-#: Bytes of a file; the message of a run is the only part that varies.
+#: Most bytes of a file; only the message of a run varies in length.
 _MOST = 1_000_000
 
-#: Failures that another limit may turn into a result, and what limits them.
+#: Failures that another limit may turn into a result, with the name of the limit.
 _LIMITED = {Status.TIME: "max_seconds", Status.MEMORY: "max_memory_mb"}
 
 
@@ -24,17 +24,17 @@ class Store:
     Parameters
     ----------
     folder : Path
-        It is there.
+        Exists already.
     """
 
     def __init__(self, folder: Path):
         self._folder = folder
 
-    def kept(self, task: Task) -> dict[str, Any] | None:
-        """The answer that is kept and still holds, else None: the task is to be done.
+    def load(self, task: Task) -> dict[str, Any] | None:
+        """Return the stored answer, None if the task is to be run.
 
-        Not so of what was lost, of what failed by another limit or by what was free, and where the mesh that was
-        written is not there. A file that holds no answer, whatever it holds, is none.
+        It is run again if the process was lost, if it failed by a limit that has changed, or if the mesh that it wrote
+        is missing. Files without a valid answer are ignored.
         """
         path = self._path(task)
         try:
@@ -52,8 +52,8 @@ class Store:
             return None
         return row
 
-    def keep(self, task: Task, row: Mapping[str, Any]) -> None:
-        """Keep an answer, in place of the one that was there."""
+    def save(self, task: Task, row: Mapping[str, Any]) -> None:
+        """Store an answer; it replaces an older one."""
         limits = {"max_seconds": task.max_seconds, "max_memory_mb": task.max_memory_mb}
         stored = {
             "key": task.key,
@@ -73,8 +73,8 @@ class Store:
 
 
 def _same_limit(task: Task, status: str, limits: object) -> bool:
-    which = _LIMITED.get(Status(status))
-    if which is None:
+    name = _LIMITED.get(Status(status))
+    if name is None:
         return True
-    limit = getattr(task, which)  # 0 stands for what was free then
-    return isinstance(limits, dict) and limits.get(which) == limit != 0
+    limit = getattr(task, name)  # 0: a share of the memory that was free then
+    return isinstance(limits, dict) and limits.get(name) == limit != 0

@@ -1,4 +1,4 @@
-"""What the table of a study says of each task: one declaration for CSV, Parquet, the check of stored rows, and docs."""
+"""Columns of the table of a study: one declaration for CSV, Parquet, the check of stored rows, and docs."""
 
 from __future__ import annotations
 
@@ -10,43 +10,43 @@ from typing import Any
 
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 
-#: Figures of `Summary` that a run changes: each is told before and after.
-CHANGING = tuple(key for key in SUMMARY_QUANTITIES if key not in ("hexes", "nodes", "free_nodes"))
+#: Figures of `Summary` that a run changes; the table has them before and after.
+CHANGED_FIGURES = tuple(key for key in SUMMARY_QUANTITIES if key not in ("hexes", "nodes", "free_nodes"))
 
 
 class Status(StrEnum):
-    """How a task ended; all but the first have a reason."""
+    """End of a task; all but the first have a reason."""
 
     DONE = "done"
     UNREADABLE = "unreadable"
     FAILED = "failed"
     MEMORY = "out of memory"
     TIME = "out of time"
-    #: The process or the machine is to blame, and not what was to be done: another time it may go well.
+    #: The process or the machine failed, not the task; it may succeed another time.
     LOST = "lost"
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column: its name, its type and a sentence of help."""
+    """Column with name, type and a sentence of help."""
 
     name: str
     type: type
     help: str
 
 
-def _figures(when: str, words: str) -> tuple[Column, ...]:
+def _figures(when: str, description: str) -> tuple[Column, ...]:
     return tuple(
         Column(
             f"{key}_{when}",
             int if "inverted" in key else float,
-            f"{label[:1].upper()}{label[1:]}, {words}.",
+            f"{label[:1].upper()}{label[1:]}, {description}.",
         )
-        for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGING)
+        for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGED_FIGURES)
     )
 
 
-#: Where a row belongs: what the client knows.
+#: Columns that the client fills: mesh and case of the row.
 PLACE = (
     Column("mesh", str, "The mesh file, as it was named."),
     Column("case", str, "What the study calls the method with what was chosen from its lists."),
@@ -56,7 +56,7 @@ PLACE = (
     Column("key", str, "The task's: its result is `tasks/KEY.json`."),
 )
 
-#: What a task's process answers.
+#: Columns that the process of a task fills.
 ANSWER = (
     Column("status", str, f"How the task ended: {', '.join(Status)}."),
     Column("reason", str, "Why there is no result, in a sentence."),
@@ -82,13 +82,13 @@ COLUMNS = PLACE + ANSWER
 
 
 def answer(status: Status, reason: str = "", **figures: Any) -> dict[str, Any]:
-    """A task's answer; None stands for what there is not, and for what is no finite number."""
+    """Make the answer of a task; missing values and numbers that are not finite are None."""
     known = {name: None if isinstance(one, float) and not isfinite(one) else one for name, one in figures.items()}
     return {column.name: None for column in ANSWER} | known | {"status": str(status), "reason": reason}
 
 
 def is_answer(row: object) -> bool:
-    """Whether data from a file is an answer: all columns and no other, each None or of its type."""
+    """Return True if data from a file is an answer: exactly these columns, each None or of its type."""
     return (
         isinstance(row, Mapping)
         and set(row) == {column.name for column in ANSWER}

@@ -1,4 +1,4 @@
-"""A task of a study: one case on one mesh, and the key by which its result is known."""
+"""Task of a study: one case on one mesh, with the key of its result."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hexmend.io.formats.vtk.pvtu import piece_paths
 
 @dataclass(frozen=True)
 class Task:
-    """One case on one mesh, as data that go to another process, or to another machine.
+    """Case on one mesh, as data for another process or machine.
 
     Parameters
     ----------
@@ -27,13 +27,13 @@ class Task:
     case : mapping
         `Case.values`.
     version : str
-        Of Hexmend.
+        Version of Hexmend.
     max_seconds : float
         0 for no limit.
     max_memory_mb : int
-        0 for a share of the machine's.
+        0 for a share of the memory of the machine.
     surface, surface_hash : str
-        The same of the surface that the boundary slides on; "" where there is none.
+        Path and hash of the surface on which the boundary slides; "" if there is none.
     output : str
         Absolute path of the mesh to be written; "" for none.
     """
@@ -50,19 +50,19 @@ class Task:
 
     @property
     def key(self) -> str:
-        """32 hexadecimal digits that tell tasks apart by what decides their results: not where files are."""
-        suffix = Path(self.mesh).suffix.lower()  # which decides how the content is read
-        decides = [self.version, self.mesh_hash, suffix, self.surface_hash, self.case]
-        return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()[:32]
+        """Hash, 32 hexadecimal digits, of all that the result depends on, which paths are not."""
+        suffix = Path(self.mesh).suffix.lower()  # selects the format
+        content = [self.version, self.mesh_hash, suffix, self.surface_hash, self.case]
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 
 
 def content_hash(path: Path) -> str:
-    """SHA-256 of a file's content, in hexadecimal digits; of a PVTU file with that of its pieces.
+    """Return the SHA-256 of a file, in hexadecimal digits; for a PVTU file its pieces are included.
 
     Raises
     ------
     FileError
-        Where it cannot be read.
+        If it cannot be read.
     """
     check_readable(path, "a mesh file")
     try:

@@ -1,4 +1,4 @@
-"""What the process of a task does: read a mesh, run a method on it, and answer with a row."""
+"""Process of a task: reads a mesh, runs a method on it, and answers with a row."""
 
 from __future__ import annotations
 
@@ -16,60 +16,57 @@ from hexmend.iteration import Result
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import smooth
-from hexmend.study.batch.case import case_of
+from hexmend.study.batch.case import read_case
 from hexmend.study.batch.process_group import end_group
-from hexmend.study.batch.table_columns import CHANGING, Status, answer
+from hexmend.study.batch.table_columns import CHANGED_FIGURES, Status, answer
 from hexmend.study.batch.task import Task, content_hash
 from hexmend.study.bench.section import peak_mb
 
 
 def main(version: str) -> None:
-    """Read a line from standard input, the task and its memory in MB; do it; print the answer as JSON.
+    """Read the task and its memory limit (MiB) from a line of standard input, run it, and print the answer as JSON.
 
-    Standard input stays open while who has asked is alive: its end is that of this process and of all that it started.
+    The client keeps standard input open while it is alive: when it closes, this process and all that it started end.
     """
-    said = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)  # what libraries print is no answer
+    output = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # output of libraries goes to standard error
     with open(0, encoding="utf-8", closefd=False) as lines:
-        asked = json.loads(lines.readline())
-    threading.Thread(target=_end_with_who_asked, daemon=True).start()
-    hold_memory(asked["memory_mb"])
-    said.write(json.dumps(do(Task(**asked["task"]), version), allow_nan=False))
-    said.flush()
+        request = json.loads(lines.readline())
+    threading.Thread(target=_exit_with_client, daemon=True).start()
+    limit_memory(request["memory_mb"])
+    output.write(json.dumps(run(Task(**request["task"]), version), allow_nan=False))
+    output.flush()
 
 
-def do(task: Task, version: str) -> dict[str, Any]:
-    """The answer to a task, whatever happens in it; `version` is that of Hexmend here."""
-    known = {"threads": kernels.threads()}
+def run(task: Task, version: str) -> dict[str, Any]:
+    """Run a task and return its answer, also if it fails; `version` is that of Hexmend in this process."""
+    row = {"threads": kernels.threads()}
     try:
-        _check_here(task, version)
-        case = case_of(task.case)
+        _check_environment(task, version)
+        case = read_case(task.case)
         mesh = _mesh(task)
-        known |= _sizes(mesh)
-        result = smooth(mesh, case.what, case.stop)
-        known |= _figures(result)
+        row |= _sizes(mesh)
+        result = smooth(mesh, case.smoother, case.stop)
+        row |= _figures(result)
         if task.output:
             write(task.output, result.mesh)
-            known["output"] = task.output
+            row["output"] = task.output
         status, reason = Status.DONE, ""
-    except _Elsewhere as error:
+    except _Mismatch as error:
         status, reason = Status.LOST, str(error)
     except FileError as error:
-        status, reason = _of_file(task, error), str(error)
+        status, reason = _status_of(task, error), str(error)
     except MemoryError:
         status, reason = Status.MEMORY, "It needed more memory than it may have."
     except HexmendError as error:
         status, reason = Status.FAILED, str(error)
-    except Exception as error:  # of whatever kind: it is this task's, and the others go on
+    except Exception as error:  # fails this task only
         status, reason = Status.FAILED, f"{type(error).__name__}: {error}".rstrip(": ")
-    return answer(status, reason, **known, peak_mb=round(peak_mb(), 1))
+    return answer(status, reason, **row, peak_mb=round(peak_mb(), 1))
 
 
-def hold_memory(megabytes: int) -> None:
-    """Have the system refuse this process more memory of its own than so much; 0 sets no limit.
-
-    What counts is what it may write to and shares with no other process (RLIMIT_DATA), as Linux does since 4.7.
-    """
+def limit_memory(megabytes: int) -> None:
+    """Limit the private, writable memory of this process in MiB (RLIMIT_DATA, Linux since 4.7); 0 sets no limit."""
     try:
         import resource
     except ImportError:  # Windows has none
@@ -80,19 +77,19 @@ def hold_memory(megabytes: int) -> None:
         resource.setrlimit(resource.RLIMIT_DATA, (limit, hard))
 
 
-class _Elsewhere(Exception):
-    """What is here is not what the study was planned with."""
+class _Mismatch(Exception):
+    """Hexmend or a file differs from that of the client."""
 
 
-def _check_here(task: Task, version: str) -> None:
+def _check_environment(task: Task, version: str) -> None:
     if task.version != version:
-        raise _Elsewhere(f"Hexmend is {version} where the task ran, and {task.version} where it was planned.")
+        raise _Mismatch(f"Hexmend is {version} where the task ran, and {task.version} where it was planned.")
     for path, planned in ((task.mesh, task.mesh_hash), (task.surface, task.surface_hash)):
         try:
             if path and content_hash(Path(path)) != planned:
-                raise _Elsewhere(f"{Path(path).name} is another file where the task ran than where it was planned.")
+                raise _Mismatch(f"{Path(path).name} is another file where the task ran than where it was planned.")
         except FileError as error:
-            raise _Elsewhere(f"Where the task ran: {error}") from None
+            raise _Mismatch(f"Where the task ran: {error}") from None
 
 
 def _mesh(task: Task) -> Mesh:
@@ -100,7 +97,7 @@ def _mesh(task: Task) -> Mesh:
     return mesh.sliding_on(read_surface(task.surface)) if task.surface else mesh
 
 
-def _of_file(task: Task, error: FileError) -> Status:
+def _status_of(task: Task, error: FileError) -> Status:
     if isinstance(error.__context__, MemoryError):
         return Status.MEMORY
     return Status.LOST if task.output and error.path == Path(task.output) else Status.UNREADABLE
@@ -109,14 +106,14 @@ def _of_file(task: Task, error: FileError) -> Status:
 def _sizes(mesh: Mesh) -> dict[str, Any]:
     figures = summarise(mesh).to_dict()
     return {key: figures[key] for key in ("hexes", "nodes", "free_nodes")} | {
-        f"{key}_before": figures[key] for key in CHANGING
+        f"{key}_before": figures[key] for key in CHANGED_FIGURES
     }
 
 
 def _figures(result: Result) -> Mapping[str, Any]:
     after = result.after.to_dict()
     return {
-        **{f"{key}_after": after[key] for key in CHANGING},
+        **{f"{key}_after": after[key] for key in CHANGED_FIGURES},
         "worse": " ".join(result.worse),
         "outcome": result.outcome.key,
         "message": result.message,
@@ -127,7 +124,7 @@ def _figures(result: Result) -> Mapping[str, Any]:
     }
 
 
-def _end_with_who_asked() -> None:
+def _exit_with_client() -> None:
     while os.read(0, 1):
         pass
     end_group(os.getpid())

@@ -29,10 +29,10 @@ _SEEDS = range(10)
 
 def _optima() -> dict[str, Any]:
     gallery = [make(name, size=size, scramble=scramble) for name, size, scramble in _MESHES]
-    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, real())]}
+    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, real_meshes())]}
 
 
-def real() -> list[Mesh]:
+def real_meshes() -> list[Mesh]:
     """The meshes of the folder that the variable HEXMEND_MESHES names, if it does, and that can be read."""
     folder = os.environ.get("HEXMEND_MESHES")
     found = []
@@ -132,6 +132,6 @@ def _size_lines(figures: dict[str, Any]) -> list[str]:
 
 SIZES = BenchSection("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
 OPTIMA = BenchSection("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
-TANGLED = BenchSection(
+UNTANGLING = BenchSection(
     "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _tangled, _tangled_lines
 )

@@ -49,7 +49,7 @@ print(json.dumps({"hexes": mesh.n_hexes, "mb": peak_mb() - before, "needed_mb": 
 """
 
 
-def taken(name: str, size: int, iterations: int, **values: Any) -> dict[str, Any]:
+def measure_memory(name: str, size: int, iterations: int, **values: Any) -> dict[str, Any]:
     """What a method takes on a scrambled block, in a process of its own.
 
     Parameters
@@ -80,7 +80,7 @@ def _memory() -> dict[str, Any]:
         return figures
     for name, cls in METHODS.items():
         iterations, values = _ITERATIONS_OF.get(name, _ITERATIONS), _VALUES_OF.get(name, {})
-        rows = [taken(name, size, iterations, **values) for size in _SIZES]
+        rows = [measure_memory(name, size, iterations, **values) for size in _SIZES]
         figures[name] = {"bytes_per_hex": cls.bytes_per_hex, "sizes": rows}
     return figures
 

@@ -16,7 +16,7 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.boundaries import BOUNDARIES
-from hexmend.study.bench.default_method import OPTIMA, SIZES, TANGLED
+from hexmend.study.bench.default_method import OPTIMA, SIZES, UNTANGLING
 from hexmend.study.bench.kernels import KERNELS, PRECONDITIONERS
 from hexmend.study.bench.memory import MEMORY
 from hexmend.study.bench.offsets import OFFSETS
@@ -39,10 +39,8 @@ THESIS_SECONDS_PER_NODE = {
 
 def sections() -> dict[str, BenchSection]:
     """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
-    own = (
-        KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, OPTIMA, TANGLED, BOUNDARIES, OFFSETS, SCALING, SIZES, MEMORY,
-        PEERS,
-    )  # fmt: skip
+    optimisation = OPTIMA, UNTANGLING, BOUNDARIES, OFFSETS, SIZES
+    own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, *optimisation, SCALING, MEMORY, PEERS
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:

@@ -1,4 +1,4 @@
-"""What a claim of the thesis is, and how one is judged."""
+"""Claims of the thesis and their judgement by measured figures."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 
-#: Whether a claim holds, None where that cannot be judged; and what was measured, or why not, in sentences.
+#: True if a claim holds, None if that cannot be judged; and the measured figures, or the reason why there are none.
 Finding = tuple[bool | None, str]
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim and what was found.
+    """Claim of the thesis with its judgement.
 
     Parameters
     ----------
     section : str
-        Where the thesis makes it.
+        Section of the thesis.
     claim : str
-        The thesis's, in a sentence.
+        The claim in a sentence.
     reproduced : bool or None
-        None where what it needs was not measured.
+        None if the figures that it needs were not measured.
     figures : str
-        What was measured, in a sentence.
+        The measured figures in a sentence.
     """
 
     section: str
@@ -35,33 +35,37 @@ class Claim:
     figures: str
 
     def record(self) -> dict[str, Any]:
+        """Return the fields for JSON."""
         return asdict(self)
 
 
-def judges(section: str, claim: str) -> Callable[[Callable[[Sequence[T]], Finding]], Callable[[Sequence[T]], Claim]]:
-    """Make a function from what was measured to a `Finding` the judge of a claim."""
+Judge = Callable[[Sequence[T]], Finding]
 
-    def made(judge: Callable[[Sequence[T]], Finding]) -> Callable[[Sequence[T]], Claim]:
+
+def claim(section: str, sentence: str) -> Callable[[Judge[T]], Callable[[Sequence[T]], Claim]]:
+    """Decorator: turn a function from results to a `Finding` into one from results to a `Claim`."""
+
+    def decorate(judge: Judge[T]) -> Callable[[Sequence[T]], Claim]:
         @wraps(judge)
-        def judged(measured: Sequence[T]) -> Claim:
-            return Claim(section, claim, *judge(measured))
+        def judged(results: Sequence[T]) -> Claim:
+            return Claim(section, sentence, *judge(results))
 
         return judged
 
-    return made
+    return decorate
 
 
 def tally(cases: Sequence[tuple[bool, str]], otherwise: str, *, most: bool = False) -> Finding:
-    """A claim that holds if it holds in every case, or in most of them.
+    """Judge a claim that holds if it holds in all cases, or in most of them.
 
     Parameters
     ----------
-    cases : sequence of (held, told)
-        Whether it holds in a case, and the case's figures.
+    cases : sequence of (bool, str)
+        True if it holds in a case, and the figures of the case.
     otherwise : str
-        Why it is not judged, where there is no case.
+        Reason why it is not judged, if there is no case.
     most : bool
-        Whether more than half of the cases suffice.
+        More than half of the cases suffice.
 
     Examples
     --------
@@ -70,6 +74,6 @@ def tally(cases: Sequence[tuple[bool, str]], otherwise: str, *, most: bool = Fal
     """
     if not cases:
         return None, otherwise
-    held = sum(holds for holds, _ in cases)
-    told = ". ".join(words for _, words in cases)
-    return held > len(cases) / 2 if most else held == len(cases), f"So in {held} of {len(cases)} cases. {told}."
+    count = sum(holds for holds, _ in cases)
+    details = ". ".join(text for _, text in cases)
+    return count > len(cases) / 2 if most else count == len(cases), f"So in {count} of {len(cases)} cases. {details}."

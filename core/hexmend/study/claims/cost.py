@@ -1,4 +1,4 @@
-"""Claims of how the time of an iteration grows with the mesh, Figure 4.4."""
+"""Claims about the growth of the time of an iteration with the mesh size, Figure 4.4."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from hexmend.study.claims.claim import Finding, judges
-from hexmend.study.claims.reading import arrived, of_mesh
+from hexmend.study.claims.claim import Finding, claim
+from hexmend.study.claims.queries import of_mesh, reached_optimum
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "Constant in the mesh size": within this factor. The thesis's own figures of global-sd vary by 3.4.
@@ -18,53 +18,53 @@ _CONSTANT = 3.5
 _NOTICEABLE = 0.2
 
 
-@judges("4.3.1", "Time per iteration and free node does not depend on the mesh's size.")
-def cost_constant(measured: Sequence[ExperimentResult]) -> Finding:
+@claim("4.3.1", "Time per iteration and free node does not depend on the mesh's size.")
+def cost_constant(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Figure 4.4."""
     ours: dict[str, dict[int, float]] = {}
     thesis: dict[str, dict[int, float]] = {}
-    for one in of_mesh(measured, "five-side"):
-        for name, row in one.rows.items():
+    for result in of_mesh(results, "five-side"):
+        for name, row in result.rows.items():
             if row.seconds_per_iteration_and_node is not None:
-                ours.setdefault(name, {})[one.initial.free_nodes] = row.seconds_per_iteration_and_node
-        for name, figures in one.experiment.published.items():
+                ours.setdefault(name, {})[result.initial.free_nodes] = row.seconds_per_iteration_and_node
+        for name, figures in result.experiment.published.items():
             if "seconds_per_iteration_and_node" in figures:
                 cost = figures["seconds_per_iteration_and_node"]
-                thesis.setdefault(name, {})[one.experiment.free_nodes] = cost
+                thesis.setdefault(name, {})[result.experiment.free_nodes] = cost
     ratios = {name: _spread(by) for name, by in ours.items() if len(by) > 1}
     if not ratios:
         return None, "Fewer than two sizes were measured."
     sizes = sorted({size for by in ours.values() for size in by})
-    told = ", ".join(
+    details = ", ".join(
         f"{name} {ratio:.2g}" + (f" ({_spread(thesis[name]):.2g})" if name in thesis else "")
         for name, ratio in ratios.items()
     )
-    told = (
-        f"From {sizes[0]:,} to {sizes[-1]:,} free nodes the largest is so many times the smallest, in brackets by the "
-        f"thesis's figures: {told}. Constant is taken as less than {_CONSTANT:g}."
+    details = (
+        f"From {sizes[0]:,} to {sizes[-1]:,} free nodes the largest is so many times the smallest (by the figures of "
+        f"the thesis): {details}. Constant is taken as less than {_CONSTANT:g}."
     )
-    return max(ratios.values()) < _CONSTANT, told
+    return max(ratios.values()) < _CONSTANT, details
 
 
-@judges("4.3.1", "Where global methods succeed, they scale not noticeably worse than local or heuristic ones.")
-def scaling_alike(measured: Sequence[ExperimentResult]) -> Finding:
+@claim("4.3.1", "Where global methods succeed, they scale not noticeably worse than local or heuristic ones.")
+def scaling_alike(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1, Figure 4.4: by the slopes of seconds per iteration over free nodes, both as logarithms."""
     costs: dict[str, dict[int, float]] = {}
-    for one in of_mesh(measured, "five-side"):
-        for name, row in one.rows.items():
-            fails = name.startswith("global-") and not arrived(one, row)
+    for result in of_mesh(results, "five-side"):
+        for name, row in result.rows.items():
+            fails = name.startswith("global-") and not reached_optimum(result, row)
             if row.seconds_per_iteration is not None and not fails:
-                costs.setdefault(name, {})[one.initial.free_nodes] = row.seconds_per_iteration
+                costs.setdefault(name, {})[result.initial.free_nodes] = row.seconds_per_iteration
     slopes = {name: _slope(by) for name, by in costs.items() if len(by) > 1}
-    everywhere, others = (
-        {name: slope for name, slope in slopes.items() if (name.startswith("global-")) is kind}
-        for kind in (True, False)
+    global_, others = (
+        {name: slope for name, slope in slopes.items() if (name.startswith("global-")) is value}
+        for value in (True, False)
     )
-    if not everywhere or not others:
+    if not global_ or not others:
         return None, "Global methods and others did not both succeed on two sizes."
-    told = ", ".join(f"{name} {slope:.2f}" for name, slope in slopes.items())
-    worse = max(everywhere.values()) - max(others.values())
-    return worse < _NOTICEABLE, f"Time per iteration grows with the power of the free nodes: {told}."
+    details = ", ".join(f"{name} {slope:.2f}" for name, slope in slopes.items())
+    worse = max(global_.values()) - max(others.values())
+    return worse < _NOTICEABLE, f"Time per iteration grows with the power of the free nodes: {details}."
 
 
 def _spread(by_size: Mapping[int, float]) -> float:

@@ -1,86 +1,94 @@
-"""Claims of where global optimisation fails."""
+"""Claims about failures of global optimisation."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from hexmend.study.claims.claim import Finding, judges, tally
-from hexmend.study.claims.reading import arrivals, arrived, end, ended, name, of_mesh, optimisers, tables
+from hexmend.study.claims.claim import Finding, claim, tally
+from hexmend.study.claims.queries import (
+    ending,
+    of_mesh,
+    optimal_runs,
+    optimiser_runs,
+    published,
+    reached_optimum,
+    rows_of,
+    title,
+)
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
-#: "Several": at least so many.
+#: "Several": at least this many.
 _SEVERAL = 2
 
-#: What 5.1 names as hard: the largest meshes, a wide range of sizes, heavily inverted elements.
+#: Tables of the meshes that 5.1 calls hard: the largest meshes, a wide range of sizes, heavily inverted elements.
 _HARD = "4.3", "4.4", "4.8", "4.9", "4.10", "4.15"
 
 
-@judges("4.3.1", "On several of the meshes of five-side a global method is not able to converge.")
-def several_fail(measured: Sequence[ExperimentResult]) -> Finding:
+@claim("4.3.1", "On several of the meshes of five-side a global method is not able to converge.")
+def several_fail(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: of methods that had as much time as another took to the optimum."""
-    found = list(of_mesh(measured, "five-side"))
-    judged = [one for one in found if arrivals(one) and optimisers(one, "global-")]
+    found = list(of_mesh(results, "five-side"))
+    judged = [result for result in found if optimal_runs(result) and optimiser_runs(result, "global-")]
     failures = {
-        name(one): [end(row) for row in optimisers(one, "global-") if arrived(one, row) is False] for one in judged
+        title(result): [
+            ending(row) for row in optimiser_runs(result, "global-") if reached_optimum(result, row) is False
+        ]
+        for result in judged
     }
-    told = ". ".join(f"{mesh}: {', '.join(ends) or 'none'}" for mesh, ends in failures.items())
+    details = ". ".join(f"{mesh}: {', '.join(ends) or 'none'}" for mesh, ends in failures.items())
     if len(judged) < _SEVERAL:
         return None, f"Fewer than {_SEVERAL} sizes were measured."
-    return sum(
-        map(bool, failures.values())
-    ) >= _SEVERAL, f"Of {len(judged)} there are failures in {_count(failures)}. {told}."
+    count = sum(map(bool, failures.values()))
+    return count >= _SEVERAL, f"Of {len(judged)} there are failures in {count}. {details}."
 
 
-@judges("4.4.1", "On plane global optimisation is not suitable.")
-def unsuitable_on_plane(measured: Sequence[ExperimentResult]) -> Finding:
+@claim("4.4.1", "On plane global optimisation is not suitable.")
+def unsuitable_on_plane(results: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.15: steepest descent and Newton-Raphson fail, from either start, where a local method arrives."""
     cases = []
-    for one in of_mesh(measured, "plane"):
-        rows = [row for method in ("global-sd", "global-nr") for row in ended(one, method)]
-        known = [(row, reached) for row in rows if (reached := arrived(one, row)) is not None]
-        if arrivals(one, "local-"):
+    for result in of_mesh(results, "plane"):
+        rows = [row for method in ("global-sd", "global-nr") for row in rows_of(result, method)]
+        known = [(row, reached) for row in rows if (reached := reached_optimum(result, row)) is not None]
+        if optimal_runs(result, "local-"):
             cases += [
-                (not reached, f"{name(one)}: {end(row)}, {row.after.inverted:,} inverted") for row, reached in known
+                (not reached, f"{title(result)}: {ending(row)}, {row.after.inverted:,} inverted")
+                for row, reached in known
             ]
     return tally(cases, "On plane no local method converged, or no global one had time enough.")
 
 
-@judges("5.1", "Global methods are less robust than local ones.")
-def less_robust(measured: Sequence[ExperimentResult]) -> Finding:
-    """5.1: the share of their runs that arrive at the optimum, of those that had time for it."""
-    shares = {scope: [there for *_, there in _runs(measured, scope)] for scope in ("global-", "local-")}
+@claim("5.1", "Global methods are less robust than local ones.")
+def less_robust(results: Sequence[ExperimentResult]) -> Finding:
+    """5.1: by the share of their runs that reach the optimum, of the runs that had time for it."""
+    shares = {scope: [reached for *_, reached in _runs(results, scope)] for scope in ("global-", "local-")}
     if not all(shares.values()):
         return None, "No experiment has an optimum that local and global methods had time for."
-    told = ", ".join(f"{scope[:-1]} {sum(all_)} of {len(all_)}" for scope, all_ in shares.items())
-    everywhere, local = (sum(all_) / len(all_) for all_ in shares.values())
-    return everywhere < local, f"Runs that arrive: {told}."
+    details = ", ".join(f"{scope[:-1]} {sum(runs)} of {len(runs)}" for scope, runs in shares.items())
+    global_, local = (sum(runs) / len(runs) for runs in shares.values())
+    return global_ < local, f"Runs that arrive: {details}."
 
 
-@judges(
+@claim(
     "5.1",
     "Global methods of second order have trouble on larger meshes, with a wide range of element sizes and with heavily "
     "inverted elements.",
 )
-def practical_issues(measured: Sequence[ExperimentResult]) -> Finding:
-    """5.1: the share of Newton's runs that arrive in the tables of such meshes, against that in the others."""
-    runs = [(one, row, there) for one, row, there in _runs(measured, "global-") if row.method != "global-sd"]
-    hard, easy = ([it for it in runs if (it[0].experiment.table in _HARD) is kind] for kind in (True, False))
+def practical_issues(results: Sequence[ExperimentResult]) -> Finding:
+    """5.1: by the share of Newton runs that reach the optimum, in the tables of such meshes and in others."""
+    runs = [(result, row, reached) for result, row, reached in _runs(results, "global-") if row.method != "global-sd"]
+    hard, easy = ([run for run in runs if (run[0].experiment.table in _HARD) is value] for value in (True, False))
     if not hard or not easy:
         return None, "Such meshes and others were not both run with time enough."
-    shares = [sum(there for *_, there in some) / len(some) for some in (hard, easy)]
-    failed = ", ".join(f"{name(one)} {row.method}" for one, row, there in runs if not there)
-    told = f"{shares[0]:.0%} of {len(hard)} runs arrive there, {shares[1]:.0%} of {len(easy)} elsewhere"
-    return shares[0] < shares[1], f"{told}. They fail in: {failed or 'none'}."
+    shares = [sum(reached for *_, reached in group) / len(group) for group in (hard, easy)]
+    failed = ", ".join(f"{title(result)} {row.method}" for result, row, reached in runs if not reached)
+    details = f"{shares[0]:.0%} of {len(hard)} runs arrive there, {shares[1]:.0%} of {len(easy)} elsewhere"
+    return shares[0] < shares[1], f"{details}. They fail in: {failed or 'none'}."
 
 
-def _runs(measured: Sequence[ExperimentResult], scope: str) -> Iterator[tuple[ExperimentResult, Row, bool]]:
-    """The runs of a scope that arrive or had time to, where any optimiser arrives."""
-    for one in tables(measured):
-        for row in optimisers(one, scope) if arrivals(one) else ():
-            if (reached := arrived(one, row)) is not None:
-                yield one, row, reached
-
-
-def _count(failures: dict[str, list[str]]) -> int:
-    return sum(map(bool, failures.values()))
+def _runs(results: Sequence[ExperimentResult], scope: str) -> Iterator[tuple[ExperimentResult, Row, bool]]:
+    """List the runs of a scope that had time for the optimum, True if they reach it, where any optimiser does."""
+    for result in published(results):
+        for row in optimiser_runs(result, scope) if optimal_runs(result) else ():
+            if (reached := reached_optimum(result, row)) is not None:
+                yield result, row, reached

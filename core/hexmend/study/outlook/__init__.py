@@ -1,1 +1,1 @@
-"""The experiments of section 5.2 of the thesis, its outlook."""
+"""Experiments of section 5.2 of the thesis, its outlook."""

@@ -1,4 +1,4 @@
-"""What section 5.2 of the thesis hopes of work to come, tried: methods with many values, and how fast each arrives."""
+"""Experiments of section 5.2 of the thesis: methods with many values, and the speed of their convergence."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import Row, Watch, run_one
 
-#: A run has arrived with its first iteration whose objective is above the optimum by less than this share of it.
+#: A run is near the optimum when its objective exceeds that of the optimum by less than this share.
 NEAR = 1e-3
 
 
 @dataclass(frozen=True)
 class Outlook:
-    """One of the thesis's hopes on one mesh; `thesis.toml` explains the fields."""
+    """Experiment on one mesh; `thesis.toml` explains the fields."""
 
     section: str
     title: str
@@ -29,22 +29,22 @@ class Outlook:
     quick: int
     methods: tuple[str, ...]
     vary: Mapping[str, tuple[Any, ...]]
-    beside: tuple[str, ...] = ()
+    additional: tuple[str, ...] = ()
 
     def build(self, quick: bool) -> Mesh:
-        """The mesh."""
+        """Build the mesh."""
         return make(self.mesh, size=self.quick if quick else self.size)
 
     def variants(self) -> list[tuple[Smoother, Mapping[str, Any]]]:
-        """Every method to be run, with the values that make it this one among the others."""
-        alone: list[tuple[Smoother, Mapping[str, Any]]] = [(METHODS[name](), {}) for name in self.beside]
+        """List the methods to be run, each with the values that are varied."""
+        alone: list[tuple[Smoother, Mapping[str, Any]]] = [(METHODS[name](), {}) for name in self.additional]
         combined = [dict(zip(self.vary, values, strict=True)) for values in itertools.product(*self.vary.values())]
         return alone + [(METHODS[name](**values), values) for name in self.methods for values in combined]
 
 
 @dataclass(frozen=True)
 class Point:
-    """A run after one of its iterations.
+    """State of a run after an iteration.
 
     Parameters
     ----------
@@ -53,8 +53,7 @@ class Point:
     objective : float or None
         None while any hex is inverted.
     evaluations : float or None
-        How often a hex was asked for its energy or for the derivatives of it, on average; None where the method does
-        not say.
+        Mean number of evaluations of the energy or its derivatives of a hex; None if the method does not count them.
     """
 
     iteration: int
@@ -65,28 +64,29 @@ class Point:
 
 @dataclass(frozen=True, eq=False)
 class Variant:
-    """A run with some values, and its way.
+    """Run of a method with some values.
 
     Parameters
     ----------
     values : mapping
-        Those that the experiment varies.
+        The varied parameters.
     row : Row
-    way : tuple of Point
-        One an iteration.
+    history : tuple of Point
+        One for each iteration.
     """
 
     values: Mapping[str, Any]
     row: Row
-    way: tuple[Point, ...]
+    history: tuple[Point, ...]
 
     def arrival(self, optimum: float) -> Point | None:
-        """Where its objective was first `NEAR` the optimum; None where it never was."""
-        near = (point for point in self.way if point.objective is not None and point.objective < (1 + NEAR) * optimum)
+        """Return the first point `NEAR` the optimum; None if there is none."""
+        limit = (1 + NEAR) * optimum
+        near = (point for point in self.history if point.objective is not None and point.objective < limit)
         return next(near, None)
 
     def record(self, optimum: float | None) -> dict[str, Any]:
-        """The run for other programs, with its arrival as `near_iterations`, `near_evaluations`, `near_seconds`."""
+        """Return the run for JSON, with its arrival as `near_iterations`, `near_evaluations`, `near_seconds`."""
         point = self.arrival(optimum) if optimum is not None else None
         return {
             "method": self.row.method,
@@ -95,7 +95,7 @@ class Variant:
             "near_evaluations": point and point.evaluations,
             "near_seconds": point and point.seconds,
             "iterations": self.row.iterations,
-            "evaluations": self.way[-1].evaluations if self.way else None,
+            "evaluations": self.history[-1].evaluations if self.history else None,
             "seconds": self.row.seconds,
             "objective": self.row.after and self.row.after.objective,
             "inverted": self.row.after and self.row.after.inverted,
@@ -106,15 +106,15 @@ class Variant:
 
 @dataclass(frozen=True, eq=False)
 class TrialResult:
-    """What an outlook gave.
+    """Result of an outlook.
 
     Parameters
     ----------
     outlook : Outlook
     initial : Summary
-        Of the mesh.
+        Summary of the mesh.
     variants : tuple of Variant
-        In the order of `Outlook.variants`; an interruption leaves out the last.
+        In the order of `Outlook.variants`; incomplete after an interruption.
     """
 
     outlook: Outlook
@@ -123,90 +123,91 @@ class TrialResult:
 
     @property
     def optimum(self) -> float | None:
-        """The least objective that any run ended with."""
-        ends = [one.row.after.objective for one in self.variants if one.row.after is not None]
+        """Lowest objective at the end of a run."""
+        ends = [run.row.after.objective for run in self.variants if run.row.after is not None]
         return min((end for end in ends if end is not None), default=None)
 
     def find(self, method: str, **values: Any) -> Variant | None:
-        """The run of a method with these values."""
-        return next((one for one in self.variants if one.row.method == method and one.values == values), None)
+        """Return the run of a method with these values; None if there is none."""
+        return next((run for run in self.variants if run.row.method == method and run.values == values), None)
 
     def record(self) -> dict[str, Any]:
-        """The experiment for other programs."""
-        one = self.outlook
+        """Return the experiment for JSON."""
+        outlook = self.outlook
         return {
-            "section": one.section,
-            "title": one.title,
-            "mesh": one.mesh,
+            "section": outlook.section,
+            "title": outlook.title,
+            "mesh": outlook.mesh,
             "hexes": self.initial.hexes,
             "free_nodes": self.initial.free_nodes,
             "optimum": self.optimum,
             "near": NEAR,
-            "vary": list(one.vary),
+            "vary": list(outlook.vary),
             "runs": [variant.record(self.optimum) for variant in self.variants],
         }
 
 
-def try_outlook(
+def run_outlook(
     outlook: Outlook, stop: Callable[[str], StoppingCriteria], quick: bool, watch: Watch | None = None
 ) -> tuple[TrialResult, bool]:
-    """Run what an outlook asks for.
+    """Run all methods of an outlook.
 
     Parameters
     ----------
     outlook : Outlook
     stop : callable
-        The limits of a run, by its method.
+        Returns the limits of a run, given the name of its method.
     quick : bool
+        Use the small mesh.
     watch : callable, optional
-        As in `run_one`.
+        See `hexmend.study.table_row.Watch`.
 
     Returns
     -------
-    tried : TrialResult
-    go_on : bool
-        False where the user ended it.
+    result : TrialResult
+    completed : bool
+        False if the user ended it.
     """
     mesh = outlook.build(quick)
     variants: list[Variant] = []
     for smoother, values in outlook.variants():
-        way = _Way(mesh, watch)
-        row, go_on = run_one(mesh, smoother, stop(smoother.name), way)
-        variants.append(Variant(values, row, tuple(way.points)))
-        if not go_on:
+        recorder = _HistoryRecorder(mesh, watch)
+        row, completed = run_one(mesh, smoother, stop(smoother.name), recorder)
+        variants.append(Variant(values, row, tuple(recorder.points)))
+        if not completed:
             break
-    return TrialResult(outlook, summarise(mesh), tuple(variants)), go_on
+    return TrialResult(outlook, summarise(mesh), tuple(variants)), completed
 
 
 @dataclass
-class _Way:
-    """Writes down a run's iterations as it is watched."""
+class _HistoryRecorder:
+    """Watch callback that records the iterations of a run."""
 
     mesh: Mesh
     watch: Watch | None
     points: list[Point] = field(default_factory=list)
-    asked: int = 0
+    evaluations: int = 0
 
     def __call__(self, run: Run) -> Any:
         counts = [run.last.diagnostics.get(key) for key in ("energies", "derivatives")]
         evaluations = None
         if None not in counts:
-            self.asked += sum(counts)
-            evaluations = self.asked / self.mesh.n_hexes
+            self.evaluations += sum(counts)
+            evaluations = self.evaluations / self.mesh.n_hexes
         row = run.history[-1]
         self.points.append(Point(row["iteration"], row["seconds"], row["objective"], evaluations))
         return self.watch(run) if self.watch is not None else None
 
 
 def outlooks(entries: Sequence[Mapping[str, Any]]) -> tuple[Outlook, ...]:
-    """Outlooks from the tables of a TOML file."""
+    """Make outlooks of the tables of a TOML file."""
     return tuple(
         Outlook(
             **{
                 **entry,
                 "methods": tuple(entry["methods"]),
                 "vary": {name: tuple(values) for name, values in entry["vary"].items()},
-                "beside": tuple(entry.get("beside", ())),
+                "additional": tuple(entry.get("additional", ())),
             }
         )
         for entry in entries

@@ -1,4 +1,4 @@
-"""What one experiment of a study gave."""
+"""Result of an experiment of the thesis."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from hexmend.study.thesis.experiments import INITIAL, Experiment
 
 @dataclass(frozen=True, eq=False)
 class ExperimentResult:
-    """An experiment with our figures.
+    """Experiment with measured figures.
 
     Parameters
     ----------
     experiment : Experiment
     mesh : Mesh
-        As the gallery made it.
+        Mesh of the gallery.
     initial : Summary
-        Of that mesh.
+        Summary of that mesh.
     rows : mapping of str to Row
-        By column; where the start is a method's, its row is the first.
+        Row of each column; the method of the start, if there is one, is the first.
     """
 
     experiment: Experiment
@@ -34,26 +34,26 @@ class ExperimentResult:
 
     @property
     def start(self) -> Summary:
-        """What the methods began from."""
+        """Summary of the mesh from which the methods start."""
         first = self.rows.get(self.experiment.start)
         return first.after if first is not None and first.after is not None else self.initial
 
     def record(self) -> dict[str, Any]:
-        """The experiment for other programs, ours under "columns" and the thesis's under "published"."""
-        one, power = self.experiment, common_power(self.rows.values())
+        """Return the experiment for JSON, with measured figures as "columns" and those of the thesis as "published"."""
+        experiment, power = self.experiment, common_power(self.rows.values())
         columns = {name: row.record(power) for name, row in self.rows.items()}
-        if one.start == INITIAL:
+        if experiment.start == INITIAL:
             columns = {INITIAL: initial_record(self.mesh, self.initial, power)} | columns
         return {
-            "table": one.table,
-            "thesis_mesh": one.thesis_mesh,
-            "mesh": one.mesh,
-            "start": one.start,
-            "delta": one.delta,
+            "table": experiment.table,
+            "thesis_mesh": experiment.thesis_mesh,
+            "mesh": experiment.mesh,
+            "start": experiment.start,
+            "delta": experiment.delta,
             "hexes": self.initial.hexes,
             "free_nodes": self.initial.free_nodes,
             "inverted": self.start.inverted,
-            "thesis": {"hexes": one.hexes, "free_nodes": one.free_nodes, "inverted": one.inverted},
+            "thesis": {"hexes": experiment.hexes, "free_nodes": experiment.free_nodes, "inverted": experiment.inverted},
             "columns": columns,
-            "published": {name: dict(figures) for name, figures in one.published.items()},
+            "published": {name: dict(figures) for name, figures in experiment.published.items()},
         }

@@ -1,4 +1,4 @@
-"""Experiments as data: which methods run on which mesh, from which start, and what was published of it."""
+"""Experiments as data: mesh, start, methods and published figures."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from hexmend.smoothers import Smoother
 from hexmend.study.outlook.experiments import Outlook, outlooks
 from hexmend.study.thesis.settings import Settings
 
-#: The start that is no method's.
+#: Start from the mesh as generated.
 INITIAL = "initial"
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """One of the thesis's tables, or the half of one that is about one mesh; `thesis.toml` explains the fields."""
+    """Table of the thesis, or the part of it about one mesh; `thesis.toml` explains the fields."""
 
     table: str
     thesis_mesh: str
@@ -39,20 +39,20 @@ class Experiment:
     published: Mapping[str, Mapping[str, float | int]]
     delta: float | None = None
     settings_of: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
-    beside: tuple[str, ...] = ()
+    additional: tuple[str, ...] = ()
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """The columns that are runs from the start, and those that the thesis's table does not have."""
-        return (*self.columns[1:], *self.beside)
+        """Methods that run from the start: columns of the table, and additional ones."""
+        return (*self.columns[1:], *self.additional)
 
-    def asked(self, quick: bool) -> int:
-        """The number of hexes asked of the gallery."""
+    def requested_hexes(self, quick: bool) -> int:
+        """Return the number of hexes requested from the gallery."""
         return self.quick if quick else self.size
 
     def build(self, quick: bool) -> Mesh:
-        """The mesh before its start."""
-        return make(self.mesh, size=self.asked(quick))
+        """Build the mesh as generated."""
+        return make(self.mesh, size=self.requested_hexes(quick))
 
 
 @dataclass(frozen=True)
@@ -63,19 +63,19 @@ class Experiments:
     ----------
     experiments : tuple of Experiment
     iterations : mapping
-        Most iterations by method.
+        Most iterations, by method.
     seconds : mapping
         Most seconds of a run, of the "full" and the "quick" study.
     quick_seconds : mapping
-        Most seconds of a run in the quick study, of methods for which it is another.
+        Most seconds of a run in the quick study, by method, where they differ.
     outlooks : tuple of Outlook
-        What section 5.2 hopes for.
+        Experiments of section 5.2.
     settings : Settings
-        Of the methods in experiments.
+        Values of parameters of the methods.
     move, tolerance : str, float
-        Of `StoppingCriteria`.
+        Criteria of convergence, see `StoppingCriteria`.
     tolerance_of : mapping
-        Tolerances of methods for which it is another.
+        Tolerances by method, where they differ.
     """
 
     experiments: tuple[Experiment, ...]
@@ -89,28 +89,28 @@ class Experiments:
     tolerance_of: Mapping[str, float] = field(default_factory=dict)
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
-        """A method with the study's settings and the experiment's delta, as far as it has these parameters."""
+        """Make a method with the settings of the study and the delta of the experiment, as far as it declares them."""
         delta = {} if experiment.delta is None else {"delta": experiment.delta}
         return self.settings.of(name, **delta, **experiment.settings_of.get(name, {}))
 
-    def limited(self, seconds: float) -> Experiments:
-        """The same with another limit of the time of every run."""
+    def with_max_seconds(self, seconds: float) -> Experiments:
+        """Return a copy with another limit of the time of every run."""
         return replace(self, seconds=dict.fromkeys(self.seconds, seconds), quick_seconds={})
 
     def stop(self, method: str, quick: bool) -> StoppingCriteria:
-        """The limits of a run; what the thesis tells of a method is its last iterate."""
+        """Return the limits of a run; the result is the last iterate, as in the thesis."""
         tolerance = self.tolerance_of.get(method, self.tolerance)
         return replace(self.outlook_stop(method, quick), move=self.move, tolerance=tolerance)
 
     def outlook_stop(self, method: str, quick: bool) -> StoppingCriteria:
-        """The same of an outlook, which converges as runs do by default."""
+        """Return the limits of a run of an outlook, with the default criteria of convergence."""
         limit = self.iterations.get(method, StoppingCriteria().max_iterations)
         seconds = self.quick_seconds.get(method, self.seconds["quick"]) if quick else self.seconds["full"]
         return StoppingCriteria(max_iterations=limit, max_seconds=seconds, keep_last=True)
 
 
 def load(source: Path | Traversable | None = None) -> Experiments:
-    """Experiments from a TOML file; the thesis's Chapter 4 and section 5.2 if none is named.
+    """Read experiments from a TOML file; those of Chapter 4 and section 5.2 of the thesis by default.
 
     Examples
     --------
@@ -141,5 +141,5 @@ def _experiment(entry: Mapping[str, Any]) -> Experiment:
         for column, value in zip(columns, values, strict=True):
             if not math.isnan(value):
                 published[column][figure] = value
-    beside = tuple(entry.get("beside", ()))
-    return Experiment(**{**entry, "columns": columns, "beside": beside, "published": published})
+    additional = tuple(entry.get("additional", ()))
+    return Experiment(**{**entry, "columns": columns, "additional": additional, "published": published})

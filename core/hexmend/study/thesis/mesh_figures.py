@@ -1,6 +1,6 @@
-"""Figures of Chapter 4 that show meshes: what they show, and who draws them.
+"""Figures of meshes in Chapter 4 of the thesis.
 
-The core draws no meshes. Who does joins through the entry-point group `hexmend.figures`, with a function like `Draw`.
+The core cannot draw meshes: a function of type `Draw` is found by the entry-point group `hexmend.figures`.
 """
 
 from __future__ import annotations
@@ -20,26 +20,27 @@ from hexmend.study.thesis.experiments import INITIAL
 
 @dataclass(frozen=True)
 class MeshFigure:
-    """A figure of the thesis.
+    """Figure of the thesis.
 
     Parameters
     ----------
     number : str
+        Number in the thesis.
     stem : str
-        Of its file, after the number.
+        Part of the file name after the number.
     caption : str
-        As the thesis has it.
+        Caption in the thesis.
     mesh : str
-        The gallery's.
+        Name of the gallery mesh.
     column : str
-        The state of the mesh: initial, or as a method leaves it.
+        State of the mesh: initial, or the result of a method.
     shows : str
-        "geometry": the boundary and its sharp edges. "mesh": the boundary and all edges. "domain": what lies in the
-        middle of it. "section": whole elements behind a plane through that, by their quality.
+        "geometry": the boundary and its sharp edges. "mesh": the boundary and all edges. "domain": the body in
+        the middle of it. "section": whole hexes behind a plane through that, coloured by quality.
     view : tuple of 3 floats
-        The direction to look from.
+        Direction of view.
     up : str
-        The axis that is up: x, y or z.
+        Upward axis: x, y or z.
     """
 
     number: str
@@ -52,13 +53,13 @@ class MeshFigure:
     up: str = "z"
 
 
-#: Draws a figure of a mesh as PNG, PDF or SVG, by the path's suffix.
+#: Draws a figure of a mesh as PNG, PDF or SVG, by the suffix of the path.
 Draw = Callable[[MeshFigure, Mesh, Path], object]
 
-#: From where the plane's cross section is seen, in all three figures.
+#: Direction of view of the three cross sections of the plane.
 _SECTION = (-0.35, -1.0, 0.25)
 
-#: Those of Chapter 4, in order.
+#: Figures of Chapter 4, in order.
 MESH_FIGURES = (
     MeshFigure("4.1", "bridge-sharp", "BridgeSharp geometry", "bridge-sharp", INITIAL, "geometry", (0.7, 0.45, 1), "y"),
     MeshFigure("4.2", "bridge-sharp-mesh", "BridgeSharp mesh", "bridge-sharp", INITIAL, "mesh", (0, 0, 1), "y"),
@@ -77,25 +78,26 @@ MESH_FIGURES = (
 
 
 def draw_figures(
-    folder: Path, measured: Sequence[ExperimentResult], formats: Sequence[str] = ("png",)
+    folder: Path, results: Sequence[ExperimentResult], formats: Sequence[str] = ("png",)
 ) -> tuple[list[dict[str, Any]], str]:
-    """Draw the figures of what was measured.
+    """Draw the figures of measured experiments.
 
     Parameters
     ----------
     folder : Path
-    measured : sequence of ExperimentResult
+        Folder of the files.
+    results : sequence of ExperimentResult
     formats : sequence of str
-        Suffixes without the dot, of one file each.
+        Suffixes of the files, without the dot.
 
     Returns
     -------
     figures : list of dict
-        Number, caption and file, which is the last of its formats, of each that was drawn, as JSON can hold them.
+        Number, caption and file (in the last of the formats) of each drawn figure, for JSON.
     missing : str
-        Which could not be drawn, and what to do; empty where there are none.
+        Numbers of the others, and what to do; "" if all were drawn.
     """
-    found = [(figure, state) for figure in MESH_FIGURES if (state := _state(figure, measured)) is not None]
+    found = [(figure, state) for figure in MESH_FIGURES if (state := _state(figure, results)) is not None]
     draw, drawn, problem = _drawer(), [], "run  pip install 'hexmend[app]'"
     for figure, (mesh, summary) in found:
         if draw is None:
@@ -104,7 +106,7 @@ def draw_figures(
         try:
             for file in files:
                 draw(figure, mesh, folder / file)
-        except HexmendError as error:  # the tables are worth having
+        except HexmendError as error:  # the tables are still useful
             problem = str(error)
             break
         drawn.append({"number": figure.number, "caption": _caption(figure, summary), "file": files[-1]})
@@ -113,17 +115,17 @@ def draw_figures(
     return drawn, f"Without {names}, of meshes: {problem}" if missing else ""
 
 
-def _state(figure: MeshFigure, measured: Sequence[ExperimentResult]) -> tuple[Mesh, Summary] | None:
-    """What a figure shows: the mesh of the thesis's size, or what was measured on the largest that there is."""
-    found = [one for one in measured if one.experiment.mesh == figure.mesh]
+def _state(figure: MeshFigure, results: Sequence[ExperimentResult]) -> tuple[Mesh, Summary] | None:
+    """Return the mesh of a figure: of the size in the thesis, or the largest that was measured."""
+    found = [result for result in results if result.experiment.mesh == figure.mesh]
     if figure.shows != "section":
         mesh = found[0].experiment.build(quick=False) if found else None
         return None if mesh is None else (mesh, summarise(mesh))
     states = []
-    for one in found:
-        row = one.rows.get(figure.column) if one.experiment.start == INITIAL else None
+    for result in found:
+        row = result.rows.get(figure.column) if result.experiment.start == INITIAL else None
         if figure.column == INITIAL:
-            states.append((one.mesh, one.initial))
+            states.append((result.mesh, result.initial))
         elif row is not None and row.mesh is not None:
             states.append((row.mesh, row.after))
     return max(states, key=lambda state: state[1].hexes, default=None)

@@ -1,4 +1,4 @@
-"""`hexmend study thesis`: the experiments of Chapter 4, each run done once however many tables show it; then 5.2."""
+"""Run the experiments of Chapter 4 and section 5.2 of the thesis; equal runs of several tables are run once."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend.quality import Summary, summarise
 from hexmend.smoothers import Smoother
 from hexmend.study.claims import CLAIMS
 from hexmend.study.outlook.claims import OUTLOOK_CLAIMS
-from hexmend.study.outlook.experiments import TrialResult, try_outlook
+from hexmend.study.outlook.experiments import TrialResult, run_outlook
 from hexmend.study.table_row import Row, Watch, run_one
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL, Experiment, Experiments
@@ -21,59 +21,59 @@ from hexmend.study.thesis.experiments import INITIAL, Experiment, Experiments
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What was measured.
+    """Results of the experiments.
 
     Parameters
     ----------
-    measured : tuple of ExperimentResult
-        In the order of the tables; the last may lack columns where the study was interrupted.
-    tried : tuple of TrialResult
-        The outlooks of section 5.2.
+    results : tuple of ExperimentResult
+        In the order of the tables; the last may lack columns after an interruption.
+    trials : tuple of TrialResult
+        Results of section 5.2.
     quick : bool
-        Whether the meshes were the small ones.
+        The meshes were the small ones.
     seconds : float
         Most seconds of a run.
     own_seconds : mapping
-        The same of methods for which it is another.
+        Most seconds by method, where they differ.
     interrupted : bool
     """
 
-    measured: tuple[ExperimentResult, ...]
-    tried: tuple[TrialResult, ...]
+    results: tuple[ExperimentResult, ...]
+    trials: tuple[TrialResult, ...]
     quick: bool
     seconds: float
     own_seconds: Mapping[str, float]
     interrupted: bool
 
     def record(self) -> dict[str, Any]:
-        """The study for other programs: what `hexmend.report` writes its tables from."""
+        """Return the study for JSON and for the tables of `hexmend.report`."""
         return {
             "quick": self.quick,
             "max_seconds": self.seconds,
             "max_seconds_of": dict(self.own_seconds),
             "interrupted": self.interrupted,
-            "experiments": [one.record() for one in self.measured],
-            "outlooks": [one.record() for one in self.tried],
-            "claims": [claim(self.measured).record() for claim in CLAIMS]
-            + [claim(self.tried).record() for claim in OUTLOOK_CLAIMS],
+            "experiments": [one.record() for one in self.results],
+            "outlooks": [one.record() for one in self.trials],
+            "claims": [claim(self.results).record() for claim in CLAIMS]
+            + [claim(self.trials).record() for claim in OUTLOOK_CLAIMS],
         }
 
 
-def chosen_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
-    """The experiments of some tables only, or of sections that have an outlook.
+def select_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
+    """Select the experiments of tables, or the outlooks of sections.
 
     Raises
     ------
     ParameterError
-        For a table that there is not.
+        For an unknown table.
     """
     known = list(dict.fromkeys([one.table for one in thesis.experiments] + [one.section for one in thesis.outlooks]))
     for table in tables:
         if table not in known:
             raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
     some = tuple(one for one in thesis.experiments if one.table in tables)
-    hopes = tuple(one for one in thesis.outlooks if one.section in tables)
-    return replace(thesis, experiments=some, outlooks=hopes)
+    outlooks = tuple(one for one in thesis.outlooks if one.section in tables)
+    return replace(thesis, experiments=some, outlooks=outlooks)
 
 
 def run_experiments(
@@ -85,7 +85,7 @@ def run_experiments(
 ) -> Study:
     """Run experiments one after another.
 
-    KeyboardInterrupt, or `watch` returning False, ends the study with what was measured so far.
+    KeyboardInterrupt, or `watch` returning False, ends the study; results so far are returned.
 
     Parameters
     ----------
@@ -93,49 +93,49 @@ def run_experiments(
     quick : bool
         Small meshes, and seconds in place of hours.
     watch : callable, optional
-        As in `compare`.
+        See `hexmend.study.table_row.Watch`.
     done : callable, optional
-        Called with the figures of each experiment when its last run has ended.
+        Called with the result of each experiment when its last run has ended.
     """
-    laboratory = _Laboratory(thesis, quick, watch)
-    measured = []
-    tried: list[TrialResult] = []
+    runner = _ExperimentRunner(thesis, quick, watch)
+    results = []
+    trials: list[TrialResult] = []
     try:
         for experiment in thesis.experiments:
-            measured.append(laboratory.measure(experiment))
+            results.append(runner.measure(experiment))
             if done is not None:
-                done(measured[-1])
-            if laboratory.interrupted:
+                done(results[-1])
+            if runner.interrupted:
                 break
-        for outlook in () if laboratory.interrupted else thesis.outlooks:
-            one, go_on = try_outlook(outlook, lambda method: thesis.outlook_stop(method, quick), quick, watch)
-            tried.append(one)
+        for outlook in () if runner.interrupted else thesis.outlooks:
+            trial, completed = run_outlook(outlook, lambda method: thesis.outlook_stop(method, quick), quick, watch)
+            trials.append(trial)
             if done is not None:
-                done(one)
-            if not go_on:
-                laboratory.interrupted = True
+                done(trial)
+            if not completed:
+                runner.interrupted = True
                 break
     except KeyboardInterrupt:  # between two runs
-        laboratory.interrupted = True
+        runner.interrupted = True
     seconds, own = (thesis.seconds["quick"], thesis.quick_seconds) if quick else (thesis.seconds["full"], {})
-    return Study(tuple(measured), tuple(tried), quick, seconds, own, laboratory.interrupted)
+    return Study(tuple(results), tuple(trials), quick, seconds, own, runner.interrupted)
 
 
-def planned(thesis: Experiments, quick: bool) -> Iterator[tuple[list[Smoother], int]]:
-    """For each experiment and outlook its methods, and about how many hexes they will be run on."""
+def planned_runs(thesis: Experiments, quick: bool) -> Iterator[tuple[list[Smoother], int]]:
+    """Yield the methods of each experiment and outlook, with the approximate number of hexes of their mesh."""
     for experiment in thesis.experiments:
         names = {experiment.start, *experiment.methods} - {INITIAL}
         works = []
         for name in sorted(names):
-            with suppress(ParameterError):  # of which its column will tell
+            with suppress(ParameterError):  # its column will have the reason
                 works.append(thesis.smoother(experiment, name))
-        yield works, experiment.asked(quick)
+        yield works, experiment.requested_hexes(quick)
     for outlook in thesis.outlooks:
         yield [smoother for smoother, _ in outlook.variants()], outlook.quick if quick else outlook.size
 
 
-class _Laboratory:
-    """Runs what has not run yet, and remembers."""
+class _ExperimentRunner:
+    """Runs experiments; equal runs are run once."""
 
     def __init__(self, thesis: Experiments, quick: bool, watch: Watch | None):
         self._thesis, self._quick, self._watch = thesis, quick, watch
@@ -144,6 +144,7 @@ class _Laboratory:
         self.interrupted = False
 
     def measure(self, experiment: Experiment) -> ExperimentResult:
+        """Run all methods of an experiment."""
         mesh, initial = self._mesh(experiment)
         rows = {}
         start = mesh
@@ -157,7 +158,7 @@ class _Laboratory:
         return ExperimentResult(experiment, mesh, initial, rows)
 
     def _mesh(self, experiment: Experiment) -> tuple[Mesh, Summary]:
-        key = (experiment.mesh, experiment.asked(self._quick))
+        key = (experiment.mesh, experiment.requested_hexes(self._quick))
         if key not in self._meshes:
             mesh = experiment.build(self._quick)
             self._meshes[key] = mesh, summarise(mesh)
@@ -168,11 +169,11 @@ class _Laboratory:
             return Row(method, {}, "failed", f"Failed: {start} left no mesh to start from.")
         try:
             smoother = self._thesis.smoother(experiment, method)
-        except ParameterError as error:  # the other columns are worth having
+        except ParameterError as error:  # the other columns are still useful
             return Row(method, {}, "failed", f"Failed: {error}")
-        key = (experiment.mesh, experiment.asked(self._quick), start, smoother)
+        key = (experiment.mesh, experiment.requested_hexes(self._quick), start, smoother)
         if key not in self._rows:
             stop = self._thesis.stop(method, self._quick)
-            self._rows[key], go_on = run_one(mesh, smoother, stop, self._watch)
-            self.interrupted = self.interrupted or not go_on
+            self._rows[key], completed = run_one(mesh, smoother, stop, self._watch)
+            self.interrupted = self.interrupted or not completed
         return self._rows[key]

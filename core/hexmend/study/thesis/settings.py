@@ -1,4 +1,4 @@
-"""A study's choices where methods have others by default."""
+"""Values of parameters of a study that differ from the defaults of methods."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from hexmend.smoothers import METHODS, Smoother
 
 @dataclass(frozen=True)
 class Settings:
-    """Values of parameters.
+    """Values of parameters for all methods of a study.
 
     Parameters
     ----------
     common : mapping of str to value
-        Of every method that declares the parameter.
+        Value of each parameter, for methods that declare it.
 
     Examples
     --------
@@ -28,8 +28,8 @@ class Settings:
 
     common: Mapping[str, Any] = field(default_factory=dict)
 
-    def of(self, name: str, **more: Any) -> Smoother:
-        """A method with these values, and with `more` as far as it declares them."""
+    def of(self, name: str, **others: Any) -> Smoother:
+        """Make a method with these values, and with others as far as it declares them."""
         cls = METHODS[name]
-        known = {one.name for one in declared(cls)}
-        return cls(**{key: value for key, value in {**self.common, **more}.items() if key in known})
+        known = {parameter.name for parameter in declared(cls)}
+        return cls(**{key: value for key, value in {**self.common, **others}.items() if key in known})

@@ -4,8 +4,8 @@ import pytest
 
 from hexmend import Recipe
 from hexmend.errors import FileError, ParameterError
-from hexmend.study.batch.case import case_of
-from hexmend.study.batch.plan import plan_of, read_plan
+from hexmend.study.batch.case import read_case
+from hexmend.study.batch.plan import parse_plan, read_plan
 
 CHAIN = '[[stage]]\nmethod = "getme"\nstop = { max_iterations = 7 }\n[[stage]]\nmethod = "mend"\n'
 
@@ -17,7 +17,7 @@ def folder(tmp_path):
 
 
 def plan(text, folder):
-    return plan_of(f"format = 1\n{text}", folder)
+    return parse_plan(f"format = 1\n{text}", folder)
 
 
 def test_lists_are_multiplied_out_and_the_rest_is_kept(folder):
@@ -49,7 +49,7 @@ def test_lists_are_multiplied_out_and_the_rest_is_kept(folder):
         "sd p=4 max_iterations=20",
     ]
     last = made.cases[-1]
-    assert (last.what.p, last.what.delta, last.stop.max_iterations, last.stop.tolerance) == (4, 0.1, 20, 0)
+    assert (last.smoother.p, last.smoother.delta, last.stop.max_iterations, last.stop.tolerance) == (4, 0.1, 20, 0)
     assert [stage.stop.max_iterations for stage in made.cases[2].stages] == [50, 50]
     assert [stage.stop.tolerance for stage in made.cases[3].stages] == [1e-4, 1e-4]
     assert (made.title, made.limits.max_memory_mb, made.limits.max_seconds) == ("All", 500, 0)
@@ -57,9 +57,9 @@ def test_lists_are_multiplied_out_and_the_rest_is_kept(folder):
 
 def test_a_case_is_the_same_when_it_has_been_data(folder):
     for case in plan('methods = ["mend", "chain.toml"]', folder).cases:
-        again = case_of(case.values())
+        again = read_case(case.values())
         assert again == case
-        assert isinstance(again.what, Recipe) == (case.name == "Chain")
+        assert isinstance(again.smoother, Recipe) == (case.name == "Chain")
 
 
 def test_the_boundary_is_every_method_s_but_where_one_says_otherwise(folder):
@@ -77,7 +77,7 @@ def test_the_boundary_is_every_method_s_but_where_one_says_otherwise(folder):
         folder,
     )
     assert [case.slides for case in made.cases] == [False, True, False, True]
-    assert made.cases[1].what.surface_tolerance == 0.01
+    assert made.cases[1].smoother.surface_tolerance == 0.01
     assert made.surface_of(folder / "parts/wheel.vtk") == folder / "wheel.stl"
 
 
@@ -94,7 +94,7 @@ def test_the_boundary_is_every_method_s_but_where_one_says_otherwise(folder):
     ("[[method]]\nmethod = 7", "[[method]] 1: method = 7 is no text"),
     ('[[method]]\nmethod = "mend"\nparameters = { q = 2 }', "[[method]] 1: mend has no parameter 'q'"),
     ('[[method]]\nmethod = "mend"\nparameters = { p = [2, 99] }', "[[method]] 1: p = 99 is out of range"),
-    ('[[method]]\nmethod = "mend"\nparameters = { p = [] }', "[[method]] 1: p = [] leaves nothing to be done"),
+    ('[[method]]\nmethod = "mend"\nparameters = { p = [] }', "[[method]] 1: p = [] leaves nothing to run"),
     ('[[method]]\nmethod = "mend"\nparameters = { p = [[2]] }', "[[method]] 1: p = [2] is not a number"),
     ('[[method]]\nmethod = "mend"\nparameters = 3', "[[method]] 1: parameters = 3 is no table"),
     ('[[method]]\nrecipe = "chain.toml"\nparameters = { p = 3 }', "[[method]] 1: a recipe has values of its own"),

@@ -7,7 +7,7 @@ import pytest
 
 from hexmend import __version__, gallery, io, smooth
 from hexmend.study.batch.case import Case
-from hexmend.study.batch.plan import plan_of
+from hexmend.study.batch.plan import parse_plan
 from hexmend.study.batch.process import run_task
 from hexmend.study.batch.table_columns import is_answer
 from hexmend.study.batch.task import Task, content_hash
@@ -16,7 +16,7 @@ from hexmend.study.batch.task import Task, content_hash
 def task(mesh, case=None, **values):
     """A task of a case on a mesh; without a case, `mend` a few times."""
     if case is None:
-        (made,) = plan_of('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', mesh.parent).cases
+        (made,) = parse_plan('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', mesh.parent).cases
         case = made.values()
     return Task(str(mesh), content_hash(mesh), case, **{"version": __version__} | values)
 
@@ -33,8 +33,8 @@ def test_a_result_is_that_of_the_method(tmp_path):
     io.write(tmp_path / "bridge.vtu", mesh)
     out = tmp_path / "out.vtu"
     row = run_task(task(tmp_path / "bridge.vtu", output=str(out)), memory_mb=0, threads=2)
-    (case,) = plan_of('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', tmp_path).cases
-    result = smooth(io.read(tmp_path / "bridge.vtu"), case.what, case.stop)
+    (case,) = parse_plan('format = 1\nmethods = ["mend"]\nstop = { max_iterations = 4 }', tmp_path).cases
+    result = smooth(io.read(tmp_path / "bridge.vtu"), case.smoother, case.stop)
     assert (row["status"], row["reason"], row["threads"]) == ("done", "", 2)
     for key, value in result.before.to_dict().items():
         assert row[key if key in row else f"{key}_before"] == value
@@ -52,8 +52,8 @@ def test_a_result_is_that_of_the_method(tmp_path):
     ("rest", "done", ""),
     ("print", "done", ""),
     ("raise", "failed", "ValueError: it does not like this mesh"),
-    ("crash", "lost", "Its process ended by SIGSEGV: it did not say why."),
-    ("vanish", "lost", "Its process ended with status 7: it did not say why."),
+    ("crash", "lost", "Its process ended by SIGSEGV: it gave no reason."),
+    ("vanish", "lost", "Its process ended with status 7: it gave no reason."),
 ])  # fmt: skip
 def test_what_a_method_does_is_its_own_row_s_matter(laboratory, does, status, said):
     row = trial(laboratory, does)
@@ -89,7 +89,7 @@ def test_a_task_that_is_no_longer_wanted_is_ended(laboratory):
     asked = []
     stage = {"method": "trial", "parameters": {"does": "wait"}, "stop": {}}
     one = task(laboratory.mesh(), {"recipe": None, "stages": [stage]})
-    assert run_task(one, memory_mb=0, unwanted=lambda: asked.append(1) or len(asked) == 3) is None
+    assert run_task(one, memory_mb=0, cancelled=lambda: asked.append(1) or len(asked) == 3) is None
     assert len(asked) == 3
 
 
@@ -107,7 +107,7 @@ def test_what_cannot_be_done_is_told(laboratory, values, status, said):
     for key, value in values.items():
         for word, meant in text.items() if isinstance(value, str) else ():
             values = values | {key: (value := value.replace(word, meant))}
-    (case,) = plan_of('format = 1\nmethods = ["mend"]', mesh.parent).cases
+    (case,) = parse_plan('format = 1\nmethods = ["mend"]', mesh.parent).cases
     known = {"mesh": str(mesh), "mesh_hash": text["{hash}"], "case": case.values(), "version": __version__}
     row = run_task(Task(**known | values), memory_mb=0)
     assert row["status"] == status
@@ -118,14 +118,14 @@ def test_the_key_tells_what_decides_the_result_and_nothing_else(tmp_path):
     for name in ("a.vtk", "b.vtk", "c.mesh"):
         io.write(tmp_path / name, gallery.make("cube", size=8))
     io.write(tmp_path / "d.vtk", gallery.make("cube", size=27))
-    (case,) = plan_of('format = 1\nmethods = ["mend"]', tmp_path).cases
+    (case,) = parse_plan('format = 1\nmethods = ["mend"]', tmp_path).cases
     a = task(tmp_path / "a.vtk", case.values())
     assert task(tmp_path / "b.vtk", case.values(), max_seconds=3, output="x.vtk").key == a.key
     others = [
         task(tmp_path / "c.mesh", case.values()),
         task(tmp_path / "d.vtk", case.values()),
         task(tmp_path / "a.vtk"),
-        task(tmp_path / "a.vtk", Case("gone", case.what, None).values() | {"recipe": "mend"}),
+        task(tmp_path / "a.vtk", Case("gone", case.smoother, None).values() | {"recipe": "mend"}),
         task(tmp_path / "a.vtk", case.values(), surface_hash="0"),
         task(tmp_path / "a.vtk", case.values(), version="0.0.1"),
     ]

@@ -12,14 +12,14 @@ TASK = Task("/some/mesh.vtk", "0", {"recipe": None, "stages": []}, "0.1", max_se
 
 
 def kept(folder, task=TASK, status=Status.DONE, **figures):
-    Store(folder).keep(TASK, answer(status, **figures))
-    return Store(folder).kept(task)
+    Store(folder).save(TASK, answer(status, **figures))
+    return Store(folder).load(task)
 
 
 def test_an_answer_is_what_it_was(tmp_path):
     row = answer(Status.DONE, hexes=8, q_min_after=1, objective_after=float("inf"), worse="q_min", task_seconds=0.5)
-    Store(tmp_path).keep(TASK, row)
-    assert Store(tmp_path).kept(TASK) == row
+    Store(tmp_path).save(TASK, row)
+    assert Store(tmp_path).load(TASK) == row
     assert row["objective_after"] is None
     assert [path.name for path in tmp_path.iterdir()] == [f"{TASK.key}.json"]
 
@@ -41,8 +41,8 @@ def test_a_failure_holds_while_what_it_failed_by_is_the_same(tmp_path, status, c
 
 def test_what_failed_by_the_memory_that_was_free_is_tried_again(tmp_path):
     task = Task(**{**vars(TASK), "max_memory_mb": 0})
-    Store(tmp_path).keep(task, answer(Status.MEMORY))
-    assert Store(tmp_path).kept(task) is None
+    Store(tmp_path).save(task, answer(Status.MEMORY))
+    assert Store(tmp_path).load(task) is None
 
 
 def test_a_result_holds_while_its_mesh_is_there(tmp_path):
@@ -69,9 +69,9 @@ def test_a_file_that_holds_no_answer_is_none(tmp_path, spoil):
     (path,) = tmp_path.iterdir()
     stored = json.loads(path.read_text())
     path.write_text(json.dumps(spoil(stored)))
-    assert Store(tmp_path).kept(TASK) is None
+    assert Store(tmp_path).load(TASK) is None
     path.write_text("[" * 100_000)
-    assert Store(tmp_path).kept(TASK) is None
+    assert Store(tmp_path).load(TASK) is None
 
 
 def test_columns_have_names_of_their_own_and_say_what_they_are():

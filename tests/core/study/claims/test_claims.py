@@ -8,7 +8,7 @@ import pytest
 from hexmend.quality import measure
 from hexmend.study.claims import CLAIMS, delta, heuristics, local_methods, optimum, preconditioning
 from hexmend.study.claims.claim import tally
-from hexmend.study.claims.reading import objective
+from hexmend.study.claims.queries import objective
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from tests.core.study.claims.cases import JUDGED

@@ -16,14 +16,14 @@ from hexmend.io import read, write, writer_for
 from hexmend.report import comparison_rows, made_folder, table_of, write_documents
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
-from hexmend.study.method_spec import chosen, split
+from hexmend.study.method_spec import parse_methods, split_names
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the methods, write the tables, and print one; return 128 and the signal's number if interrupted."""
-    names = split(args.methods) if args.methods else list(METHODS)
+    names = split_names(args.methods) if args.methods else list(METHODS)
     settings = method_settings(args, [name for name in names if not name.endswith(".toml")])
-    smoothers, limits = chosen(names, settings, given_limits(args)), stopping_criteria(args)
+    smoothers, limits = parse_methods(names, settings, given_limits(args)), stopping_criteria(args)
     mesh = read(args.mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
     folder = made_folder(args.output)

@@ -16,7 +16,7 @@ from hexmend.report.batch import cases_table, failures, write_many, write_parque
 from hexmend.study.batch.cluster import Cluster
 from hexmend.study.batch.local import Local
 from hexmend.study.batch.plan import read_plan
-from hexmend.study.batch.runner import StudyResult, Workers, study_many
+from hexmend.study.batch.runner import StudyResult, Workers, run_study
 from hexmend.study.batch.store import Store
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend.study.bench.sections import machine
@@ -37,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
     meshes_to = made_folder(folder / "meshes") if args.write_meshes else None
     with FinishesWriting():
         with EndsCleanly() as signals, TaskProgress() as progress:
-            study = study_many(
+            study = run_study(
                 plan,
                 [Path(mesh) for mesh in args.meshes],
                 store,
@@ -50,7 +50,7 @@ def run(args: argparse.Namespace) -> int:
         _write_report(folder, study)
     if study.interrupted:
         return signals.status
-    return 3 if study.count.failed else 0
+    return 3 if study.progress.failed else 0
 
 
 def _workers(args: argparse.Namespace) -> Workers:
@@ -83,8 +83,8 @@ def _write_report(folder: Path, study: StudyResult) -> None:
 
 def _print_counts(study: StudyResult) -> None:
     """Print the numbers of tasks and, on standard error, the failures with their reasons."""
-    count = study.count
-    done = f"{count.done:,} done now, {count.kept:,} done before, {count.failed:,} without a result"
+    count = study.progress
+    done = f"{count.done:,} done now, {count.reused:,} done before, {count.failed:,} without a result"
     print(f"{count.tasks:,} tasks: {done}.")
     failed = failures(study.rows)
     for mesh, cases, status, reason in failed[:_MAX_FAILURES]:

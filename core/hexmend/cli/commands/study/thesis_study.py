@@ -19,16 +19,16 @@ from hexmend.study.outlook.experiments import TrialResult
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import load
 from hexmend.study.thesis.mesh_figures import draw_figures
-from hexmend.study.thesis.runner import chosen_tables, planned, run_experiments
+from hexmend.study.thesis.runner import planned_runs, run_experiments, select_tables
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the experiments and write their report; return 128 and the signal's number if interrupted."""
-    thesis = chosen_tables(load(), args.only) if args.only else load()
+    thesis = select_tables(load(), args.only) if args.only else load()
     if args.max_seconds is not None:
         limit = from_strings(StoppingCriteria, {"max_seconds": args.max_seconds}, owner="the run")
-        thesis = thesis.limited(limit.max_seconds)
-    for methods, hexes in planned(thesis, args.quick):
+        thesis = thesis.with_max_seconds(limit.max_seconds)
+    for methods, hexes in planned_runs(thesis, args.quick):
         check_memory(args, methods, hexes, "do fewer tables (--only)", "do it in small (--quick)")
     folder = made_folder(args.output)
     with FinishesWriting():
@@ -36,7 +36,7 @@ def run(args: argparse.Namespace) -> int:
             study = run_experiments(
                 thesis, quick=args.quick, watch=progress.show, done=partial(_write_experiment, folder)
             )
-        figures, missing = draw_figures(folder, study.measured)
+        figures, missing = draw_figures(folder, study.results)
         record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
         write_study(folder, record)
         for claim in record["claims"]:
