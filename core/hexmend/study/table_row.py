@@ -84,7 +84,7 @@ class Row:
 
     @property
     def power(self) -> ObjectiveNorm | None:
-        """Norm of the objective (3.3) that the method, or the last optimising stage of a recipe, minimises; else None."""
+        """Norm of the objective (3.3) of the method, or of the last optimising stage of a recipe; else None."""
         runs = [run for run in self.stages or (self,) if run.method in METHODS and METHODS[run.method].optimises]
         return METHODS[runs[-1].method](**runs[-1].parameters).power if runs else None
 

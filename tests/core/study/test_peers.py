@@ -1,4 +1,4 @@
-"""The benchmark beside other programs: what is here runs, what is not is named, and all are measured alike."""
+"""The benchmark against other programs runs those that are installed and names the others."""
 
 import stat
 import sys

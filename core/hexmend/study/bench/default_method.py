@@ -1,4 +1,4 @@
-"""Measuring the default method: seconds to the optimum, and whether anything tangled is left behind."""
+"""Benchmark of the default method: seconds to the optimum, and inverted hexes that remain."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from hexmend.study.bench.section import BenchSection, by_size
 #: Gallery meshes by name, size and scramble.
 _MESHES = [("five-side", 7350, 0.0), ("bridge-sharp", 32000, 0.0), ("bridge-sharp", 32000, 0.6), ("plane", 31760, 0.0)]
 
-#: Names, sizes, amplitudes and seeds of the tangled meshes: 4 x 5 x 10.
-_TANGLED = [("cube", 1000), ("five-side", 1360), ("bridge-sharp", 1372), ("plane", 2500)]
+#: Scrambled meshes: names and sizes, amplitudes in edge lengths, seeds; 4 x 5 x 10.
+_SCRAMBLED = [("cube", 1000), ("five-side", 1360), ("bridge-sharp", 1372), ("plane", 2500)]
 _AMPLITUDES = [0.5, 1.0, 2.0, 3.5, 5.0]
 _SEEDS = range(10)
 
@@ -33,7 +33,7 @@ def _optima() -> dict[str, Any]:
 
 
 def real_meshes() -> list[Mesh]:
-    """The meshes of the folder that the variable HEXMEND_MESHES names, if it does, and that can be read."""
+    """Read the meshes of the folder in the variable HEXMEND_MESHES; files that cannot be read are skipped."""
     folder = os.environ.get("HEXMEND_MESHES")
     found = []
     for path in sorted(Path(folder).iterdir()) if folder else []:
@@ -66,35 +66,37 @@ def _optima_lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-def _tangled() -> dict[str, Any]:
+def _untangling() -> dict[str, Any]:
     seconds, ends = [], Counter()
-    others = []
-    for (name, size), amplitude, seed in itertools.product(_TANGLED, _AMPLITUDES, _SEEDS):
+    failures = []
+    for (name, size), amplitude, seed in itertools.product(_SCRAMBLED, _AMPLITUDES, _SEEDS):
         mesh = make(name, size=size, scramble=amplitude, seed=seed)
         before = summarise(mesh)
         result = smooth(mesh, "mend", StoppingCriteria(max_iterations=400))
         seconds.append(result.seconds)
         ends[result.outcome.key] += 1
         if result.after.inverted > before.locked_inverted:
-            others.append({"mesh": mesh.name, "amplitude": amplitude, "seed": seed, "left": result.after.inverted})
+            failures.append({"mesh": mesh.name, "amplitude": amplitude, "seed": seed, "left": result.after.inverted})
     return {
         "meshes": len(seconds),
-        "at_lower_bound": len(seconds) - len(others),
-        "others": others,
+        "at_lower_bound": len(seconds) - len(failures),
+        "others": failures,
         "ends": dict(ends),
         "median_seconds": median(seconds),
         "most_seconds": max(seconds),
     }
 
 
-def _tangled_lines(figures: dict[str, Any]) -> list[str]:
+def _untangling_lines(figures: dict[str, Any]) -> list[str]:
     ends = ", ".join(f"{count} {end}" for end, count in figures["ends"].items())
     lines = [
         f"{figures['at_lower_bound']} of {figures['meshes']} end with no inverted hex but those that fixed nodes lock",
         f"ended: {ends}; median {figures['median_seconds']:.3f} s, at most {figures['most_seconds']:.3f} s",
     ]
-    for one in figures["others"]:
-        lines.append(f"{one['mesh']}, amplitude {one['amplitude']}, seed {one['seed']}: {one['left']} left")
+    for failure in figures["others"]:
+        lines.append(
+            f"{failure['mesh']}, amplitude {failure['amplitude']}, seed {failure['seed']}: {failure['left']} left"
+        )
     return lines
 
 
@@ -133,5 +135,5 @@ def _size_lines(figures: dict[str, Any]) -> list[str]:
 SIZES = BenchSection("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
 OPTIMA = BenchSection("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
 UNTANGLING = BenchSection(
-    "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _tangled, _tangled_lines
+    "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _untangling, _untangling_lines
 )

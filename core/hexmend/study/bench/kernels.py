@@ -1,4 +1,4 @@
-"""Measuring: the kernels against plain loops over one hex after another, and what a Newton system is solved with."""
+"""Benchmark of the kernels against scalar loops, and of the preconditioners of Newton systems."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.study.bench.section import BenchSection
 
-#: How often each is timed.
+#: Number of timed calls.
 _TIMES = 15
 
 
 def _seconds(*calls: Callable[[], Any]) -> list[list[float]]:
-    """What each of some calls took each time: they are timed in turn, so that a machine that slows down slows all."""
-    took: list[list[float]] = [[] for _ in calls]
+    """Return the seconds of repeated calls; they are timed in turn, so that changes of clock rate affect all alike."""
+    timings: list[list[float]] = [[] for _ in calls]
     for _ in range(1 + _TIMES):
-        for call, seconds in zip(calls, took, strict=True):
+        for call, seconds in zip(calls, timings, strict=True):
             began = perf_counter()
             call()
             seconds.append(perf_counter() - began)
-    return [seconds[1:] for seconds in took]
+    return [seconds[1:] for seconds in timings]
 
 
 def _kernels() -> dict[str, Any]:
@@ -45,7 +45,7 @@ def _kernels() -> dict[str, Any]:
     def sweep(by: Callable[..., None]) -> None:
         by(x.copy(), hex_mesh, colours.start, colours.items, settings)
 
-    # Of a kernel: itself and the plain loop, and how often the call repeats it.
+    # Name, call of the kernel and of the scalar loop, number of repetitions in a call.
     rows: list[tuple[str, Callable[[], Any], Callable[[], Any] | None, float]] = [
         ("quality", lambda: elements.measure(x, hexes, *figures), None, 1),
         *(
@@ -68,15 +68,16 @@ def _kernels() -> dict[str, Any]:
     try:
         for name, call, reference, times in rows:
             set_threads(1)
-            alone, *plainly = _seconds(call, *filter(None, [reference]))
+            single, *scalar = _seconds(call, *filter(None, [reference]))
             set_threads(all_threads)
-            (shared,) = _seconds(call)
-            ratios = [plain * times / own for own, plain in zip(alone, *plainly, strict=True)] if plainly else []
+            (threaded,) = _seconds(call)
+            pairs = zip(single, *scalar, strict=True) if scalar else ()
+            ratios = [slow * times / fast for fast, slow in pairs]
             low, middle, high = quantiles(ratios, n=4) if ratios else (None, None, None)
             answer[name] = {
-                "ns_per_tetrahedron": median(alone) / times / (8 * m) * 1e9,
-                "ns_per_tetrahedron_all_threads": median(shared) / times / (8 * m) * 1e9,
-                "ns_per_tetrahedron_plain": median(plainly[0]) / (8 * m) * 1e9 if plainly else None,
+                "ns_per_tetrahedron": median(single) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_all_threads": median(threaded) / times / (8 * m) * 1e9,
+                "ns_per_tetrahedron_plain": median(scalar[0]) / (8 * m) * 1e9 if scalar else None,
                 "ratio": middle,
                 "ratio_quartiles": [low, high] if ratios else None,
             }
@@ -96,10 +97,11 @@ def _kernel_lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-#: What the preconditioners are compared on: mesh, sizes, residuals.
+#: Numbers of hexes of the meshes for preconditioners.
 _SIZES = (10_000, 100_000, 1_000_000)
-#: Mean edge lengths by which nodes are moved from their optimum.
+#: Largest displacement of nodes from the optimum, in mean edge lengths.
 _MOVED = 0.03
+#: Relative residuals at which solvers end.
 _RESIDUALS = (1e-3, 1e-6)
 
 

@@ -1,4 +1,4 @@
-"""Measuring how much memory a run takes beside the open mesh, and comparing it with what its method declares."""
+"""Benchmark of the memory of a run in addition to the open mesh, compared with the declaration of the method."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from hexmend.run.memory import FIXED
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import BenchSection
 
-#: Hexes of the scrambled blocks that methods are run on.
+#: Numbers of hexes of the scrambled blocks.
 _SIZES = 50_000, 200_000
 
-#: Iterations: the first ones take what later ones take; only mend goes through stages.
+#: Iterations: later ones need no more memory than the first; only mend has stages.
 _ITERATIONS = 3
 _ITERATIONS_OF = {"mend": 40}
 
-#: What a linear solver holds does not grow with its iterations.
+#: The memory of a linear solver does not grow with its iterations.
 _FEW = {"solver_iterations": 20}
 _VALUES_OF = {"global-nr": _FEW, "global-mnr": _FEW}
 
-# The mesh comes as arrays, so that nothing of how it was made or read is left in the process.
+# The mesh is read from arrays: no memory of a generator or reader is in the process.
 _PROBE = """
 import json, sys
 import numpy as np
@@ -50,21 +50,22 @@ print(json.dumps({"hexes": mesh.n_hexes, "mb": peak_mb() - before, "needed_mb": 
 
 
 def measure_memory(name: str, size: int, iterations: int, **values: Any) -> dict[str, Any]:
-    """What a method takes on a scrambled block, in a process of its own.
+    """Measure the memory of a method on a scrambled block, in a new process.
 
     Parameters
     ----------
     name : str
+        Name of the method.
     size : int
-        Hexes that are asked for.
+        Requested number of hexes.
     iterations : int
     values : Any
-        Of the method's parameters.
+        Values of its parameters.
 
     Returns
     -------
     dict
-        `hexes`; `mb`, the most that was held beyond the open mesh, in MiB; `needed_mb`, what was foretold.
+        `hexes`; `mb`, peak in addition to the open mesh, MiB; `needed_mb`, as predicted, MiB.
     """
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
         mesh, path = make("cube", size=size, scramble=0.6), Path(folder) / "mesh.npz"
@@ -87,16 +88,16 @@ def _memory() -> dict[str, Any]:
 
 def _lines(figures: dict[str, Any]) -> list[str]:
     if not figures:
-        return ["not measured: this system does not say what a process holds"]
-    lines = [f"foretold: the bytes a hex that a method declares, and {FIXED >> 20} MiB"]
+        return ["not measured: this system does not report the memory of a process"]
+    lines = [f"predicted: the bytes a hex that a method declares, and {FIXED >> 20} MiB"]
     for name, row in figures.items():
         sizes = "   ".join(
-            f"{one['hexes']:>7,} hexes {one['mb']:5.0f} MiB ({one['needed_mb']:5.0f} foretold)" for one in row["sizes"]
+            f"{one['hexes']:>7,} hexes {one['mb']:5.0f} MiB ({one['needed_mb']:5.0f} predicted)" for one in row["sizes"]
         )
         lines.append(f"{name:<18} {row['bytes_per_hex']:>5,} bytes a hex   {sizes}")
     return lines
 
 
 MEMORY = BenchSection(
-    "memory", "Memory of a run beside the open mesh, a scrambled block (whole process)", _memory, _lines
+    "memory", "Memory of a run in addition to the open mesh, a scrambled block (whole process)", _memory, _lines
 )

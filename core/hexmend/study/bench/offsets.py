@@ -1,4 +1,4 @@
-"""The "-1" of (B.20): what the optimum is with it, and without, where the thesis measured and on meshes of others."""
+"""Benchmark of the "-1" of (B.20): the optimum with and without it, on meshes of the thesis and of a folder."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import BenchSection
 from hexmend.study.thesis.experiments import INITIAL, load
 
-#: Whose figures the thesis gives for the optimum: where it converged, the best that it has.
+#: Methods whose best result in the thesis is its optimum.
 _OPTIMISERS = "global-nr", "local-nr", "local-sd"
 
-#: Figures that are compared.
+#: Figures to compare.
 _FIGURES = "scaled_jacobian_min", "q_min", "q_mean", "q_norm"
 
-#: The offsets: of (B.20), and of chapter 4.
+#: Offset of (B.20), and of chapter 4.
 _OFFSETS = 1.0, 0.0
 
 
 def _measure() -> dict[str, Any]:
-    rows = [_row(name, mesh, published) for name, mesh, published in (*_thesis(), *_others())]
+    rows = [_row(name, mesh, published) for name, mesh, published in (*_thesis(), *_collection())]
     return {"runs": rows}
 
 
 def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
-    """The thesis's meshes at their full size, with its figures for the optimum."""
+    """Yield the meshes of the thesis at full size, with its figures of the optimum."""
     seen = set()
     for experiment in load().experiments:
         best = [experiment.published[name] for name in _OPTIMISERS if experiment.published.get(name, {}).get("q_mean")]
@@ -42,13 +42,13 @@ def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
             yield experiment.thesis_mesh, experiment.build(quick=False), dict(optimum)
 
 
-def _others() -> Iterator[tuple[str, Mesh, None]]:
-    """The meshes in the folder that HEXMEND_MESHES names."""
+def _collection() -> Iterator[tuple[str, Mesh, None]]:
+    """Yield the meshes of the folder in HEXMEND_MESHES."""
     folder = os.environ.get("HEXMEND_MESHES")
     for path in sorted(Path(folder).iterdir()) if folder else ():
         try:
             mesh = read(path) if path.suffix != ".md" else None
-        except HexmendError:  # of another kind, or of cells that are no hexes
+        except HexmendError:  # no mesh, or without hexes
             continue
         if mesh is not None:
             yield path.name, mesh, None
@@ -59,14 +59,14 @@ def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str,
     return {
         "mesh": name,
         "hexes": mesh.n_hexes,
-        "before": _told(summarise(mesh)),
-        "after": [_told(end.after) for end in ends],
+        "before": _selected(summarise(mesh)),
+        "after": [_selected(end.after) for end in ends],
         "seconds": [end.seconds for end in ends],
         "thesis": published,
     }
 
 
-def _told(figures: Summary) -> dict[str, float]:
+def _selected(figures: Summary) -> dict[str, float]:
     return {key: getattr(figures, key) for key in ("inverted", *_FIGURES)}
 
 
@@ -87,12 +87,12 @@ def _lines(figures: dict[str, Any]) -> list[str]:
         key: [sum(row["after"][k][key] > row["after"][1 - k][key] + 1e-4 for row in figures["runs"]) for k in (0, 1)]
         for key in _FIGURES
     }
-    told = "; ".join(f"{key.replace('_', ' ')} {one} and {zero}" for key, (one, zero) in higher.items())
-    return [*lines, "", f"Of {len(figures['runs'])} meshes so many are higher with offset 1 and with 0: {told}."]
+    text = "; ".join(f"{key.replace('_', ' ')} {one} and {zero}" for key, (one, zero) in higher.items())
+    return [*lines, "", f"Of {len(figures['runs'])} meshes so many are higher with offset 1 and with 0: {text}."]
 
 
 def _pair(one: float, zero: float) -> str:
-    """Both values, the higher in bold."""
+    """Format both values, the higher in bold."""
     texts = f"{one:.4f}", f"{zero:.4f}"
     if abs(one - zero) <= 1e-4:
         return " · ".join(texts)

@@ -1,4 +1,4 @@
-"""Measuring whole processes: what somebody who types a command waits for."""
+"""Benchmark of whole processes: the time that a user waits for a command."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from hexmend.gallery import make
 from hexmend.io import readable_suffixes, write
 from hexmend.study.bench.section import BenchSection
 
-#: How often each command is run.
+#: Number of runs of each command.
 _TIMES = 5
 
-#: Names another program to be timed beside this one, run by run in turn.
+#: Variable that names another program to compare, run in turn with this one.
 _OTHER = "HEXMEND_BEFORE"
 
 
@@ -36,14 +36,14 @@ def _run(program: Sequence[str], words: Sequence[str]) -> float:
 
 
 def _smoothing(program: Sequence[str], mesh: Path, folder: Path) -> tuple[float, float]:
-    """Seconds of the process, and those of the method in it."""
+    """Smooth a mesh; return the seconds of the process, and of the method in it."""
     report = folder / "report.json"
     seconds = _run(program, ["smooth", str(mesh), "-o", str(folder / f"smoothed{mesh.suffix}"), "--json", str(report)])
     return seconds, json.loads(report.read_text(encoding="utf-8"))["seconds"]
 
 
 def _meshes(folder: Path) -> list[Path]:
-    """Those of the folder that the variable HEXMEND_MESHES names and that can be read, else one of the gallery."""
+    """List readable meshes of the folder in the variable HEXMEND_MESHES, else one of the gallery."""
     named = os.environ.get("HEXMEND_MESHES")
     if not named:
         write(folder / "bridge-sharp.mesh", make("bridge-sharp", size=7500))
@@ -63,19 +63,19 @@ def _processes() -> dict[str, Any]:
         folder = Path(name)
         meshes = _meshes(folder)
         for command in (["--version"], ["--help"], ["info", str(meshes[-1])]):
-            taken = {which: [_run(program, command) for _ in range(_TIMES)] for which, program in programs.items()}
+            timings = {label: [_run(program, command) for _ in range(_TIMES)] for label, program in programs.items()}
             commands[" ".join([*command[:1], *(Path(word).name for word in command[1:])])] = {
-                which: median(seconds) for which, seconds in taken.items()
+                label: median(seconds) for label, seconds in timings.items()
             }
         for mesh in meshes:
-            rows: dict[str, list[tuple[float, float]]] = {which: [] for which in programs}
+            rows: dict[str, list[tuple[float, float]]] = {label: [] for label in programs}
             for _ in range(_TIMES):
-                for which, program in programs.items():
-                    rows[which].append(_smoothing(program, mesh, folder))
+                for label, program in programs.items():
+                    rows[label].append(_smoothing(program, mesh, folder))
             smoothed[mesh.name] = {
-                f"{which}{what}": median(row[k] for row in taken)
-                for which, taken in rows.items()
-                for k, what in enumerate(("", "_method"))
+                f"{label}{suffix}": median(row[k] for row in timings)
+                for label, timings in rows.items()
+                for k, suffix in enumerate(("", "_method"))
             }
     return {"commands": commands, "smooth": smoothed}
 
@@ -88,15 +88,15 @@ def _lines(figures: dict[str, Any]) -> list[str]:
         lines.append(f"hexmend smooth {name:<35} {_pair(row, '')}   of it the method {_pair(row, '_method')}")
     rows = list(figures["smooth"].values())
     if rows and "before" in rows[0]:
-        for what, title in (("", "processes"), ("_method", "methods")):
-            ratios = [row[f"before{what}"] / row[f"now{what}"] for row in rows]
+        for suffix, title in (("", "processes"), ("_method", "methods")):
+            ratios = [row[f"before{suffix}"] / row[f"now{suffix}"] for row in rows]
             mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
             lines.append(f"{title}: {mean:.2f} times faster in geometric mean, {min(ratios):.2f} at least")
     return lines
 
 
-def _pair(row: dict[str, float], what: str) -> str:
-    now, before = row[f"now{what}"], row.get(f"before{what}")
+def _pair(row: dict[str, float], suffix: str) -> str:
+    now, before = row[f"now{suffix}"], row.get(f"before{suffix}")
     return f"{now:7.3f} s" + (f" (before {before:7.3f} s, {before / now:5.2f} x)" if before else "")
 
 

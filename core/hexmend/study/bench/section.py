@@ -1,4 +1,4 @@
-"""What a part of the benchmark is."""
+"""Sections of the benchmark."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from typing import Any
 
 @dataclass(frozen=True)
 class BenchSection:
-    """A part of the benchmark.
+    """Section of the benchmark.
 
     Parameters
     ----------
     name, title : str
+        Name on the command line, heading of the output.
     measure : callable
-        Returns figures that JSON can hold.
+        Returns figures for JSON.
     lines : callable
-        The figures as lines to read.
+        Formats the figures as lines of text.
     """
 
     name: str
@@ -29,12 +30,12 @@ class BenchSection:
     lines: Callable[[dict[str, Any]], list[str]]
 
 
-#: Hexes of the meshes that a figure is measured on against size.
+#: Numbers of hexes for figures against size.
 _SIZES = 10_000, 100_000, 1_000_000
 
 
 def by_size(program: str) -> list[dict[str, Any]]:
-    """What a program that is given a size prints as JSON, for each size in a process, and a memory, of its own."""
+    """Run a program with each size as argument, in a new process, and return the JSON that it prints."""
     rows = []
     for size in _SIZES:
         done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)
@@ -43,9 +44,9 @@ def by_size(program: str) -> list[dict[str, Any]]:
 
 
 def peak_mb() -> float:
-    """The most memory that this process has held, MiB.
+    """Return the peak of the resident memory of this process, MiB.
 
-    Not the operating system's `ru_maxrss`, which a process inherits from the one that has started it.
+    `ru_maxrss` is the fallback only: a process inherits it from its parent.
     """
     try:
         return _status_mb("VmHWM")
@@ -56,12 +57,12 @@ def peak_mb() -> float:
 
 
 def resident_mb() -> float:
-    """The memory that this process holds now, MiB.
+    """Return the resident memory of this process, MiB.
 
     Raises
     ------
     OSError
-        Where the system has no /proc.
+        If the system has no /proc.
     """
     return _status_mb("VmRSS")
 

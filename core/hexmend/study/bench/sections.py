@@ -1,4 +1,4 @@
-"""Measuring: sections that announce themselves, each a function from nothing to figures and lines to print."""
+"""All sections of the benchmark, and those of iterations and scaling."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from hexmend.study.bench.processes import PROCESSES
 from hexmend.study.bench.section import BenchSection, by_size
 from hexmend.study.peers import PEERS
 
-#: Seconds per iteration and node in the thesis's tables for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe, 4.3 for
-#: Laplacian.
+#: Seconds per iteration and node in the tables of the thesis for BridgeSharp: 4.1 for the optimisers, 4.2 for GETMe,
+#: 4.3 for Laplacian smoothing.
 THESIS_SECONDS_PER_NODE = {
     "laplacian": 2.495e-06,
     "getme": 1.595e-05,
@@ -38,20 +38,20 @@ THESIS_SECONDS_PER_NODE = {
 
 
 def sections() -> dict[str, BenchSection]:
-    """Every section by name; the viewer's join through the entry-point group `hexmend.benchmarks`."""
+    """Return all sections by name, those of the entry-point group `hexmend.benchmarks` included."""
     optimisation = OPTIMA, UNTANGLING, BOUNDARIES, OFFSETS, SIZES
     own = KERNELS, PROCESSES, ITERATIONS, PRECONDITIONERS, *optimisation, SCALING, MEMORY, PEERS
     found = {section.name: section for section in own}
     for entry in entry_points(group="hexmend.benchmarks"):
         try:
             found[entry.name] = entry.load()
-        except ImportError:  # the viewer's libraries are not installed
+        except ImportError:  # the libraries of the viewer are not installed
             continue
     return found
 
 
 def machine() -> dict[str, Any]:
-    """What was measured on."""
+    """Describe the machine."""
     return {
         "processor": _processor(),
         "cores": os.cpu_count(),
@@ -92,7 +92,7 @@ def _iterations() -> dict[str, Any]:
 def _iteration_lines(figures: dict[str, Any]) -> list[str]:
     rows = []
     for name, row in figures.items():
-        against = f"   {row['ratio']:,.0f} x faster than the thesis's program" if row["ratio"] else ""
+        against = f"   {row['ratio']:,.0f} x faster than the program of the thesis" if row["ratio"] else ""
         rows.append(
             f"{name:<18} {row['seconds'] * 1e3:8.1f} ms   {row['seconds_per_node'] * 1e9:8.0f} ns a node{against}"
         )

@@ -1,4 +1,4 @@
-"""What the thesis concludes from Chapter 4, each claim judged by our own figures."""
+"""Conclusions of the thesis from Chapter 4, judged by measured figures."""
 
 from collections.abc import Callable, Sequence
 
@@ -15,7 +15,7 @@ from hexmend.study.claims import (
 from hexmend.study.claims.claim import Claim
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
-#: Every claim, in the order of the report.
+#: All claims, in the order of the report.
 CLAIMS: tuple[Callable[[Sequence[ExperimentResult]], Claim], ...] = (
     optimum.same_optimum,
     optimum.same_optimum_untangled,

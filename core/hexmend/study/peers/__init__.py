@@ -1,8 +1,8 @@
-"""Measuring beside others: other programs on the same meshes with the same fixed boundary, all measured here.
+"""Benchmark against other programs, on the same meshes with a fixed boundary; all results are measured by Hexmend.
 
-`HEXMEND_PEERS` names a Python that has their packages (`gmsh`, `mfem`), this one if there is none;
-`HEXMEND_HEXSMOOTHING` the program of the hexsmoothing project, one on the path if there is none;
-`HEXMEND_PEERS_SECONDS` how long each may take for a mesh.
+Environment: `HEXMEND_PEERS` is a Python with their packages (`gmsh`, `mfem`), by default this one;
+`HEXMEND_HEXSMOOTHING` is the program of the hexsmoothing project, by default one on the path;
+`HEXMEND_PEERS_SECONDS` is the time limit of each for a mesh.
 """
 
 from __future__ import annotations
@@ -34,20 +34,21 @@ from hexmend.study.peers.programs import GMSH, TMOP
 #: Gallery meshes by name, size and scramble.
 MESHES = [("cube", 1000, 0.6), ("bridge-sharp", 1372, 0.6), ("five-side", 1360, 0.0), ("plane", 2500, 0.0)]
 
-#: Names of the programs of the hexsmoothing project that keep the boundary, the one for hexes alone first.
+#: Programs of the hexsmoothing project that keep the boundary; the first is for hexes only.
 _HEXSMOOTHING = "innerSmoother", "mixedSmoothing", "parallelMixedSmoothing"
 
-#: Positions and seconds of a mesh; raises `Absent`, `HexmendError` or `subprocess.TimeoutExpired`.
+#: Smooths a mesh in a folder within a time limit; returns points and seconds. Raises `MissingProgram`, `HexmendError`
+#: or `subprocess.TimeoutExpired`.
 Peer = Callable[[Mesh, Path, float], tuple[np.ndarray, float]]
 
 
-class Absent(Exception):
-    """A program that is not here."""
+class MissingProgram(Exception):
+    """The program is not installed."""
 
 
 @dataclass(frozen=True)
 class PythonPeer:
-    """A peer that is a package of Python."""
+    """Peer that is a Python package."""
 
     package: str
     program: str
@@ -56,34 +57,35 @@ class PythonPeer:
         python = os.environ.get("HEXMEND_PEERS") or sys.executable
         found = subprocess.run([python, "-c", f"import {self.package}"], capture_output=True, check=False)
         if found.returncode:
-            raise Absent(f"{python} has no {self.package}: pip install {self.package}, HEXMEND_PEERS names the Python")
-        given, left = folder / "given.npz", folder / "left.npz"
+            remedy = f"pip install {self.package}, HEXMEND_PEERS names the Python"
+            raise MissingProgram(f"{python} has no {self.package}: {remedy}")
+        source, target = folder / "given.npz", folder / "left.npz"
         hexes, faces = np.nonzero(mesh.topology.face_neighbours < 0)
         quads = mesh.hexes[hexes[:, None], FACES[faces]]
-        np.savez(given, points=mesh.points, hexes=mesh.hexes.astype(np.int64), quads=quads.astype(np.int64))
-        _run([python, "-c", self.program, str(given), str(left)], seconds)
-        with np.load(left, allow_pickle=False) as done:
+        np.savez(source, points=mesh.points, hexes=mesh.hexes.astype(np.int64), quads=quads.astype(np.int64))
+        _run([python, "-c", self.program, str(source), str(target)], seconds)
+        with np.load(target, allow_pickle=False) as done:
             return np.ascontiguousarray(done["points"], dtype=np.float64), float(done["seconds"])
 
 
 def _hexsmoothing(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
-    """The whole process is timed; of the formats that it reads, Medit's is the one that keeps every digit.
+    """Run hexsmoothing; the time is that of the whole process, with reading and writing Medit files.
 
-    `innerSmoother` compares corners with those of a cube of edge 1 and regularises by fixed fractions of it, so that
-    what it leaves depends on the unit of length: it has the mesh with a mean edge of 1.
+    Its results depend on the unit of length, because `innerSmoother` regularises relative to a cube of edge 1: the mesh
+    is scaled to a mean edge of 1.
     """
     own = os.environ.get("HEXMEND_HEXSMOOTHING")
     program = shutil.which(own) if own else next(filter(None, map(shutil.which, _HEXSMOOTHING)), None)
     if program is None:
-        raise Absent(f"there is no {own or ' or '.join(_HEXSMOOTHING)}: HEXMEND_HEXSMOOTHING names the program")
-    given, left = folder / "given.mesh", folder / "left.mesh"
+        raise MissingProgram(f"there is no {own or ' or '.join(_HEXSMOOTHING)}: HEXMEND_HEXSMOOTHING names the program")
+    source, target = folder / "given.mesh", folder / "left.mesh"
     edge = mesh.mean_edge_length
-    write(given, mesh.with_points(mesh.points / edge))
+    write(source, mesh.with_points(mesh.points / edge))
     began = perf_counter()
-    # In its folder: `parallelMixedSmoothing` leaves files of its own where it is run.
-    _run([os.path.abspath(program), str(given), str(left)], seconds, folder)
+    # `parallelMixedSmoothing` leaves files in its working folder
+    _run([os.path.abspath(program), str(source), str(target)], seconds, folder)
     taken = perf_counter() - began
-    return read(left).points * edge, taken
+    return read(target).points * edge, taken
 
 
 def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, float]:
@@ -94,8 +96,8 @@ def _hexmend(mesh: Mesh, folder: Path, seconds: float) -> tuple[np.ndarray, floa
 def _run(command: list[str], seconds: float, folder: Path | None = None) -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False, cwd=folder)
     if done.returncode:
-        said = done.stderr.strip().splitlines() or [f"it ended with status {done.returncode}"]
-        raise HexmendError(said[-1])
+        lines = done.stderr.strip().splitlines() or [f"it ended with status {done.returncode}"]
+        raise HexmendError(lines[-1])
 
 
 PROGRAMS: dict[str, Peer] = {
@@ -111,22 +113,22 @@ def _peers() -> dict[str, Any]:
     gallery = [make(name, size=size, scramble=scramble, seed=1) for name, size, scramble in MESHES]
     absent: dict[str, str] = {}
     rows = []
-    for given in [*gallery, *real_meshes()]:
-        mesh = Mesh(given.points, given.hexes, name=given.name)  # the boundary is fixed, and nothing else
+    for source in [*gallery, *real_meshes()]:
+        mesh = Mesh(source.points, source.hexes, name=source.name)  # only the boundary is fixed
         before = summarise(mesh)
         rows.append({"mesh": mesh.name, "program": "before", **_figures(mesh)})
         for name, program in PROGRAMS.items():
             if name not in absent:
                 row = {"mesh": mesh.name, "program": name, "hexes": before.hexes}
                 try:
-                    rows.append(row | _done(program, mesh, seconds))
-                except Absent as error:
+                    rows.append(row | _run_program(program, mesh, seconds))
+                except MissingProgram as error:
                     absent[name] = str(error)
     return {"limit_seconds": seconds, "rows": rows, "absent": absent}
 
 
-def _done(program: Peer, mesh: Mesh, seconds: float) -> dict[str, Any]:
-    """What a program makes of a mesh, or why nothing."""
+def _run_program(program: Peer, mesh: Mesh, seconds: float) -> dict[str, Any]:
+    """Run a program on a mesh; return figures of the result, or the reason of its failure."""
     with tempfile.TemporaryDirectory() as name:
         try:
             points, taken = program(mesh, Path(name), seconds)
@@ -153,13 +155,13 @@ def _lines(figures: dict[str, Any]) -> list[str]:
         if "failure" in row:
             lines.append(f"  {name:<26} {row['failure']}")
             continue
-        aside = "   moved the boundary" if row.get("boundary_moved", 0.0) > 1e-6 else ""
+        note = "   moved the boundary" if row.get("boundary_moved", 0.0) > 1e-6 else ""
         taken = f"{row['seconds']:9.2f}" if "seconds" in row else ""
         lines.append(
             f"  {name:<26} {row['inverted']:>6,} {row['scaled_jacobian_min']:>20.4f} {row['q_min']:>7.4f} "
-            f"{row['q_mean']:>7.4f} {taken}{aside}"
+            f"{row['q_mean']:>7.4f} {taken}{note}"
         )
-    return lines + [f"absent: {name} ({why})" for name, why in figures["absent"].items()]
+    return lines + [f"absent: {name} ({reason})" for name, reason in figures["absent"].items()]
 
 
-PEERS = BenchSection("peers", "Beside other programs, the boundary fixed", _peers, _lines)
+PEERS = BenchSection("peers", "Other programs, the boundary fixed", _peers, _lines)

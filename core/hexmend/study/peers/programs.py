@@ -1,12 +1,12 @@
-"""What other programs are told to do, as Python that a Python with their packages runs: it need not have Hexmend.
+"""Scripts that run other programs, in a Python that has their packages; Hexmend need not be installed there.
 
-Each is given an archive of `points` (n, 3), `hexes` (m, 8) and the boundary's `quads` (k, 4), and leaves one of
-`points` and the `seconds` that the method took, without reading and writing.
+Arguments are the paths of two NumPy archives: input with `points` (n, 3), `hexes` (m, 8) and `quads` (k, 4) of the
+boundary, output with `points` and `seconds`, the time of the method without reading and writing.
 """
 
 from __future__ import annotations
 
-#: Gmsh's Winslow untangling; nodes that boundary faces use are the surface's, and stay.
+#: Winslow untangling of Gmsh; nodes of boundary faces belong to the surface, which is fixed.
 GMSH = """
 import sys
 from time import perf_counter
@@ -36,7 +36,7 @@ moved[hexes.ravel()] = places.reshape(-1, 3)[order][np.searchsorted(tags[order],
 np.savez(sys.argv[2], points=moved, seconds=seconds)
 """
 
-#: MFEM's TMOP: shape metric 303 towards hexes of one size. Those of its metrics that untangle in 3D cannot be made from
+#: TMOP of MFEM: shape metric 303 towards hexes of equal size. Its metrics that untangle in 3D are not available from
 #: Python.
 TMOP = """
 import sys
@@ -64,7 +64,7 @@ for k in range(mesh.GetNE()):
     for j in range(rule.GetNPoints()):
         at.SetIntPoint(rule.IntPoint(j))
         if at.Weight() <= 0:
-            sys.exit("its metrics that untangle in 3D cannot be made from Python")
+            sys.exit("its metrics that untangle in 3D are not available from Python")
 metric, target = TMOP_Metric_303(), TargetConstructor(TargetConstructor.IDEAL_SHAPE_EQUAL_SIZE)
 target.SetNodes(nodes)
 integrator = TMOP_Integrator(metric, target)

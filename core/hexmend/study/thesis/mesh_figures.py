@@ -67,14 +67,24 @@ MESH_FIGURES = (
     MeshFigure("4.5", "plane", "Domain around an aeroplane", "plane", INITIAL, "domain", (-0.8, -1, 0.6)),
     MeshFigure("4.6", "plane-initial", "Original Plane mesh", "plane", INITIAL, "section", _SECTION),
     MeshFigure(
-        "4.7", "plane-getme", "Plane mesh smoothed using the GETMe Simultaneous smoother", "plane", "getme", "section",
+        "4.7",
+        "plane-getme",
+        "Plane mesh smoothed using the GETMe Simultaneous smoother",
+        "plane",
+        "getme",
+        "section",
         _SECTION,
     ),
     MeshFigure(
-        "4.8", "plane-optimised", "Plane mesh smoothed using optimisation smoothers", "plane", "local-sd", "section",
+        "4.8",
+        "plane-optimised",
+        "Plane mesh smoothed using optimisation smoothers",
+        "plane",
+        "local-sd",
+        "section",
         _SECTION,
     ),
-)  # fmt: skip
+)
 
 
 def draw_figures(
@@ -135,7 +145,7 @@ def _drawer() -> Draw | None:
     for entry in entry_points(group="hexmend.figures"):
         try:
             return entry.load()
-        except ImportError:  # the viewer's libraries are not installed
+        except ImportError:  # the libraries of the viewer are not installed
             continue
     return None
 

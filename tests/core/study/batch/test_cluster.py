@@ -107,7 +107,7 @@ def test_a_scheduler_that_goes_is_told_and_what_is_done_is_kept(laboratory, clus
         cluster.scheduler.kill()
         _, err = study.communicate()
         assert study.returncode == 2
-    assert "has gone: what was done is kept, and the same command goes on with it" in err.splitlines()[-1]
+    assert "has gone: finished tasks are kept, and the same command continues with the others" in err.splitlines()[-1]
     assert "Traceback" not in err
     done = laboratory.run(recipe, laboratory.mesh())
     assert "7 tasks: 6 done now, 1 done before, 0 without a result." in done.stdout
