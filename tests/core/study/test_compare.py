@@ -1,4 +1,4 @@
-"""Comparisons: every method from the same mesh, none lost, and the tables say what the runs did."""
+"""Comparisons: every method starts from the given mesh, no row is lost, and tables agree with the runs."""
 
 import csv
 import json
@@ -19,7 +19,7 @@ from hexmend.study.compare import compare
 from hexmend.study.method_spec import parse_methods, split_names
 from hexmend.study.table_row import BINS
 
-#: Of each row in comparison.json, beside the figures of a summary.
+#: Keys of each row in comparison.json in addition to the figures of a summary.
 RUN = {
     "method", "parameters", "outcome", "message", "worse", "iterations", "kept", "seconds", "setup_seconds",
     "seconds_per_iteration", "seconds_per_iteration_and_node",
@@ -44,7 +44,7 @@ def file(mesh, tmp_path):
     return path
 
 
-def test_each_row_is_what_the_method_alone_gives(mesh, two):
+def test_each_row_equals_a_run_of_the_method_alone(mesh, two):
     for row in two.rows:
         alone = smooth(mesh, row.method, FEW)
         assert row.after == alone.after
@@ -69,7 +69,7 @@ def test_all_registered_methods_are_the_default(mesh):
 
 
 @pytest.mark.parametrize("after", [1, 2])
-def test_a_watch_that_says_no_keeps_what_was_done(mesh, after):
+def test_a_watch_that_returns_false_keeps_the_rows_so_far(mesh, after):
     seen = []
     answer = compare(mesh, METHODS, FEW, watch=lambda run: seen.append(run.smoother.name) or len(seen) < after)
     assert answer.interrupted
@@ -95,7 +95,7 @@ def test_an_interrupt_while_a_method_is_prepared_keeps_the_others(mesh, monkeypa
     assert answer.rows[1].after == answer.initial
 
 
-def test_an_interrupt_between_two_methods_keeps_those_that_are_done(mesh, monkeypatch):
+def test_an_interrupt_between_two_methods_keeps_the_rows_so_far(mesh, monkeypatch):
     def run_one(mesh, smoother, stop, watch):
         if smoother.name == "local-sd":
             raise KeyboardInterrupt
@@ -108,7 +108,7 @@ def test_an_interrupt_between_two_methods_keeps_those_that_are_done(mesh, monkey
     assert answer.rows == (done,)
 
 
-def test_a_method_that_fails_has_its_row_and_the_others_go_on(mesh, monkeypatch):
+def test_a_method_that_fails_has_a_row_and_the_others_are_run(mesh, monkeypatch):
     def steps(self, mesh):
         raise np.linalg.LinAlgError("singular matrix")
         yield
@@ -138,7 +138,7 @@ def test_settings_reach_the_methods_that_declare_them():
     (["lapalcian"], {}, "did you mean laplacian"),
     (["local-sd"], {"p": "0.5"}, "p = 0.5 is out of range"),
 ])  # fmt: skip
-def test_wrong_settings_are_said(names, settings, message):
+def test_wrong_settings_are_reported(names, settings, message):
     with pytest.raises(ParameterError, match=message):
         parse_methods(names, settings)
 
@@ -174,7 +174,7 @@ def test_the_command_writes_tables_that_agree_and_the_meshes(file, tmp_path, cap
     (["missing.vtu", "-o", "{folder}"], 3, "missing.vtu: there is no such file"),
     (["{file}", "-o", "{file}"], 3, "bridge.vtu: is a file"),
 ])  # fmt: skip
-def test_what_is_wrong_is_said_before_the_work(words, status, message, file, tmp_path, capsys):
+def test_wrong_usage_is_reported_before_the_first_run(words, status, message, file, tmp_path, capsys):
     words = [word.format(file=file, folder=tmp_path / "tables") for word in words]
     assert main(["compare", *words]) == status
     (line,) = capsys.readouterr().err.splitlines()

@@ -1,4 +1,4 @@
-"""Figures that show meshes: drawn by who joins, and said to be missing where nobody does."""
+"""Figures of meshes: drawn by the entry point, reported as missing without one."""
 
 import json
 import re
@@ -50,7 +50,7 @@ def measured():
     ]
 
 
-def test_what_was_measured_is_drawn(tmp_path, measured, joining):
+def test_measured_experiments_are_drawn(tmp_path, measured, joining):
     drawn = []
     joining(None, lambda figure, mesh, path: drawn.append((figure.number, mesh)))
     figures, missing = draw_figures(tmp_path, measured)
@@ -65,7 +65,7 @@ def test_what_was_measured_is_drawn(tmp_path, measured, joining):
     assert f"{plane.initial.inverted:,} inverted" in next(one["caption"] for one in figures if one["number"] == "4.6")
 
 
-def test_without_the_viewer_it_is_said_in_a_line_which_are_missing_and_how_to_get_them(tmp_path, measured, joining):
+def test_without_the_viewer_a_line_names_the_missing_figures_and_the_remedy(tmp_path, measured, joining):
     for there in ((), (None,)):
         joining(*there)
         figures, missing = draw_figures(tmp_path, measured)
@@ -73,7 +73,7 @@ def test_without_the_viewer_it_is_said_in_a_line_which_are_missing_and_how_to_ge
         assert missing == "Without figures 4.3, 4.5, 4.6, 4.7, of meshes: run  pip install 'hexmend[app]'"
 
 
-def test_where_nothing_can_be_drawn_the_reason_is_said(tmp_path, measured, joining):
+def test_the_reason_is_named_where_nothing_can_be_drawn(tmp_path, measured, joining):
     def draw(figure, mesh, path):
         if figure.number == "4.7":
             raise HexmendError("pictures need OpenGL")
@@ -107,5 +107,5 @@ def test_the_report_shows_the_figures_in_the_thesis_s_order_under_its_captions(t
     assert "Without figure 9.9." in text
 
 
-def test_figures_are_named_once():
+def test_figures_have_unique_names():
     assert len({figure.number for figure in MESH_FIGURES}) == len({figure.stem for figure in MESH_FIGURES})

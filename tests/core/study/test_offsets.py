@@ -18,7 +18,7 @@ def small(monkeypatch):
     monkeypatch.setattr("hexmend.study.bench.offsets.load", lambda: Experiments((experiment, experiment), {}, {}))
 
 
-def test_each_mesh_is_one_row_beside_the_thesis(small, monkeypatch, tmp_path):
+def test_each_mesh_is_one_row_with_the_figures_of_the_thesis(small, monkeypatch, tmp_path):
     write(tmp_path / "block.vtu", make("cube", size=27, scramble=0.3))
     (tmp_path / "README.md").write_text("of the meshes")
     (tmp_path / "faces.obj").write_text("v 0 0 0\n")

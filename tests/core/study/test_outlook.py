@@ -1,4 +1,4 @@
-"""What section 5.2 hopes for: every combination is run, arrivals are where the optimum is near, verdicts follow them."""
+"""Experiments of section 5.2: all combinations are run, arrivals are near the optimum, claims follow the figures."""
 
 import csv
 import itertools
@@ -35,7 +35,7 @@ def tried():
     return run_outlook(TINY, stop, True)[0]
 
 
-def test_the_outlooks_are_about_what_there_is():
+def test_the_outlooks_name_known_meshes_methods_and_parameters():
     assert {one.section for one in THESIS.outlooks} == {"5.2.5", "5.2.6"}
     for one in THESIS.outlooks:
         assert one.mesh in GALLERY
@@ -47,7 +47,7 @@ def test_the_outlooks_are_about_what_there_is():
             assert one.vary["order"] == tuple(ORDERS)
 
 
-def test_every_combination_is_run_and_keeps_its_way(tried):
+def test_every_combination_is_run_and_its_history_recorded(tried):
     assert [one.row.method for one in tried.variants] == ["local-nr", "global-nr"] + 4 * ["local-patch"]
     assert [tuple(one.values.values()) for one in tried.variants[2:]] == [(0, 1), (0, 8), (1, 1), (1, 8)]
     for one in tried.variants:
@@ -59,7 +59,7 @@ def test_every_combination_is_run_and_keeps_its_way(tried):
         assert arrival.objective < (1 + NEAR) * tried.optimum <= min((point.objective for point in before), default=9e9)
 
 
-def test_evaluations_are_counted_where_the_method_tells_them(tried):
+def test_evaluations_are_counted_for_methods_that_report_them(tried):
     for one in tried.variants:
         counts = [point.evaluations for point in one.history]
         if one.row.method == "global-nr":
@@ -148,7 +148,7 @@ def test_inward_must_take_fewer_sweeps_than_colour(inward, expected):
 
 
 @pytest.mark.parametrize("claim", OUTLOOK_CLAIMS)
-def test_every_hope_can_do_without_figures(claim):
+def test_every_expectation_is_judged_without_figures(claim):
     answer = claim([])
     assert answer.reproduced is None
     assert answer.figures

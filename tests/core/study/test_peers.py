@@ -44,7 +44,7 @@ def rows():
     return {row["program"]: row for row in figures["rows"]}, PEERS.lines(figures)
 
 
-def test_what_is_not_here_is_named(monkeypatch):
+def test_missing_programs_are_named(monkeypatch):
     monkeypatch.setenv("PATH", "")
     monkeypatch.setitem(peers.PROGRAMS, "Gone", peers.PythonPeer("no_such_package", GMSH))
     found, lines = rows()
@@ -53,7 +53,7 @@ def test_what_is_not_here_is_named(monkeypatch):
     assert "pip install no_such_package" in lines[-1]
 
 
-def test_others_are_measured_by_what_they_leave(program):
+def test_programs_are_measured_by_their_results(program):
     program(
         "import hexmend as hx\nmesh = hx.read(sys.argv[1])\n"
         "hx.write(sys.argv[2], hx.smooth(mesh, 'mend', hx.StoppingCriteria(max_iterations=1000)).mesh)"
@@ -80,7 +80,7 @@ def test_the_unit_of_length_is_the_mean_edge(program, monkeypatch):
     assert found["hexsmoothing"]["boundary_moved"] < 1e-9
 
 
-def test_who_moves_the_boundary_is_told(program):
+def test_a_moved_boundary_is_reported(program):
     program(
         "import hexmend as hx\nmesh = hx.read(sys.argv[1])\nhx.write(sys.argv[2], mesh.with_points(mesh.points * 1.1))"
     )
@@ -96,14 +96,14 @@ def test_who_moves_the_boundary_is_told(program):
         ("", "no such file"),
     ],
 )
-def test_who_fails_has_a_row_with_the_reason(program, body, said):
+def test_a_program_that_fails_has_a_row_with_the_reason(program, body, said):
     program(body)
     found, lines = rows()
     assert said in found["hexsmoothing"]["failure"]
     assert any(said in line for line in lines)
 
 
-def test_who_takes_too_long_is_ended(program, monkeypatch):
+def test_a_program_that_takes_too_long_is_ended(program, monkeypatch):
     program("import time; time.sleep(1000)")
     monkeypatch.setenv("HEXMEND_PEERS_SECONDS", "0.5")
     found, _ = rows()
@@ -111,7 +111,7 @@ def test_who_takes_too_long_is_ended(program, monkeypatch):
 
 
 @pytest.mark.parametrize("source", [GMSH, TMOP])
-def test_programs_of_other_pythons_are_python(source):
+def test_scripts_for_other_pythons_compile(source):
     compile(source, "program", "exec")
 
 

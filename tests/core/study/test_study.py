@@ -1,4 +1,4 @@
-"""The study: published figures as they are printed, each run done once, and claims that follow the figures."""
+"""The study of the thesis: published figures as printed, equal runs run once, claims follow the figures."""
 
 import csv
 import itertools
@@ -98,7 +98,7 @@ def published():
     return [(one, column, one.published[column]) for one in THESIS.experiments for column in one.columns]
 
 
-def test_the_thesis_is_whole():
+def test_all_tables_of_the_thesis_are_there():
     assert list(dict.fromkeys(one.table for one in THESIS.experiments)) == [f"4.{k}" for k in range(1, 16)]
     assert len({(one.table, one.thesis_mesh) for one in THESIS.experiments}) == len(THESIS.experiments)
     for one in THESIS.experiments:
@@ -159,7 +159,7 @@ def test_runs_that_tables_share_run_once(study, seen):
     assert study.results[1].rows["local-sd"] is study.results[2].rows["local-sd"]
 
 
-def test_methods_begin_where_the_start_left_off_and_get_its_delta(study):
+def test_methods_start_from_the_result_of_the_start_with_its_delta(study):
     bridge = study.results[0]
     start, descent = bridge.rows["laplacian"], bridge.rows["local-sd"]
     assert bridge.start == start.after != bridge.initial
@@ -168,7 +168,7 @@ def test_methods_begin_where_the_start_left_off_and_get_its_delta(study):
     assert study.record()["experiments"][0]["inverted"] == start.after.inverted > bridge.initial.inverted
 
 
-def test_a_column_without_published_figures_is_one_of_ours_alone(study, tmp_path):
+def test_a_column_without_published_figures_has_measured_ones_only(study, tmp_path):
     five = study.results[1].record()
     assert list(five["columns"]) == [INITIAL, "local-sd", "global-nr"]
     assert "global-nr" not in five["published"]
@@ -179,14 +179,14 @@ def test_a_column_without_published_figures_is_one_of_ours_alone(study, tmp_path
     assert float(rows["global-nr"]["q_mean"]) == study.results[1].rows["global-nr"].after.q_mean
 
 
-def test_a_method_that_is_not_there_loses_only_its_own_column(study):
+def test_an_unknown_method_loses_only_its_own_column(study):
     row = study.results[0].rows["laplace-sd"]
     assert row.outcome == "failed"
     assert "there is no method 'laplace-sd'" in row.message
     assert study.results[0].rows["local-sd"].after.inverted == 0
 
 
-def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
+def test_the_report_compares_measured_with_published_figures(study, tmp_path):
     record = study.record()
     for experiment in record["experiments"]:
         write_experiment(tmp_path, experiment)
@@ -207,7 +207,7 @@ def test_the_report_is_written_with_ours_beside_theirs(study, tmp_path):
         assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_without_matplotlib_the_tables_are_written_and_the_remedy_is_said(study, tmp_path, monkeypatch):
+def test_without_matplotlib_the_tables_are_written_and_the_remedy_is_named(study, tmp_path, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "matplotlib.figure", None)
     with pytest.raises(HexmendError, match=r"pip install 'hexmend\[report\]'"):
         write_study(tmp_path, study.record())
@@ -256,7 +256,7 @@ def test_an_unknown_table_is_wrong_usage(tmp_path, capsys):
     assert not (tmp_path / "x").exists()
 
 
-def test_methods_have_the_studys_settings_and_runs_its_measure_of_convergence():
+def test_methods_have_the_settings_and_the_convergence_criteria_of_the_study():
     thesis = load()
     assert thesis.stop("local-sd", quick=False).move == "coordinate"
     by_table = {one.table: one for one in thesis.experiments if one.start == "laplacian"}

@@ -75,7 +75,7 @@ def is_running(number):
 
 
 class Laboratory:
-    """A folder with meshes, and the program beside the method."""
+    """A folder with meshes, and the program with the method."""
 
     def __init__(self, folder, monkeypatch):
         self.folder, self.out = folder, folder / "out"

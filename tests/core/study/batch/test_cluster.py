@@ -65,7 +65,7 @@ def parent(process):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-def test_what_a_killed_worker_had_begun_another_does(laboratory, cluster):
+def test_tasks_of_a_killed_worker_are_run_by_another(laboratory, cluster):
     with at_work(laboratory, cluster) as study:
         by_worker = {parent(process): (number, process) for number, process in laboratory.said("began")}
         assert set(by_worker) == {worker.pid for worker in cluster.workers}
@@ -86,7 +86,7 @@ def test_what_a_killed_worker_had_begun_another_does(laboratory, cluster):
     assert set(laboratory.answers) == {1, 2, 3, 4, 5, 6}
 
 
-def test_ctrl_c_ends_what_workers_have_begun_and_the_same_command_goes_on(laboratory, cluster):
+def test_ctrl_c_ends_running_tasks_and_the_same_command_continues(laboratory, cluster):
     with at_work(laboratory, cluster) as study:
         study.send_signal(signal.SIGINT)
         _, err = study.communicate()
@@ -99,7 +99,7 @@ def test_ctrl_c_ends_what_workers_have_begun_and_the_same_command_goes_on(labora
     assert sorted(number for number, _ in laboratory.said("did")) == [1, 2, 3, 4, 5, 6]
 
 
-def test_a_scheduler_that_goes_is_told_and_what_is_done_is_kept(laboratory, cluster):
+def test_a_lost_scheduler_is_reported_and_finished_tasks_are_kept(laboratory, cluster):
     recipe = laboratory.recipe(f'[[method]]\nmethod = "trial"\ntitle = "rests"\n{WAITS}')
     words = recipe, laboratory.mesh(), "--scheduler", cluster.address
     with laboratory.started(*words) as study:
@@ -113,13 +113,13 @@ def test_a_scheduler_that_goes_is_told_and_what_is_done_is_kept(laboratory, clus
     assert "7 tasks: 6 done now, 1 done before, 0 without a result." in done.stdout
 
 
-def test_a_scheduler_that_is_not_there_is_told(laboratory, monkeypatch):
+def test_a_missing_scheduler_is_reported(laboratory, monkeypatch):
     done = laboratory.run(laboratory.recipe(WAITS), laboratory.mesh(), "--scheduler", "tcp//nowhere")
     assert done.returncode == 2
     assert "no scheduler answers at 'tcp//nowhere'" in done.stderr
 
 
-def test_without_dask_it_is_said_what_to_install(laboratory, monkeypatch, capsys):
+def test_without_dask_the_message_names_what_to_install(laboratory, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "distributed", None)
     words = ["study", laboratory.recipe(WAITS.replace("trial", "mend")), laboratory.mesh(), "--scheduler", "tcp://a:1"]
     laboratory.recipe('methods = ["mend"]')

@@ -1,4 +1,4 @@
-"""The recipe of a study: what it multiplies out, and what is said of one that is wrong."""
+"""Recipes of studies: combinations of lists, and messages for malformed ones."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def plan(text, folder):
     return parse_plan(f"format = 1\n{text}", folder)
 
 
-def test_lists_are_multiplied_out_and_the_rest_is_kept(folder):
+def test_lists_give_a_case_for_each_combination(folder):
     made = plan(
         """
         title = "All"
@@ -55,14 +55,14 @@ def test_lists_are_multiplied_out_and_the_rest_is_kept(folder):
     assert (made.title, made.limits.max_memory_mb, made.limits.max_seconds) == ("All", 500, 0)
 
 
-def test_a_case_is_the_same_when_it_has_been_data(folder):
+def test_a_case_survives_the_round_trip_through_data(folder):
     for case in plan('methods = ["mend", "chain.toml"]', folder).cases:
         again = read_case(case.values())
         assert again == case
         assert isinstance(again.smoother, Recipe) == (case.name == "Chain")
 
 
-def test_the_boundary_is_every_method_s_but_where_one_says_otherwise(folder):
+def test_the_boundary_applies_to_methods_without_their_own(folder):
     made = plan(
         """
         methods = ["chain.toml", "mend"]
@@ -112,7 +112,7 @@ def test_the_boundary_is_every_method_s_but_where_one_says_otherwise(folder):
     (f'[[method]]\nmethod = "mend"\nparameters = {{ p = {[2] * 101} }}\nstop = {{ tolerance = {[0] * 101} }}',
      "more than 10,000 cases"),
 ])  # fmt: skip
-def test_what_is_wrong_is_named_with_its_place(text, said, folder):
+def test_errors_name_their_place_in_the_recipe(text, said, folder):
     with pytest.raises(ParameterError) as caught:
         plan(text, folder)
     assert said in str(caught.value)

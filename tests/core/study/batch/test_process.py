@@ -1,4 +1,4 @@
-"""A task in a process of its own: whatever happens there is a row, with what is to blame."""
+"""Tasks in their own process: every end is a row with its reason."""
 
 import os
 import sys
@@ -55,14 +55,14 @@ def test_a_result_is_that_of_the_method(tmp_path):
     ("crash", "lost", "Its process ended by SIGSEGV: it gave no reason."),
     ("vanish", "lost", "Its process ended with status 7: it gave no reason."),
 ])  # fmt: skip
-def test_what_a_method_does_is_its_own_row_s_matter(laboratory, does, status, said):
+def test_a_crash_of_a_method_affects_its_own_row_only(laboratory, does, status, said):
     row = trial(laboratory, does)
     assert (row["status"], row["reason"]) == (status, said)
     assert is_answer(row)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
-def test_memory_is_held(laboratory):
+def test_the_memory_of_a_task_is_limited(laboratory):
     row = trial(laboratory, "eat", max_memory_mb=700)
     assert (row["status"], row["reason"]) == ("out of memory", "It needed more memory than it may have.")
     assert row["hexes"] == 8
@@ -71,7 +71,7 @@ def test_memory_is_held(laboratory):
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not hold memory so")
-def test_memory_that_does_not_suffice_for_reading_is_told_as_such(tmp_path):
+def test_too_little_memory_for_reading_is_reported_as_such(tmp_path):
     io.write(tmp_path / "large.vtu", gallery.make("cube", size=125_000))
     row = run_task(task(tmp_path / "large.vtu", max_memory_mb=120), memory_mb=0, threads=1)
     assert row["status"] == "out of memory"
@@ -85,7 +85,7 @@ def test_a_task_that_takes_too_long_is_ended(laboratory):
 
 
 @pytest.mark.slow
-def test_a_task_that_is_no_longer_wanted_is_ended(laboratory):
+def test_a_cancelled_task_is_ended(laboratory):
     asked = []
     stage = {"method": "trial", "parameters": {"does": "wait"}, "stop": {}}
     one = task(laboratory.mesh(), {"recipe": None, "stages": [stage]})
@@ -101,7 +101,7 @@ def test_a_task_that_is_no_longer_wanted_is_ended(laboratory):
     ({"mesh": "/nowhere/cube.vtk"}, "lost", "Where the task ran: cube.vtk: there is no such file"),
     ({"output": "{mesh}/out.vtk"}, "lost", "out.vtk: cannot be written"),
 ])  # fmt: skip
-def test_what_cannot_be_done_is_told(laboratory, values, status, said):
+def test_tasks_that_cannot_be_run_have_a_reason(laboratory, values, status, said):
     mesh = laboratory.mesh()
     text = {"{mesh}": str(mesh), "{hash}": content_hash(mesh)}
     for key, value in values.items():
@@ -114,7 +114,7 @@ def test_what_cannot_be_done_is_told(laboratory, values, status, said):
     assert said in row["reason"]
 
 
-def test_the_key_tells_what_decides_the_result_and_nothing_else(tmp_path):
+def test_the_key_depends_on_what_the_result_depends_on_alone(tmp_path):
     for name in ("a.vtk", "b.vtk", "c.mesh"):
         io.write(tmp_path / name, gallery.make("cube", size=8))
     io.write(tmp_path / "d.vtk", gallery.make("cube", size=27))
@@ -132,7 +132,7 @@ def test_the_key_tells_what_decides_the_result_and_nothing_else(tmp_path):
     assert len({one.key for one in others} | {a.key}) == 7
 
 
-def test_the_pieces_of_a_mesh_count(tmp_path):
+def test_the_hash_of_a_mesh_includes_its_pieces(tmp_path):
     whole = '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="a.vtu"/></PUnstructuredGrid></VTKFile>'
     (tmp_path / "whole.pvtu").write_text(whole)
     hashes = set()

@@ -1,4 +1,4 @@
-"""Answers that are kept: which of them hold, and which are asked for again."""
+"""Stored answers: reused or run again."""
 
 import json
 
@@ -16,7 +16,7 @@ def kept(folder, task=TASK, status=Status.DONE, **figures):
     return Store(folder).load(task)
 
 
-def test_an_answer_is_what_it_was(tmp_path):
+def test_an_answer_survives_the_round_trip(tmp_path):
     row = answer(Status.DONE, hexes=8, q_min_after=1, objective_after=float("inf"), worse="q_min", task_seconds=0.5)
     Store(tmp_path).save(TASK, row)
     assert Store(tmp_path).load(TASK) == row
@@ -34,18 +34,18 @@ def test_an_answer_is_what_it_was(tmp_path):
     (Status.MEMORY, {"max_seconds": 9}, True),
     (Status.MEMORY, {"max_memory_mb": 0}, False),
 ])  # fmt: skip
-def test_a_failure_holds_while_what_it_failed_by_is_the_same(tmp_path, status, changes, holds):
+def test_a_failure_is_reused_while_its_limit_is_unchanged(tmp_path, status, changes, holds):
     task = Task(**{**vars(TASK), **changes})
     assert (kept(tmp_path, task, status) is not None) == holds
 
 
-def test_what_failed_by_the_memory_that_was_free_is_tried_again(tmp_path):
+def test_failures_by_free_memory_are_run_again(tmp_path):
     task = Task(**{**vars(TASK), "max_memory_mb": 0})
     Store(tmp_path).save(task, answer(Status.MEMORY))
     assert Store(tmp_path).load(task) is None
 
 
-def test_a_result_holds_while_its_mesh_is_there(tmp_path):
+def test_a_result_is_reused_while_its_mesh_exists(tmp_path):
     task = Task(**{**vars(TASK), "output": str(tmp_path / "out.vtk")})
     assert kept(tmp_path, task) is None
     (tmp_path / "out.vtk").touch()
@@ -64,7 +64,7 @@ def test_a_result_holds_while_its_mesh_is_there(tmp_path):
     lambda stored: stored | {"answer": stored["answer"] | {"message": "a" * 1_000_000}},
     lambda stored: {"key": stored["key"], "answer": {}},
 ])  # fmt: skip
-def test_a_file_that_holds_no_answer_is_none(tmp_path, spoil):
+def test_files_without_an_answer_are_ignored(tmp_path, spoil):
     assert kept(tmp_path) is not None
     (path,) = tmp_path.iterdir()
     stored = json.loads(path.read_text())
@@ -74,7 +74,7 @@ def test_a_file_that_holds_no_answer_is_none(tmp_path, spoil):
     assert Store(tmp_path).load(TASK) is None
 
 
-def test_columns_have_names_of_their_own_and_say_what_they_are():
+def test_columns_have_unique_names_and_help():
     assert len({column.name for column in COLUMNS}) == len(COLUMNS)
     assert all(column.help.endswith(".") and column.type in (str, int, float) for column in COLUMNS)
     assert is_answer(answer(Status.FAILED, "It did not work."))

@@ -1,4 +1,4 @@
-"""`hexmend study RECIPE.toml MESH...`: one table of all tasks, whatever they come to, and nothing done twice."""
+"""`hexmend study RECIPE.toml MESH...`: one table of all tasks, failed ones included; no task is run twice."""
 
 import csv
 import json
@@ -23,7 +23,7 @@ def rows_of(laboratory):
         return list(csv.DictReader(file))
 
 
-def test_what_fails_is_a_row_with_its_reason_and_the_others_go_on(laboratory):
+def test_a_failed_task_is_a_row_with_its_reason_and_the_others_are_run(laboratory):
     mesh, torn = laboratory.mesh(), laboratory.folder / "torn.vtk"
     torn.write_bytes(mesh.read_bytes()[:200])
     words = laboratory.recipe(f'title = "Deeds"\n{DEEDS}'), mesh, torn, laboratory.folder / "none.vtk"
@@ -59,7 +59,7 @@ def test_both_tables_hold_the_same(laboratory):
     assert " p=2.0 " in words[1]["parameters"]
 
 
-def test_without_pyarrow_there_is_the_csv_and_that_is_said(laboratory):
+def test_without_pyarrow_only_the_csv_is_written_and_a_line_says_so(laboratory):
     (laboratory.folder / "site/pyarrow.py").write_text("raise ImportError")
     done = laboratory.run(laboratory.recipe('methods = ["laplacian"]'), laboratory.mesh())
     assert done.returncode == 0
@@ -68,7 +68,7 @@ def test_without_pyarrow_there_is_the_csv_and_that_is_said(laboratory):
     assert not (laboratory.out / "study.parquet").exists()
 
 
-def test_what_is_done_is_not_done_again_unless_it_is_asked_for(laboratory):
+def test_finished_tasks_are_run_again_only_on_request(laboratory):
     words = laboratory.recipe(DEEDS), laboratory.mesh()
     laboratory.run(*words)
     first = rows_of(laboratory)
@@ -91,7 +91,7 @@ def test_files_of_the_same_content_are_one_task(laboratory):
     assert (a["key"], a["mesh"][-5:], b["mesh"][-5:]) == (b["key"], "a.vtk", "b.vtk")
 
 
-def test_meshes_are_written_and_made_anew_where_they_are_gone(laboratory):
+def test_meshes_are_written_and_missing_ones_are_made_again(laboratory):
     words = laboratory.recipe('methods = ["laplacian"]\n[[method]]\nmethod = "trial"'), laboratory.mesh()
     laboratory.run(*words)
     assert not (laboratory.out / "meshes").exists()
@@ -108,7 +108,7 @@ def test_meshes_are_written_and_made_anew_where_they_are_gone(laboratory):
     assert len(laboratory.said("began")) == 3
 
 
-def test_so_many_tasks_are_done_at_a_time(laboratory):
+def test_jobs_limit_the_tasks_that_run_at_a_time(laboratory):
     with laboratory.started(laboratory.recipe(WAITS), laboratory.mesh(), "--jobs", "2") as study:
         wait_until(lambda: len(laboratory.said("began")) == 2, "two tasks begin", study)
         assert laboratory.said("did") == []
@@ -117,7 +117,7 @@ def test_so_many_tasks_are_done_at_a_time(laboratory):
     assert len(laboratory.said("did")) == 6
 
 
-def test_a_study_that_is_killed_goes_on_where_it_was(laboratory):
+def test_a_killed_study_continues_with_the_remaining_tasks(laboratory):
     """Of six tasks two are done, two at work and two to come when it is killed: then four are done."""
     recipe = laboratory.recipe(
         '[[method]]\nmethod = "trial"\nparameters = { number = [1, 2] }\n'
@@ -145,7 +145,7 @@ def test_a_study_that_is_killed_goes_on_where_it_was(laboratory):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_end_that_is_asked_for_keeps_what_is_done_and_writes_it(laboratory, number):
+def test_an_interrupted_study_writes_the_finished_tasks(laboratory, number):
     recipe = laboratory.recipe(f'[[method]]\nmethod = "trial"\ntitle = "rests"\n{WAITS}')
     with laboratory.started(recipe, laboratory.mesh(), "--jobs", "1") as study:
         wait_until(lambda: len(laboratory.said("began")) == 2, "the second task begins", study)

@@ -1,4 +1,4 @@
-"""Claims follow the figures: each is judged on a few made-up runs as reproduced, as not, and as not judged."""
+"""Claims follow the figures: made-up runs reproduce each, contradict it, or leave it undecided."""
 
 from dataclasses import replace
 
@@ -54,22 +54,22 @@ def published(experiment):
     return ExperimentResult(experiment, MESH, replace(initial, inverted=experiment.inverted), rows)
 
 
-def test_by_the_thesis_s_own_figures_its_claims_hold_but_for_one():
+def test_all_claims_but_one_hold_by_the_figures_of_the_thesis():
     """Its tables contradict it where GETMe's time is to be made up for: 202 s and 650 s against 800 s."""
     tables = [published(one) for one in THESIS.experiments if "seconds" in one.published.get("local-sd", {})]
     heuristic = [published(one) for one in THESIS.experiments if one.table in ("4.11", "4.12", "4.13")]
-    verdicts = {claim: claim([*tables, *heuristic]).reproduced for claim in CLAIMS}
-    del verdicts[heuristics.laplacian_inverts]  # which looks at meshes
-    assert {claim for claim, verdict in verdicts.items() if verdict is False} == {
+    judgements = {claim: claim([*tables, *heuristic]).reproduced for claim in CLAIMS}
+    del judgements[heuristics.laplacian_inverts]  # which looks at meshes
+    assert {claim for claim, judgement in judgements.items() if judgement is False} == {
         preconditioning.preconditioning_compensates
     }
-    assert {claim for claim, verdict in verdicts.items() if verdict is None} == {
+    assert {claim for claim, judgement in judgements.items() if judgement is None} == {
         heuristics.sequential_raises_minimum, local_methods.modified_local, delta.delta_idle,
     }  # fmt: skip
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.__name__)
-def test_every_claim_can_do_without_figures(claim):
+def test_every_claim_is_judged_without_figures(claim):
     answer = claim([])
     assert answer.reproduced is None
     assert answer.figures
@@ -77,7 +77,7 @@ def test_every_claim_can_do_without_figures(claim):
     assert answer.record()["claim"] == answer.claim
 
 
-def test_laplacian_must_invert_sound_hexes_on_both_meshes():
+def test_laplacian_must_invert_valid_hexes_on_both_meshes():
     tangled = MESH.with_points(np.where(MESH.free[:, None], MESH.points[::-1], MESH.points))
     row = {"laplacian": run(mesh=tangled)}
     bridge = table("4.3", row)
@@ -98,7 +98,7 @@ def test_the_objective_is_the_one_that_was_minimised():
     assert objective(replace(row, parameters={"offset": 0.0})) == pytest.approx(np.square(eta + 1).sum())
 
 
-def test_where_no_optimiser_arrives_one_that_converges_elsewhere_is_what_optimisation_ends_at():
+def test_without_an_optimal_run_other_converged_runs_are_the_result_of_optimisation():
     rows = {"laplacian": run(), "getme": run(q_min=0.1, q_mean=0.8)}
     rows["local-sd"] = run(q_min=0.2, q_mean=0.9, inverted=5, objective=None)
     claim = optimum.optimum_is_best([table("4.14", rows)])
@@ -106,7 +106,7 @@ def test_where_no_optimiser_arrives_one_that_converges_elsewhere_is_what_optimis
     assert "5 inverted" in claim.figures
 
 
-def test_all_cases_must_hold_or_most_where_most_is_said():
+def test_a_tally_requires_all_cases_or_most():
     cases = [(True, "a"), (True, "b"), (False, "c")]
     assert [tally(cases, "none", most=most)[0] for most in (False, True)] == [False, True]
     assert tally([], "none") == (None, "none")
