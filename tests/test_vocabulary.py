@@ -30,8 +30,6 @@ IDENTIFIERS = {
     "legs": "stage_runs",
     "lifted": "released, increased",
     "mending": "repair",
-    "off": "deviation, outside",
-    "pieces": "parts, components",
     "raised": "increased, maxmin",
     "raising": "maxmin",
     "room": "band, space",
@@ -50,7 +48,10 @@ IDENTIFIERS = {
     "why": "reason",
 }
 
-#: Identifiers, or consecutive words of them.
+#: Identifiers that are out alone; as words of others they are in use: `off_diagonal`.
+ALONE = {"held": "fixed, rejected", "off": "deviation, off_diagonal", "plain": "scalar, text"}
+
+#: Consecutive words that no identifier contains.
 PHRASES = {
     "brought_near": "recentre",
     "go_on": "completed, continue",
@@ -99,9 +100,10 @@ def words(identifier: str) -> list[str]:
 def misnamed(identifier: str) -> str:
     """Describe the word of an identifier that is out; "" where all of them are in use."""
     parts = words(identifier)
+    out = IDENTIFIERS | ALONE if len(parts) == 1 else IDENTIFIERS
     for word in parts:
-        if word in IDENTIFIERS:
-            return f"{identifier}: not {word!r}; write {IDENTIFIERS[word]}"
+        if word in out:
+            return f"{identifier}: not {word!r}; write {out[word]}"
     joined = f"_{'_'.join(parts)}_"
     found = (phrase for phrase in PHRASES if f"_{phrase}_" in joined)
     return next((f"{identifier}: not {phrase!r}; write {PHRASES[phrase]}" for phrase in found), "")
@@ -159,7 +161,8 @@ def faults_of_cpp(source: str) -> Iterator[str]:
     commented = False
     for number, line in enumerate(source.splitlines(), 1):
         code, _, comment = line.partition("//")
-        if comment and not commented and (fault := opening(comment)):
+        clause = re.match(r" (Where|As|That)\b", comment)  # in a comment these may begin a whole sentence
+        if not commented and not clause and (fault := opening(comment)):
             yield f"{number} {fault}"
         commented = bool(comment)
         strings = re.findall(r'"((?:[^"\\]|\\.)*)"', code)
@@ -189,6 +192,7 @@ def test_words_that_are_out_are_in_no(package):
     ("self.raised_limits = wayTo = 1", 2),
     ("for way in paths: pass", 1),
     ("def f(what, *, way=1): return np.off", 2),
+    ("off = off_diagonal = cut_off = 1", 1),
     ('def f():\n    """What an iterate is kept for."""', 1),
     ('def f():\n    """Return what is kept."""\n    x = "goes on with the next one"', 1),
     ('x = {"told": 1}', 0),
@@ -200,7 +204,8 @@ def test_a_word_that_is_out_is_seen_in_python(source, count):
 
 @pytest.mark.parametrize(("source", "count"), [
     ("double put_back(int way);", 2),
-    ("// Where a node goes.\n// What follows.\nint x;", 1),
+    ("// What a node is.\n// What follows.\nint x;", 1),
+    ("// Where corners are one node, the first counts.\nint x;", 0),
     ('throw std::invalid_argument("hexes are tangled here");', 1),
     ('int x = index("told");  // way', 0),
 ])  # fmt: skip

@@ -87,12 +87,12 @@ def _kernels() -> dict[str, Any]:
 
 
 def _kernel_lines(figures: dict[str, Any]) -> list[str]:
-    lines = [f"{'ns a corner tetrahedron':<36}{'plain loop':>11}{'1 thread':>10}{'all':>8}{'ratio':>8}  quartiles"]
+    lines = [f"{'ns a corner tetrahedron':<36}{'scalar loop':>11}{'1 thread':>10}{'all':>8}{'ratio':>8}  quartiles"]
     for name, row in figures["kernels"].items():
-        plain = f"{row['ns_per_tetrahedron_plain']:11.1f}" if row["ns_per_tetrahedron_plain"] else " " * 11
+        scalar = f"{row['ns_per_tetrahedron_plain']:11.1f}" if row["ns_per_tetrahedron_plain"] else " " * 11
         ratio = "{:7.1f}x  {:.1f} to {:.1f}".format(row["ratio"], *row["ratio_quartiles"]) if row["ratio"] else ""
         lines.append(
-            f"{name:<36}{plain}{row['ns_per_tetrahedron']:10.1f}{row['ns_per_tetrahedron_all_threads']:8.1f}{ratio}"
+            f"{name:<36}{scalar}{row['ns_per_tetrahedron']:10.1f}{row['ns_per_tetrahedron_all_threads']:8.1f}{ratio}"
         )
     return lines
 
