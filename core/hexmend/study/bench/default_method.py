@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import itertools
-import os
 from collections import Counter
-from contextlib import suppress
-from pathlib import Path
 from statistics import median
 from typing import Any
 
-from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
-from hexmend.io import read, readable_suffixes
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, smooth
+from hexmend.study.bench.collection import collection
 from hexmend.study.bench.section import BenchSection, by_size
 
 #: Gallery meshes by name, size and scramble.
@@ -29,18 +25,7 @@ _SEEDS = range(10)
 
 def _optima() -> dict[str, Any]:
     gallery = [make(name, size=size, scramble=scramble) for name, size, scramble in _MESHES]
-    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, real_meshes())]}
-
-
-def real_meshes() -> list[Mesh]:
-    """Read the meshes of the folder in the variable HEXMEND_MESHES; files that cannot be read are skipped."""
-    folder = os.environ.get("HEXMEND_MESHES")
-    found = []
-    for path in sorted(Path(folder).iterdir()) if folder else []:
-        if path.suffix in readable_suffixes():
-            with suppress(FileError, MeshError):
-                found.append(read(path))
-    return found
+    return {"meshes": [_row(mesh) for mesh in itertools.chain(gallery, (mesh for _, mesh in collection()))]}
 
 
 def _row(mesh: Mesh) -> dict[str, Any]:
@@ -105,6 +90,7 @@ import json, sys
 from hexmend.errors import FileError, MeshError
 from hexmend.gallery import make
 from hexmend.run import StoppingCriteria, iterate
+from hexmend.study.bench.collection import collection
 from hexmend.study.bench.section import peak_mb
 mesh = make("five-side", size=int(sys.argv[1]), scramble=0.3)
 run = iterate(mesh, "mend", StoppingCriteria(max_iterations=1000))

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-from hexmend.errors import HexmendError
-from hexmend.io import read
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, summarise
 from hexmend.run import StoppingCriteria, smooth
 from hexmend.smoothers import METHODS
+from hexmend.study.bench.collection import collection
 from hexmend.study.bench.section import BenchSection
 from hexmend.study.thesis.experiments import INITIAL, load
 
@@ -27,8 +24,8 @@ _OFFSETS = 1.0, 0.0
 
 
 def _measure() -> dict[str, Any]:
-    rows = [_row(name, mesh, published) for name, mesh, published in (*_thesis(), *_collection())]
-    return {"runs": rows}
+    files = ((path.name, mesh, None) for path, mesh in collection())
+    return {"runs": [_row(name, mesh, published) for name, mesh, published in (*_thesis(), *files)]}
 
 
 def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
@@ -40,18 +37,6 @@ def _thesis() -> Iterator[tuple[str, Mesh, dict[str, float] | None]]:
             seen.add((experiment.mesh, experiment.size))
             optimum = max(best, key=lambda figures: figures.get("q_norm", figures["q_mean"]))
             yield experiment.thesis_mesh, experiment.build(quick=False), dict(optimum)
-
-
-def _collection() -> Iterator[tuple[str, Mesh, None]]:
-    """Yield the meshes of the folder in HEXMEND_MESHES."""
-    folder = os.environ.get("HEXMEND_MESHES")
-    for path in sorted(Path(folder).iterdir()) if folder else ():
-        try:
-            mesh = read(path) if path.suffix != ".md" else None
-        except HexmendError:  # no mesh, or without hexes
-            continue
-        if mesh is not None:
-            yield path.name, mesh, None
 
 
 def _row(name: str, mesh: Mesh, published: dict[str, float] | None) -> dict[str, Any]:

@@ -16,7 +16,8 @@ from time import perf_counter
 from typing import Any
 
 from hexmend.gallery import make
-from hexmend.io import readable_suffixes, write
+from hexmend.io import write
+from hexmend.study.bench.collection import mesh_files
 from hexmend.study.bench.section import BenchSection
 
 #: Number of runs of each command.
@@ -44,13 +45,11 @@ def _smoothing(program: Sequence[str], mesh: Path, folder: Path) -> tuple[float,
 
 def _meshes(folder: Path) -> list[Path]:
     """List readable meshes of the folder in the variable HEXMEND_MESHES, else one of the gallery."""
-    named = os.environ.get("HEXMEND_MESHES")
-    if not named:
+    if not os.environ.get("HEXMEND_MESHES"):
         write(folder / "bridge-sharp.mesh", make("bridge-sharp", size=7500))
         return [folder / "bridge-sharp.mesh"]
     here = [sys.executable, "-m", "hexmend"]
-    found = [path for path in sorted(Path(named).iterdir()) if path.suffix in readable_suffixes()]
-    return [path for path in found if not subprocess.run([*here, "info", path], capture_output=True).returncode]
+    return [path for path in mesh_files() if not subprocess.run([*here, "info", path], capture_output=True).returncode]
 
 
 def _processes() -> dict[str, Any]:

@@ -27,7 +27,7 @@ from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import summarise
 from hexmend.run import StoppingCriteria, smooth
-from hexmend.study.bench.default_method import real_meshes
+from hexmend.study.bench.collection import collection
 from hexmend.study.bench.section import BenchSection
 from hexmend.study.peers.programs import GMSH, TMOP
 
@@ -113,7 +113,7 @@ def _peers() -> dict[str, Any]:
     gallery = [make(name, size=size, scramble=scramble, seed=1) for name, size, scramble in MESHES]
     absent: dict[str, str] = {}
     rows = []
-    for source in [*gallery, *real_meshes()]:
+    for source in [*gallery, *(mesh for _, mesh in collection())]:
         mesh = Mesh(source.points, source.hexes, name=source.name)  # only the boundary is fixed
         before = summarise(mesh)
         rows.append({"mesh": mesh.name, "program": "before", **_figures(mesh)})

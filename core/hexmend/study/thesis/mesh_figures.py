@@ -56,8 +56,10 @@ class MeshFigure:
 #: Draws a figure of a mesh as PNG, PDF or SVG, by the suffix of the path.
 Draw = Callable[[MeshFigure, Mesh, Path], object]
 
-#: Direction of view of the three cross sections of the plane.
-_SECTION = (-0.35, -1.0, 0.25)
+#: Kind and direction of view of the three cross sections of the plane.
+_SECTION = "section", (-0.35, -1.0, 0.25)
+_BY_GETME = "Plane mesh smoothed using the GETMe Simultaneous smoother"
+_BY_OPTIMISATION = "Plane mesh smoothed using optimisation smoothers"
 
 #: Figures of Chapter 4, in order.
 MESH_FIGURES = (
@@ -65,25 +67,9 @@ MESH_FIGURES = (
     MeshFigure("4.2", "bridge-sharp-mesh", "BridgeSharp mesh", "bridge-sharp", INITIAL, "mesh", (0, 0, 1), "y"),
     MeshFigure("4.3", "five-side", "FiveSide geometry", "five-side", INITIAL, "geometry", (0.2, -1, 0.5)),
     MeshFigure("4.5", "plane", "Domain around an aeroplane", "plane", INITIAL, "domain", (-0.8, -1, 0.6)),
-    MeshFigure("4.6", "plane-initial", "Original Plane mesh", "plane", INITIAL, "section", _SECTION),
-    MeshFigure(
-        "4.7",
-        "plane-getme",
-        "Plane mesh smoothed using the GETMe Simultaneous smoother",
-        "plane",
-        "getme",
-        "section",
-        _SECTION,
-    ),
-    MeshFigure(
-        "4.8",
-        "plane-optimised",
-        "Plane mesh smoothed using optimisation smoothers",
-        "plane",
-        "local-sd",
-        "section",
-        _SECTION,
-    ),
+    MeshFigure("4.6", "plane-initial", "Original Plane mesh", "plane", INITIAL, *_SECTION),
+    MeshFigure("4.7", "plane-getme", _BY_GETME, "plane", "getme", *_SECTION),
+    MeshFigure("4.8", "plane-optimised", _BY_OPTIMISATION, "plane", "local-sd", *_SECTION),
 )
 
 
