@@ -44,6 +44,10 @@ def parse_methods(
     limits : mapping, optional
         Limits of `StoppingCriteria` for the stages of recipes, in place of their own.
 
+    Returns
+    -------
+    list of Smoother or Recipe
+
     Raises
     ------
     ParameterError

@@ -99,6 +99,10 @@ class Row:
         ----------
         power : ObjectiveNorm
             Norm of the objective, common to the rows of a table: `common_power`.
+
+        Returns
+        -------
+        dict
         """
         figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
         figures |= {"objective": self.objective_by(power), "objective_formula": power.formula}
@@ -135,6 +139,10 @@ def objective_of(mesh: Mesh, summary: Summary, power: ObjectiveNorm) -> float | 
         Summary of this mesh.
     power : ObjectiveNorm
         p and offset.
+
+    Returns
+    -------
+    float or None
     """
     return summary.objective if power == SQUARES else objective(measure(mesh.points, mesh.hexes), *power)
 
@@ -162,7 +170,7 @@ def run_one(
     Returns
     -------
     row : Row
-    go_on : bool
+    completed : bool
         False if the user ended it.
     """
     run, completed = None, True
@@ -214,6 +222,6 @@ def _row(name: str, result: Result) -> Row:
 
 
 def distribution(mesh: Mesh) -> list[int]:
-    """Count the hexes in `BINS` bins of q(H), from 0 to 1."""
+    """Count the hexes of a mesh in `BINS` bins of q(H), from 0 to 1."""
     q = measure(mesh.points, mesh.hexes).q
     return np.histogram(q, BINS, (0.0, 1.0))[0].tolist()

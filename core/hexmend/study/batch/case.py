@@ -83,6 +83,15 @@ class Case:
 def read_case(data: Mapping[str, Any]) -> Case:
     """Make a case from its `values`; its name is that of the method or recipe.
 
+    Parameters
+    ----------
+    data : mapping
+        `Case.values`.
+
+    Returns
+    -------
+    Case
+
     Raises
     ------
     ParameterError

@@ -58,6 +58,14 @@ class Plan:
 def read_plan(path: str | os.PathLike[str]) -> Plan:
     """Read the recipe of a study. Paths of recipes and surfaces in it are relative to its folder.
 
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    Plan
+
     Raises
     ------
     FileError
@@ -77,6 +85,10 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
         Folder of the files that it names.
     title : str
         Title of a recipe without one.
+
+    Returns
+    -------
+    Plan
 
     Raises
     ------

@@ -44,7 +44,7 @@ def run_task(
         Memory limit of a task without its own.
     threads : int, optional
         Number of threads; that of the environment if None.
-    unwanted : callable
+    cancelled : callable
         Called repeatedly; True ends the process.
 
     Returns

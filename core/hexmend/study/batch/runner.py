@@ -118,6 +118,10 @@ def run_study(
     watch : callable
         Called with the progress at the start and after each task.
 
+    Returns
+    -------
+    StudyResult
+
     Raises
     ------
     FileError

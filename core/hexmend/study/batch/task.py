@@ -59,6 +59,14 @@ class Task:
 def content_hash(path: Path) -> str:
     """Return the SHA-256 of a file, in hexadecimal digits; for a PVTU file its pieces are included.
 
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    str
+
     Raises
     ------
     FileError

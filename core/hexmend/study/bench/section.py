@@ -35,7 +35,18 @@ _SIZES = 10_000, 100_000, 1_000_000
 
 
 def by_size(program: str) -> list[dict[str, Any]]:
-    """Run a program with each size as argument, in a new process, and return the JSON that it prints."""
+    """Run a program with each size as argument, in a new process, and return the JSON that it prints.
+
+    Parameters
+    ----------
+    program : str
+        Python source; the number of hexes is its argument.
+
+    Returns
+    -------
+    list of dict
+        One for each size.
+    """
     rows = []
     for size in _SIZES:
         done = subprocess.run([sys.executable, "-c", program, str(size)], capture_output=True, text=True, check=True)

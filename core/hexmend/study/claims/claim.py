@@ -43,7 +43,15 @@ Judge = Callable[[Sequence[T]], Finding]
 
 
 def claim(section: str, sentence: str) -> Callable[[Judge[T]], Callable[[Sequence[T]], Claim]]:
-    """Decorator: turn a function from results to a `Finding` into one from results to a `Claim`."""
+    """Decorator: turn a function from results to a `Finding` into one from results to a `Claim`.
+
+    Parameters
+    ----------
+    section : str
+        Section of the thesis.
+    sentence : str
+        The claim.
+    """
 
     def decorate(judge: Judge[T]) -> Callable[[Sequence[T]], Claim]:
         @wraps(judge)
@@ -66,6 +74,10 @@ def tally(cases: Sequence[tuple[bool, str]], otherwise: str, *, most: bool = Fal
         Reason why it is not judged, if there is no case.
     most : bool
         More than half of the cases suffice.
+
+    Returns
+    -------
+    Finding
 
     Examples
     --------

@@ -112,6 +112,14 @@ class Experiments:
 def load(source: Path | Traversable | None = None) -> Experiments:
     """Read experiments from a TOML file; those of Chapter 4 and section 5.2 of the thesis by default.
 
+    Parameters
+    ----------
+    source : Path or Traversable, optional
+
+    Returns
+    -------
+    Experiments
+
     Examples
     --------
     >>> thesis = load()

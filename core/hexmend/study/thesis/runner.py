@@ -62,6 +62,16 @@ class Study:
 def select_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
     """Select the experiments of tables, or the outlooks of sections.
 
+    Parameters
+    ----------
+    thesis : Experiments
+    tables : sequence of str
+        Such as "4.2", "5.2.6".
+
+    Returns
+    -------
+    Experiments
+
     Raises
     ------
     ParameterError
@@ -96,6 +106,10 @@ def run_experiments(
         See `hexmend.study.table_row.Watch`.
     done : callable, optional
         Called with the result of each experiment when its last run has ended.
+
+    Returns
+    -------
+    Study
     """
     runner = _ExperimentRunner(thesis, quick, watch)
     results = []
