@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Container, Generator, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cache
@@ -132,14 +132,12 @@ def run_study(
     stored = {} if again else {key: row for key, (task, _) in tasks.items() if (row := store.load(task)) is not None}
     for key, row in stored.items():
         rows |= dict.fromkeys(tasks[key][1], row)
-    todo = [task for key, (task, _) in tasks.items() if key not in stored]
-    todo.sort(key=lambda task: -os.path.getsize(task.mesh))  # the largest first: none is left for the end
     count = len(dict.fromkeys(meshes)) * len(plan.cases)
     progress = StudyProgress(count, reused=len(rows) - unreadable, done=unreadable, failed=_failed(rows))
     watch(progress)
     interrupted = False
     try:
-        with closing(workers.answers(todo)) as answers:
+        with closing(workers.answers(_remaining(tasks, stored))) as answers:
             for task, row in answers:
                 store.save(task, row)
                 places = tasks[task.key][1]
@@ -179,6 +177,12 @@ def _plan_tasks(plan: Plan, meshes: Sequence[Path], version: str, meshes_to: Pat
                 task = replace(task, output=str((meshes_to / _name(mesh, case, task.key)).absolute()))
             tasks.setdefault(task.key, (task, []))[1].append(place)
     return tasks, rows
+
+
+def _remaining(tasks: _Tasks, stored: Container[str]) -> list[Task]:
+    """List the tasks without a stored answer, those of the largest meshes first."""
+    todo = [task for key, (task, _) in tasks.items() if key not in stored]
+    return sorted(todo, key=lambda task: -os.path.getsize(task.mesh))
 
 
 def _table(plan: Plan, meshes: Sequence[Path], tasks: _Tasks, rows: _Rows) -> Iterator[dict[str, Any]]:
