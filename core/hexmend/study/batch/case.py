@@ -97,7 +97,7 @@ def read_case(data: Mapping[str, Any]) -> Case:
     ParameterError
         For data that this version of Hexmend does not know.
     """
-    stages = tuple(read_stage(number, one) for number, one in enumerate(data["stages"], 1))
+    stages = tuple(read_stage(number, stage) for number, stage in enumerate(data["stages"], 1))
     if data["recipe"] is not None:
         return Case(data["recipe"], Recipe(data["recipe"], stages))
     if len(stages) != 1:

@@ -180,7 +180,7 @@ def _cases(
             yield Case(table.get("title", recipe.title) + words, recipe.limited(**limits))
         return
     method = METHODS[table["method"]]
-    known = {one.name for one in declared(method)}
+    known = {parameter.name for parameter in declared(method)}
     for key in boundary:
         if key not in known:
             raise ParameterError(f"[boundary] {key}: {method.name} keeps the boundary fixed")

@@ -83,7 +83,9 @@ COLUMNS = PLACE + ANSWER
 
 def answer(status: Status, reason: str = "", **figures: Any) -> dict[str, Any]:
     """Make the answer of a task; missing values and numbers that are not finite are None."""
-    known = {name: None if isinstance(one, float) and not isfinite(one) else one for name, one in figures.items()}
+    known = {
+        name: None if isinstance(value, float) and not isfinite(value) else value for name, value in figures.items()
+    }
     return {column.name: None for column in ANSWER} | known | {"status": str(status), "reason": reason}
 
 

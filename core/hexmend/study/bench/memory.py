@@ -92,7 +92,8 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     lines = [f"predicted: the bytes a hex that a method declares, and {FIXED >> 20} MiB"]
     for name, row in figures.items():
         sizes = "   ".join(
-            f"{one['hexes']:>7,} hexes {one['mb']:5.0f} MiB ({one['needed_mb']:5.0f} predicted)" for one in row["sizes"]
+            f"{size['hexes']:>7,} hexes {size['mb']:5.0f} MiB ({size['needed_mb']:5.0f} predicted)"
+            for size in row["sizes"]
         )
         lines.append(f"{name:<18} {row['bytes_per_hex']:>5,} bytes a hex   {sizes}")
     return lines

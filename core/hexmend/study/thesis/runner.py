@@ -52,8 +52,8 @@ class Study:
             "max_seconds": self.seconds,
             "max_seconds_of": dict(self.own_seconds),
             "interrupted": self.interrupted,
-            "experiments": [one.record() for one in self.results],
-            "outlooks": [one.record() for one in self.trials],
+            "experiments": [result.record() for result in self.results],
+            "outlooks": [trial.record() for trial in self.trials],
             "claims": [claim(self.results).record() for claim in CLAIMS]
             + [claim(self.trials).record() for claim in OUTLOOK_CLAIMS],
         }
@@ -77,13 +77,14 @@ def select_tables(thesis: Experiments, tables: Sequence[str]) -> Experiments:
     ParameterError
         For an unknown table.
     """
-    known = list(dict.fromkeys([one.table for one in thesis.experiments] + [one.section for one in thesis.outlooks]))
+    named = [experiment.table for experiment in thesis.experiments] + [outlook.section for outlook in thesis.outlooks]
+    known = list(dict.fromkeys(named))
     for table in tables:
         if table not in known:
             raise ParameterError(f"there is no table {table!r}: expected one of {', '.join(known)}")
-    some = tuple(one for one in thesis.experiments if one.table in tables)
-    outlooks = tuple(one for one in thesis.outlooks if one.section in tables)
-    return replace(thesis, experiments=some, outlooks=outlooks)
+    experiments = tuple(experiment for experiment in thesis.experiments if experiment.table in tables)
+    outlooks = tuple(outlook for outlook in thesis.outlooks if outlook.section in tables)
+    return replace(thesis, experiments=experiments, outlooks=outlooks)
 
 
 def run_experiments(
