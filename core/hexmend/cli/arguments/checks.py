@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from hexmend.errors import FileError, InsufficientMemoryError
 from hexmend.io.storage.atomic import check_writable
-from hexmend.run.memory import available, shortage
+from hexmend.run import memory
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
@@ -39,8 +39,8 @@ def check_memory(
     InsufficientMemoryError
         For the method that needs the most.
     """
-    free = available()
-    shortages = [one for one in (shortage(method, mesh, free) for method in methods) if one is not None]
+    free = memory.available()
+    shortages = [one for one in (memory.shortage(method, mesh, free) for method in methods) if one is not None]
     if not shortages:
         return
     worst = max(shortages, key=lambda one: one.needed)
