@@ -1,6 +1,6 @@
-"""The command line: one module for each command.
+"""The command line: a package in `commands` for each command.
 
-The script `hexmend` imports this package before anything that takes time: from here on Ctrl-C is no traceback.
+The script `hexmend` imports this package first: from here on Ctrl-C prints one line and no traceback.
 """
 
 import os as _os
@@ -11,6 +11,6 @@ if _os.path.basename("".join(_sys.argv[:1])).lower() in ("hexmend", "hexmend.exe
         from hexmend.cli.process.interrupts import exit_on_signals as _exit_on_signals
 
         _exit_on_signals()
-    except KeyboardInterrupt:  # while that is loaded
+    except KeyboardInterrupt:  # during the import above
         _os.write(2, b"hexmend: interrupted\n")
         _os._exit(130)

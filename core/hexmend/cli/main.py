@@ -1,10 +1,10 @@
-"""The program `hexmend`: finds the command, runs it, says in one line what went wrong.
+"""The program `hexmend`: finds the command, runs it, and prints errors in one line.
 
 Exit status: 0 done; 2 wrong usage; 3 a file cannot be read, written or used, or memory does not suffice; 4 done, and
-hexes are still inverted; 128 and the signal's number (130 for Ctrl-C) where it was interrupted.
+hexes are still inverted; 128 plus the signal's number (130 for Ctrl-C) after an interruption.
 
-A command pays for what it uses: modules are imported where they are needed, here and in the commands. lazy_loader is
-not used: it gives modules but no names, warns of each submodule, and commands are no faster with it.
+Imports inside functions keep `hexmend --version` and `--help` quick. lazy_loader is not used: it gives modules but no
+names, warns of each submodule, and commands are no faster with it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from hexmend.cli.command import Command
 
-#: The command that a bare mesh, or nothing, stands for.
+#: The command that is run for a mesh file without a command, or without any arguments.
 _DEFAULT = "view"
 
 
@@ -36,11 +36,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     Parameters
     ----------
     argv : sequence of str, optional
-        The words of the command. Without them this is the program itself, and signals are its own.
+        The arguments. Without them this is the program itself, which takes `sys.argv` and handles signals.
     """
     if argv is None:
         exit_on_signals()
-    _speak_any_tongue()
+    _replace_unencodable()
     try:
         status = _main(list(sys.argv[1:] if argv is None else argv))
         sys.stdout.flush()
@@ -53,23 +53,24 @@ def main(argv: Sequence[str] | None = None) -> int:
                 exit_interrupted(number)
             print("hexmend: interrupted", file=sys.stderr)
         return 128 + number
-    except BrokenPipeError:  # the reader (head, less) has gone: nothing more to say
-        _say_no_more()
+    except BrokenPipeError:  # the reader, such as head, has ended
+        _discard_output()
         return 0
     except OSError as error:
-        _say_no_more()
-        print(f"hexmend: what is printed cannot be written: {error.strerror or error}", file=sys.stderr)
+        _discard_output()
+        print(f"hexmend: the output cannot be written: {error.strerror or error}", file=sys.stderr)
         return 3
 
 
-def _speak_any_tongue() -> None:
-    """What a terminal's encoding has no letters for is replaced, and does not end the program."""
+def _replace_unencodable() -> None:
+    """Replace characters that the terminal's encoding does not have; they would end the program otherwise."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
 
 
-def _say_no_more() -> None:
+def _discard_output() -> None:
+    """Redirect standard output, so that Python can flush its buffer at the end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -77,9 +78,9 @@ def _main(words: list[str]) -> int:
     if words and words[0] == "--version":
         print(f"hexmend {__version__}")
         return 0
-    loaders = _own_commands()
+    loaders = _core_commands()
     if words and words[0] in loaders:
-        atexit.register(gc.freeze)  # all goes with the process: looking it through for garbage takes 0.1 s
+        atexit.register(gc.freeze)  # the garbage collection at exit would take 0.1 s
     else:
         loaders = commands()
     if words and words[0] in ("-h", "--help"):
@@ -95,16 +96,16 @@ def _main(words: list[str]) -> int:
 
 
 def commands() -> dict[str, Callable[[], Command]]:
-    """A loader for each command, the core's own first."""
-    from importlib.metadata import entry_points  # which reads what is said of every distribution there is
+    """Return a function for each command that imports it, the core's own first."""
+    from importlib.metadata import entry_points  # reads the metadata of every installed distribution
 
-    loaders = _own_commands()
+    loaders = _core_commands()
     for entry in entry_points(group="hexmend.commands"):
         loaders.setdefault(entry.name, entry.load)
     return loaders
 
 
-def _own_commands() -> dict[str, Callable[[], Command]]:
+def _core_commands() -> dict[str, Callable[[], Command]]:
     import pkgutil
 
     from hexmend.cli import commands as package
@@ -127,9 +128,9 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
         command.arguments(parser)
         try:
             args = parser.parse_args(words)
-        except SystemExit as leave:  # argparse has said what is wrong
+        except SystemExit as leave:  # argparse has printed what is wrong
             return int(leave.code or 0)
-        if command.name == _DEFAULT:  # the window has a loop of its own
+        if command.name == _DEFAULT:  # the window has an event loop of its own
             return command.run(args)
         with EndsCleanly(completes=True):
             return command.run(args)
@@ -157,7 +158,7 @@ def _unknown(word: str, loaders: dict[str, Callable[[], Command]]) -> int:
 def _help(loaders: dict[str, Callable[[], Command]]) -> int:
     print("hexmend: see a hexahedral mesh, and mend it while you watch.\n")
     print("usage: hexmend [MESH]              open the viewer")
-    print("       hexmend COMMAND --help      what a command takes\n")
+    print("       hexmend COMMAND --help      options of a command\n")
     for name, load in loaders.items():
         try:
             print(f"  {name:<10} {load().help}")

@@ -1,10 +1,11 @@
-"""What the program does when a signal asks it to end: Ctrl-C, TERM, or a terminal that closes.
+"""Handling of the signals that ask the program to end: Ctrl-C, TERM, or a terminal that closes.
 
 A handler never prints, because it may have interrupted a print. It sets a flag, writes with `os.write`, or raises
-`KeyboardInterrupt`; after an import, a callback or a function that is `uninterrupted`, in which it would be lost.
+`KeyboardInterrupt`. Within an import, a callback or a function that is `uninterrupted` the exception would be lost: it
+is raised afterwards.
 
 Before a command runs there is nothing to lose, and the process exits at once (`exit_on_signals`). A command runs in
-`EndsCleanly`, a loop in `EndsAfterIteration`, and what is computed is written in `FinishesWriting`.
+`EndsCleanly`, a loop in `EndsAfterIteration`, and results are written in `FinishesWriting`.
 """
 
 from __future__ import annotations
@@ -22,22 +23,22 @@ if TYPE_CHECKING:
     from types import FrameType, TracebackType
     from typing import Any, NoReturn, Self
 
-#: Ctrl-C, a polite request to end, and a terminal that has gone.
+#: Ctrl-C, a request to terminate, and a terminal that was closed.
 ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 #: The signal of the timer; None on Windows, where `signal_timer` takes its place.
 _ALARM = getattr(signal, "SIGALRM", None)
 
-#: Seconds until an exception is tried again that would have been lost.
+#: Seconds until the next attempt to raise an exception that would have been lost.
 _RETRY = 0.02
 
-#: Whether this process is the program `hexmend`, and not one that calls its `main`.
+#: True in the program `hexmend`, False in a process that only calls its `main`.
 _is_program = False
 
-#: The signal that the timer stands for; 0 without one.
+#: The signal that the timer will send; 0 if it is not set.
 _delayed = 0
 
-#: Whether that waits for a place to raise an exception, rather than for the end of a grace.
+#: True if the timer waits for a place where an exception can be raised, False if for the end of a grace period.
 _retries = False
 
 
@@ -47,7 +48,7 @@ class Ended(KeyboardInterrupt):
     Parameters
     ----------
     number : int
-        Of the signal.
+        The signal's number.
     """
 
     def __init__(self, number: int):
@@ -56,7 +57,7 @@ class Ended(KeyboardInterrupt):
 
 
 def exit_on_signals() -> None:
-    """Let signals end this process with one line and their exit status; the program calls it before all else."""
+    """Let signals end this process with one line and their exit status; called first of all by the program."""
     global _is_program
     if not _is_program:
         _is_program = True
@@ -66,24 +67,25 @@ def exit_on_signals() -> None:
 
 
 def exit_interrupted(number: int, frame: FrameType | None = None) -> NoReturn:
-    """End the process at once; Python's own end would take time, in which a further signal changes the exit status.
+    """End the process at once; while Python shuts down, a further signal would change the exit status.
 
     Parameters
     ----------
     number : int
-        Of the signal.
+        The signal's number.
     frame : frame, optional
+        Not used; handlers of signals are called with it.
     """
     write_line("hexmend: interrupted")
     os._exit(128 + number)
 
 
 def write_line(text: str) -> None:
-    """Write a line to standard error, as a handler may: without Python's buffers."""
-    erase = "\r\x1b[2K" if os.isatty(2) and not is_dumb() else ""  # a line of progress may stand there
+    """Write a line to standard error without Python's buffers, which a handler must not use."""
+    erase = "\r\x1b[2K" if os.isatty(2) and not is_dumb() else ""  # a line of progress may be there
     try:  # noqa: SIM105 (contextlib would be loaded before the program can be interrupted)
         os.write(2, f"{erase}{text}\n".encode())
-    except OSError:  # nobody reads it
+    except OSError:  # standard error is closed
         pass
 
 
@@ -93,15 +95,15 @@ class EndsCleanly:
     Parameters
     ----------
     completes : bool
-        Nothing is left to interrupt when the block ends well: the program ignores signals from then on.
+        Ignore signals after the block if it ends without an exception: nothing is left to interrupt.
 
     Attributes
     ----------
     number : int
-        The first signal that came; 0 without one.
+        The first signal that came; 0 if none did.
     """
 
-    #: Seconds that a signal may be kept waiting.
+    #: Seconds for which a further signal waits at most.
     grace = 2.0
 
     def __init__(self, completes: bool = False):
@@ -128,11 +130,11 @@ class EndsCleanly:
             for number in ENDING:
                 if signal.getsignal(number) not in (signal.SIG_IGN, None):
                     self._before[number] = signal.signal(number, self._on_signal)
-        except ValueError:  # not the main thread: signals are not ours
+        except ValueError:  # only the main thread may set handlers
             pass
         return self
 
-    @uninterrupted  # handlers that are restored by halves would stay
+    @uninterrupted  # else some of the handlers could stay
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         alarm = self._before.pop(_ALARM, None)
         ignored = kind is None and self.completes and _is_program
@@ -156,14 +158,14 @@ class EndsCleanly:
         self._answer(self._count, number, frame)
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
-        """Do what the signal of this count asks for."""
+        """React to a signal; `count` is 1 for the first of the block."""
         if count == 1:
             self._raise(number, frame)
         else:
             self._wait(number)
 
     def _raise(self, number: int, frame: FrameType | None) -> None:
-        """Raise an exception, later where it would be lost now."""
+        """Raise an exception, or set the timer if it would be lost now."""
         if not is_interruptible(frame):
             self._delay(number, _RETRY, retries=True)
             return
@@ -189,11 +191,11 @@ class EndsCleanly:
         number, _delayed = _delayed, 0
         if number and self._delays:
             self._raise(number, frame)
-        elif number:  # it came to the block around this one
+        elif number:  # the timer was set by the block around this one
             self._on_signal(number, frame)
 
     def _on_unraisable(self, unraisable: Any) -> None:
-        """Raise again what was raised in a callback that cannot raise."""
+        """Raise again an exception that was lost in a callback, such as `__del__`."""
         if isinstance(unraisable.exc_value, KeyboardInterrupt):
             self._delay(getattr(unraisable.exc_value, "number", signal.SIGINT), _RETRY, retries=True)
         else:
@@ -201,29 +203,29 @@ class EndsCleanly:
 
 
 class EndsAfterIteration(EndsCleanly):
-    """Inside the block the first signal only asks: whoever loops looks at `asked`. The second is an exception.
+    """Inside the block the first signal only sets `asked`, which the loop checks; the second is an exception.
 
-    Nothing is thrown into the middle of an iteration, so that what was reached is whole.
+    So no iteration is interrupted, and its result is complete.
 
     Parameters
     ----------
-    what : str
-        What the loop goes round in.
+    unit : str
+        The word for one pass of the loop, for the message.
     """
 
-    def __init__(self, what: str = "iteration"):
+    def __init__(self, unit: str = "iteration"):
         super().__init__()
-        self._what = what
+        self._unit = unit
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            write_line(f"Ending with this {self._what}; a second Ctrl-C ends at once.")
+            write_line(f"Ending with this {self._unit}; a second Ctrl-C ends at once.")
         else:
             super()._answer(count - 1, number, frame)
 
 
 class FinishesWriting(EndsCleanly):
-    """Inside the block the result is written: the first signal changes nothing, the second limits the time for it."""
+    """Inside the block the result is written: the first signal is ignored, the second limits the time for writing."""
 
     grace = 8.0
 
@@ -238,7 +240,7 @@ class FinishesWriting(EndsCleanly):
 
 
 def _raise_waiting() -> None:
-    """Raise the exception that has waited for the end of a function."""
+    """Raise the exception that was waiting for the end of an `uninterrupted` function."""
     if _delayed and _retries:
         if _ALARM is not None:
             signal.raise_signal(_ALARM)

@@ -6,47 +6,47 @@ import _thread
 import signal
 import time
 
-#: How often the timer has been set: a thread that finds another number here than its own is out of date.
+#: Number of times that the timer was set; a thread that finds another number than its own was cancelled.
 _count = 0
 
-#: Whether the next signal comes from the timer.
-_rings = False
+#: True while the timer sends its signal.
+_sending = False
 
 
 def send_later(number: int, seconds: float) -> None:
-    """Send a signal to this process after some time; the time that was set before is cancelled.
+    """Send a signal to this process after some time; a timer that was set before is cancelled.
 
     Parameters
     ----------
     number : int
         The signal.
     seconds : float
-        0 only cancels.
+        With 0 the timer is only cancelled.
     """
-    global _count, _rings
-    _count, _rings = _count + 1, False
-    if seconds:  # `threading` takes locks, and the code that a handler has interrupted may hold these
+    global _count, _sending
+    _count, _sending = _count + 1, False
+    if seconds:  # not `threading`: the interrupted code may hold its locks
         _thread.start_new_thread(_send, (number, seconds, _count))
 
 
 def send_now(number: int) -> None:
-    """Send a signal to this process as the timer does; that is cancelled.
+    """Send a signal to this process now in place of the timer, which is cancelled.
 
     Parameters
     ----------
     number : int
         The signal.
     """
-    global _count, _rings
-    _count, _rings = _count + 1, True
+    global _count, _sending
+    _count, _sending = _count + 1, True
     signal.raise_signal(number)
 
 
 def comes_from_timer() -> bool:
-    """Return True if the signal that a handler was called for is the timer's; ask once for each signal."""
-    global _rings
-    rings, _rings = _rings, False
-    return rings
+    """Return True if the timer has sent the signal; to be called once in the handler of each signal."""
+    global _sending
+    sent, _sending = _sending, False
+    return sent
 
 
 def _send(number: int, seconds: float, count: int) -> None:

@@ -1,4 +1,4 @@
-"""What the terminal can show: one answer for everything that is printed."""
+"""Abilities of the terminal: colours, and lines that change in place."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import sys
 
 
 def is_dumb() -> bool:
-    """Return True if the terminal has said that it understands no control codes."""
+    """Return True if the variable TERM says that the terminal understands no control codes."""
     return os.environ.get("TERM", "").lower() in ("dumb", "unknown")
 
 
 def shows_colours() -> bool:
     """Return True if standard output is printed in colours.
 
-    NO_COLOR rules them out, FORCE_COLOR asks for them wherever the output goes; else it takes a terminal that is not
-    dumb.
+    NO_COLOR switches colours off; FORCE_COLOR switches them on for any output; else a terminal that is not dumb has
+    them.
     """
     if os.environ.get("NO_COLOR"):
         return False
@@ -23,5 +23,5 @@ def shows_colours() -> bool:
 
 
 def redraws_lines() -> bool:
-    """Return True if standard error can show a line that changes in place: a colour code alone would not do."""
+    """Return True if standard error can show a line that changes in place."""
     return (sys.stderr.isatty() or bool(os.environ.get("FORCE_COLOR"))) and not is_dumb()
