@@ -138,7 +138,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
         print(f"hexmend: {printable(str(error))}", file=sys.stderr)
         return 3 if isinstance(error, FileError | MeshError | InsufficientMemoryError) else 2
     except MemoryError:
-        print("hexmend: memory does not suffice: close other programs, or take a smaller mesh", file=sys.stderr)
+        print("hexmend: not enough memory: close other programs, or use a smaller mesh", file=sys.stderr)
         return 3
 
 

@@ -78,7 +78,7 @@ def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
         send()
         send()
         rest(60)
-    assert capfd.readouterr().err == "Writing the result; a second Ctrl-C leaves it 0.05 s.\n"
+    assert capfd.readouterr().err == "Writing the result; after a second Ctrl-C it has 0.05 s left.\n"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

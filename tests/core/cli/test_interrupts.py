@@ -141,8 +141,8 @@ def test_a_signal_during_a_callback_is_one_line(smooth):
 def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, number):
     status, said = ended(smooth(WRITES, number))
     assert status == 0
-    assert said[0] == "Ending with this iteration; a second Ctrl-C ends at once."
-    assert "Interrupted: what was reached so far is kept." in said
+    assert said[0] == "Ending after this iteration; a second Ctrl-C ends at once."
+    assert "Interrupted: the result so far is kept." in said
     assert io.read(tmp_path / "out.vtu").n_hexes == 125
 
 
@@ -217,6 +217,6 @@ def test_a_terminal_on_which_ctrl_c_is_pressed_or_that_closes_gets_its_result(sm
             pass
         os.close(ours)
         assert process.wait(timeout=120) == 0
-        assert b"Interrupted: what was reached so far is kept." in said
+        assert b"Interrupted: the result so far is kept." in said
         assert b"Traceback" not in said
     assert io.read(tmp_path / "out.vtu").n_hexes == 125

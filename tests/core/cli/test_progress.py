@@ -82,7 +82,7 @@ def test_control_c_ends_smooth_and_the_mesh_is_written(mesh, tmp_path):
     words = ["smooth", mesh, "-o", out, "--method", "local-sd", "--json", report, *ENDLESS]
     status, said, err = interrupted(*words, at="local-sd: iteration")
     assert status == 0
-    assert "Interrupted: what was reached so far is kept." in err
+    assert "Interrupted: the result so far is kept." in err
     assert f"Written to {out}" in said
     answer = json.loads(report.read_text())
     assert answer["outcome"] == "stopped"

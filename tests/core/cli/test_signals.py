@@ -75,7 +75,7 @@ def test_what_a_run_reached_is_written_and_nothing_else_is_left(mesh, tmp_path, 
         TALKATIVE, number, "laplacian: iteration", *words, "--tolerance", "0", "--max-iterations", "1000000"
     )
     assert status == 0
-    assert "Interrupted: what was reached so far is kept." in err
+    assert "Interrupted: the result so far is kept." in err
     assert io.read(tmp_path / "out.vtu").n_hexes == 125
     assert sorted(path.name for path in tmp_path.iterdir()) == ["mesh.vtu", "out.vtu"]
 

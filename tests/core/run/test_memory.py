@@ -158,7 +158,7 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
     assert done.returncode == 3
     (line,) = done.stderr.splitlines()
     assert line.startswith("hexmend: Mend on 1,000 hexes needs about 69 MB of memory, and ")
-    assert line.endswith(" or run it all the same (--force).")
+    assert line.endswith(" or run it anyway (--force).")
     assert not (tmp_path / out).exists()
     done = limited(310, *words, "--force")
     assert done.returncode == 0
@@ -171,7 +171,7 @@ def test_a_run_beyond_a_limit_is_refused_before_it_begins_unless_forced(words, m
 def test_a_study_is_refused_before_it_begins(tmp_path):
     done = limited(310, "study", "thesis", "--quick", "-o", tmp_path / "study")
     assert done.returncode == 3
-    assert "do fewer tables (--only)" in done.stderr
+    assert "run fewer tables (--only)" in done.stderr
     assert not (tmp_path / "study").exists()
 
 
@@ -194,5 +194,5 @@ def test_memory_that_runs_out_all_the_same_is_said_in_a_line(mesh_file, tmp_path
     monkeypatch.setattr(METHODS["mend"], "steps", ends)
     assert main(["smooth", str(mesh_file), "-o", str(tmp_path / "out.vtu")]) == 3
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("hexmend: memory does not suffice")
+    assert line.startswith("hexmend: not enough memory")
     assert not (tmp_path / "out.vtu").exists()

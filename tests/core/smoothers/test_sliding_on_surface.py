@@ -150,8 +150,8 @@ def test_what_the_command_line_says_of_a_surface_that_is_none(tmp_path, capsys):
     for more, status, said in (
         (["--surface", str(stl)], 3, "far.stl: one in ten nodes"),
         (["--surface", str(tmp_path / "none.stl")], 3, "none.stl: there is no such file"),
-        (["--surface", str(stl), "--boundary", "fixed"], 2, "--surface names what the boundary slides on"),
-        (["--surface-tolerance", "0.1", "--set", "surface_tolerance=0.2"], 2, "say the same thing"),
+        (["--surface", str(stl), "--boundary", "fixed"], 2, "--surface is for a sliding boundary"),
+        (["--surface-tolerance", "0.1", "--set", "surface_tolerance=0.2"], 2, "set the same value"),
         (["--surface-tolerance", "-1"], 2, "surface_tolerance"),
     ):
         assert main([*words, *more]) == status

@@ -261,7 +261,7 @@ def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_
     assert not freed_by_sliding(mesh.replace(pinned=pinned), which).any()
     io.write(tmp_path / "mesh.vtu", mesh)
     assert main(["info", str(tmp_path / "mesh.vtu")]) == 0
-    said = "Locked: 1 can be freed where the boundary slides (--boundary slide), 0 cannot."
+    said = "Locked: 1 can be freed by a sliding boundary (--boundary slide), 0 cannot."
     assert said in capsys.readouterr().out
 
 

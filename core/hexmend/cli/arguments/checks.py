@@ -45,7 +45,7 @@ def check_memory(
         return
     worst = max(shortages, key=lambda one: one.needed)
     if not args.force:
-        raise InsufficientMemoryError(f"{worst.problem} {worst.remedy(*remedies, 'run it all the same (--force)')}")
+        raise InsufficientMemoryError(f"{worst.problem} {worst.remedy(*remedies, 'run it anyway (--force)')}")
     print(f"hexmend: warning: {worst.problem}", file=sys.stderr)
 
 

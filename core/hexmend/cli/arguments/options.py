@@ -11,7 +11,7 @@ def add_mesh(parser: argparse.ArgumentParser) -> None:
     """Declare the mesh file, and the option that keeps its orientation."""
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
     parser.add_argument(
-        "--as-is", action="store_true", help="keep parts whose hexes are all wound the other way, and do not turn them"
+        "--as-is", action="store_true", help="do not reorient parts in which all hexes have the opposite orientation"
     )
 
 
@@ -23,7 +23,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--recipe",
         metavar="FILE.toml",
-        help="run these methods one after another; a limit given is for each of them",
+        help="run the methods of this recipe one after another; limits hold for each of them",
     )
     _add_limits(parser)
 
@@ -47,20 +47,20 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--surface",
         metavar="FILE",
-        help="the surface that the boundary slides on, if not itself: STL, OBJ, PLY, VTP or VTK; --boundary slide goes "
-        "without saying",
+        help="let the boundary slide on this surface and not on its own: STL, OBJ, PLY, VTP or VTK; implies "
+        "--boundary slide",
     )
     parser.add_argument(
         "--surface-tolerance",
         metavar="X",
-        help="how far the boundary may leave the surface, in mean edge lengths, 0 to stay on it, or the word "
-        "unlimited; as --set surface_tolerance=X",
+        help="largest distance of the boundary from the surface in mean edge lengths: 0 to stay on it, or the word "
+        "unlimited; the same as --set surface_tolerance=X",
     )
 
 
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
-    parser.add_argument("--force", action="store_true", help="run though memory will probably not suffice")
+    parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")
 
 
 def parse_settings(words: list[str]) -> dict[str, str]:
@@ -87,7 +87,7 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--boundary",
         choices=("fixed", "slide"),
-        help="whether nodes of the boundary stay, as they do by default, or slide on the surface",
+        help="keep the nodes of the boundary fixed (default) or let them slide on the surface",
     )
 
 

@@ -66,11 +66,10 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
     for key, value in options.items():
         option = f"--{key.replace('_', '-')}"
         if key in settings:
-            raise ParameterError(f"{option} and --set {key}=... say the same thing: leave out one of them")
+            raise ParameterError(f"{option} and --set {key}=... set the same value: leave out one of them")
         without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
         if without:
-            knows = "knows" if len(without) == 1 else "know"
-            raise ParameterError(f"{option} {value}: {', '.join(without)} {knows} fixed boundaries alone")
+            raise ParameterError(f"{option} {value}: the boundary stays fixed in {', '.join(without)}")
     return settings | options
 
 
@@ -104,5 +103,5 @@ def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe
         return mesh
     stages = [stage.smoother for stage in method.stages] if isinstance(method, Recipe) else [method]
     if not any(stage.slides for stage in stages):
-        raise ParameterError("--surface names what the boundary slides on, and it is fixed: say boundary = slide")
+        raise ParameterError("--surface is for a sliding boundary, and this one is fixed: set boundary = slide")
     return mesh.sliding_on(read_surface(args.surface))

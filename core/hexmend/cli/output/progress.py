@@ -87,7 +87,7 @@ def follow(run: Run, watch: Callable[[Iteration], object] = lambda iteration: No
     if (interrupted or progress.signals.asked) and run.outcome is None:
         run.close()
         with suppress(OSError):
-            print("Interrupted: what was reached so far is kept.", file=sys.stderr)
+            print("Interrupted: the result so far is kept.", file=sys.stderr)
 
 
 def current_method(run: Run) -> str:

@@ -219,7 +219,7 @@ class EndsAfterIteration(EndsCleanly):
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            write_line(f"Ending with this {self._unit}; a second Ctrl-C ends at once.")
+            write_line(f"Ending after this {self._unit}; a second Ctrl-C ends at once.")
         else:
             super()._answer(count - 1, number, frame)
 
@@ -234,7 +234,7 @@ class FinishesWriting(EndsCleanly):
 
     def _answer(self, count: int, number: int, frame: FrameType | None) -> None:
         if count == 1:
-            write_line(f"Writing the result; a second Ctrl-C leaves it {self.grace:g} s.")
+            write_line(f"Writing the result; after a second Ctrl-C it has {self.grace:g} s left.")
         else:
             self._wait(number)
 

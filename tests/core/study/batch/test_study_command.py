@@ -152,7 +152,7 @@ def test_an_interrupted_study_writes_the_finished_tasks(laboratory, number):
         study.send_signal(number)
         _, said = study.communicate()
         assert study.returncode == 128 + number
-    assert "Interrupted: what is done is kept, and the same command goes on with it." in said
+    assert "Interrupted: finished tasks are kept; run the same command again to continue." in said
     assert "Traceback" not in said
     assert [row["case"] for row in rows_of(laboratory)] == ["rests"]
     assert "1 of 7 tasks are done." in (laboratory.out / "study.md").read_text(encoding="utf-8")
@@ -161,12 +161,12 @@ def test_an_interrupted_study_writes_the_finished_tasks(laboratory, number):
 
 @pytest.mark.parametrize(("words", "status", "said"), [
     (["recipe.toml"], 2, "no mesh is named"),
-    (["thesis", "cube.vtk"], 2, "the thesis's study makes its meshes itself"),
+    (["thesis", "cube.vtk"], 2, "the study of the thesis generates its meshes"),
     (["thesis", "--jobs", "2"], 2, "--jobs is an option of a recipe's study"),
     (["thesis"], 2, "add  -o DIR"),
     (["recipe.toml", "cube.vtk", "--quick"], 2, "--quick is an option of the thesis's"),
-    (["thesys", "cube.vtk"], 2, "'thesys' is no study"),
-    (["recipe.toml", "cube.vtk", "--jobs", "0"], 2, "--jobs 0 leaves nobody"),
+    (["thesys", "cube.vtk"], 2, "'thesys' is not a study"),
+    (["recipe.toml", "cube.vtk", "--jobs", "0"], 2, "--jobs 0 is too small"),
     (["recipe.toml", "cube.vtk", "--jobs", "2", "--scheduler", "tcp://none:1"], 2, "leave out one of them"),
     (["none.toml", "cube.vtk"], 3, "none.toml: there is no such file"),
     (["recipe.toml", "cube.vtk", "-o", "cube.vtk"], 3, "cube.vtk: is a file"),

@@ -12,7 +12,7 @@ class Compare:
     """Run methods on a mesh and tabulate their results."""
 
     name = "compare"
-    help = "Run several methods on a mesh and write their figures as CSV, Markdown, LaTeX and JSON."
+    help = "Run several methods on a mesh and write a table of the results as CSV, Markdown, LaTeX and JSON."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")

@@ -43,5 +43,5 @@ def run(args: argparse.Namespace) -> int:
         print_table(table)
         print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
         if comparison.interrupted:
-            print("Interrupted: the table holds what was done so far.", file=sys.stderr)
+            print("Interrupted: the table holds the results so far.", file=sys.stderr)
     return progress.signals.status if comparison.interrupted else 0

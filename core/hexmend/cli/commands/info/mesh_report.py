@@ -74,7 +74,7 @@ def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
 
     freed = int(freed_by_sliding(mesh, locked(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)).sum())
     print(
-        f"Locked: {format_count(freed)} can be freed where the boundary slides (--boundary slide), "
+        f"Locked: {format_count(freed)} can be freed by a sliding boundary (--boundary slide), "
         f"{format_count(n_locked - freed)} cannot."
     )
 
@@ -82,7 +82,7 @@ def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
 def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:
     findings = examine(mesh, quick=not args.doctor)
     if args.doctor and not findings:
-        print("The doctor finds nothing to mend; the shape of hexes is for hexmend smooth.")
+        print("The doctor finds no problems. Use hexmend smooth to improve the shape of hexes.")
     for finding in findings:
         print(f"note: {finding.message} {finding.remedy}".rstrip())
         if args.doctor and finding.places():

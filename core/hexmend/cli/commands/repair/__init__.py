@@ -11,13 +11,17 @@ class Repair:
     """Apply the doctor's remedies to a file."""
 
     name = "repair"
-    help = "Mend what the doctor finds (hexmend info --doctor): numbering, unmerged blocks, duplicates, unused nodes."
+    help = "Repair what hexmend info --doctor finds: numbering, unmerged blocks, duplicates, unused nodes."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument("mesh", metavar="MESH", help="the mesh file")
-        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the mended mesh")
+        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the repaired mesh to write")
         parser.add_argument(
-            "--only", metavar="KIND", action="append", default=[], help="one kind of trouble; may be repeated"
+            "--only",
+            metavar="KIND",
+            action="append",
+            default=[],
+            help="one kind of problem; may be repeated",
         )
 
     def run(self, args: argparse.Namespace) -> int:

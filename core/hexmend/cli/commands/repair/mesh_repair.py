@@ -20,11 +20,11 @@ def run(args: argparse.Namespace) -> int:
     mesh, repaired = repair(mesh, args.only)
     write(args.output, mesh)
     for finding in repaired:
-        print(f"Mended: {finding.message} Done: {AILMENTS[finding.kind].action}.")
+        print(f"Repaired: {finding.message} Done: {AILMENTS[finding.kind].action}.")
     remaining = examine(mesh)
     for finding in remaining:
-        print(f"Left: {finding.message} {finding.remedy}".rstrip())
+        print(f"Remaining: {finding.message} {finding.remedy}".rstrip())
     if not repaired and not remaining and not mesh.notes:
-        print("Nothing is wrong with it.")
+        print("No problems were found.")
     print(f"Written to {args.output}.")
     return 0

@@ -12,24 +12,36 @@ class Smooth:
     """Run one method, or a recipe of several, on one mesh."""
 
     name = "smooth"
-    help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run; what was reached is written."
+    help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         add_mesh(parser)
-        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="where to write the smoothed mesh")
+        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
         add_method(parser)
         add_surface(parser)
         parser.add_argument(
-            "--fix", metavar="SET", action="append", default=[], help="keep the nodes of this set; may be repeated"
+            "--fix",
+            metavar="SET",
+            action="append",
+            default=[],
+            help="fix the nodes of this set; may be repeated",
         )
-        parser.add_argument("--only", metavar="SET", help="move nothing but the hexes of this set, or 'inverted' ones")
         parser.add_argument(
-            "--rings", metavar="K", type=int, default=1, help="with --only: and K rings of hexes around"
+            "--only",
+            metavar="SET",
+            help="smooth only the hexes of this set, or 'inverted' ones",
+        )
+        parser.add_argument(
+            "--rings",
+            metavar="K",
+            type=int,
+            default=1,
+            help="with --only: also K rings of hexes around (default 1)",
         )
         add_force(parser)
-        parser.add_argument("--save-recipe", metavar="FILE.toml", help="write what is run as a recipe")
+        parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")
         parser.add_argument("--json", metavar="FILE", help="write a report")
-        parser.add_argument("--history", metavar="FILE.csv", help="write a row an iteration")
+        parser.add_argument("--history", metavar="FILE.csv", help="write a table with a row for each iteration")
 
     def run(self, args: argparse.Namespace) -> int:
         return action("hexmend.cli.commands.smooth.smoothing")(args)

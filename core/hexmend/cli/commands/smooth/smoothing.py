@@ -72,6 +72,6 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
     if advice is not None:
         print(advice.left)
         for suggestion in advice.suggestions:
-            print(f"To try next: {suggestion.text}")
+            print(f"Try next: {suggestion.text}")
             if line := suggested_command(suggestion, args.mesh, args.output):
                 print(f"      {line}")

@@ -16,7 +16,7 @@ class Study:
     """Repeat Chapter 4 and the outlooks of Section 5.2 on the gallery's meshes; or run any methods on any meshes."""
 
     name = "study"
-    help = "Run methods and lists of their values on many meshes, as a recipe says; or the thesis's experiments again."
+    help = "Run methods with lists of values on many meshes, from a recipe; or repeat the experiments of the thesis."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
@@ -31,30 +31,30 @@ class Study:
         parser.add_argument(
             "--quick",
             action="store_true",
-            help="thesis: small meshes and a few seconds a run: minutes in place of hours",
+            help="thesis: small meshes and a few seconds per run: minutes in place of hours",
         )
         parser.add_argument(
             "--max-seconds",
             metavar="S",
-            help="thesis: most seconds of a run, in place of 4 hours, or of 5 s and for local-sd 60 s with --quick",
+            help="thesis: time limit of a run in seconds (default 4 hours; with --quick 5 s, and 60 s for local-sd)",
         )
         parser.add_argument(
             "--only",
             metavar="TABLE",
             action="append",
             default=[],
-            help="thesis: one of the tables, as 4.1, or of the sections, as 5.2.5; may be repeated",
+            help="thesis: a table, such as 4.1, or a section, such as 5.2.5; may be repeated",
         )
         add_force(parser)
-        parser.add_argument("--jobs", metavar="N", type=int, help="recipe: tasks at a time (default: as many as cores)")
+        parser.add_argument("--jobs", metavar="N", type=int, help="recipe: tasks at a time (default: number of cores)")
         parser.add_argument(
             "--scheduler",
             metavar="ADDRESS",
-            help="recipe: do tasks on the workers of this Dask scheduler, as tcp://host:8786",
+            help="recipe: run tasks on the workers of this Dask scheduler, such as tcp://host:8786",
         )
-        parser.add_argument("--again", action="store_true", help="recipe: do again what is done")
+        parser.add_argument("--again", action="store_true", help="recipe: repeat tasks that are done")
         parser.add_argument(
-            "--write-meshes", action="store_true", help="recipe: write the meshes that result into DIR/meshes"
+            "--write-meshes", action="store_true", help="recipe: write the resulting meshes into DIR/meshes"
         )
 
     def run(self, args: argparse.Namespace) -> int:
@@ -71,12 +71,12 @@ def _check_options(args: argparse.Namespace) -> None:
             of = "a recipe's study" if is_thesis else "the thesis's"
             raise ParameterError(f"{option} is an option of {of}: leave it out")
     if is_thesis and args.meshes:
-        raise ParameterError(f"{args.meshes[0]!r}: the thesis's study makes its meshes itself: name none")
+        raise ParameterError(f"{args.meshes[0]!r}: the study of the thesis generates its meshes: leave this out")
     if is_thesis and not args.output:
-        raise ParameterError("the thesis's study needs a folder for its report: add  -o DIR")
+        raise ParameterError("the study of the thesis needs a folder for its report: add  -o DIR")
     if not is_thesis and not args.study.endswith(".toml"):
         raise ParameterError(
-            f"{args.study!r} is no study: expected a recipe, as RECIPE.toml MESH..., or the word thesis"
+            f"{args.study!r} is not a study: expected a recipe, as in RECIPE.toml MESH..., or the word thesis"
         )
 
 

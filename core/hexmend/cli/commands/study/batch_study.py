@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """Run the study and write its report; return 3 if a task has no result, 128 and the signal's number on a signal."""
     plan = read_plan(args.study)
     if not args.meshes:
-        raise ParameterError(f"{args.study} says what to do, and no mesh is named to do it with: add MESH...")
+        raise ParameterError(f"{args.study}: no mesh is named for this study: add MESH...")
     workers = _workers(args)
     folder = made_folder(args.output or Path(args.study).stem)
     store = Store(made_folder(folder / "tasks"))
@@ -55,12 +55,12 @@ def run(args: argparse.Namespace) -> int:
 
 def _workers(args: argparse.Namespace) -> Workers:
     if args.jobs is not None and args.jobs < 1:
-        raise ParameterError(f"--jobs {args.jobs} leaves nobody to do anything: expected a whole number from 1")
+        raise ParameterError(f"--jobs {args.jobs} is too small: expected a whole number from 1")
     if not args.scheduler:
         return Local(args.jobs or 0)
     if args.jobs:
         raise ParameterError(
-            "--jobs is for this machine, and --scheduler's workers have their own: leave out one of them"
+            "--jobs is for tasks on this machine, --scheduler for tasks on others: leave out one of them"
         )
     return Cluster(args.scheduler)
 
@@ -78,7 +78,7 @@ def _write_report(folder: Path, study: StudyResult) -> None:
     _print_counts(study)
     print(f"Written to {folder}: {', '.join(path.name for path in paths)}.")
     if study.interrupted:
-        print("Interrupted: what is done is kept, and the same command goes on with it.", file=sys.stderr)
+        print("Interrupted: finished tasks are kept; run the same command again to continue.", file=sys.stderr)
 
 
 def _print_counts(study: StudyResult) -> None:

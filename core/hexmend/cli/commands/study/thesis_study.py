@@ -29,7 +29,7 @@ def run(args: argparse.Namespace) -> int:
         limit = from_strings(StoppingCriteria, {"max_seconds": args.max_seconds}, owner="the run")
         thesis = thesis.with_max_seconds(limit.max_seconds)
     for methods, hexes in planned_runs(thesis, args.quick):
-        check_memory(args, methods, hexes, "do fewer tables (--only)", "do it in small (--quick)")
+        check_memory(args, methods, hexes, "run fewer tables (--only)", "run the small meshes (--quick)")
     folder = made_folder(args.output)
     with FinishesWriting():
         with Progress() as progress:
