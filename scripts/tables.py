@@ -18,7 +18,7 @@ from hexmend.io.base.format import Capability
 from hexmend.iteration import StoppingCriteria
 from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
-from hexmend.run.memory import amount, needed
+from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
@@ -93,7 +93,7 @@ def memory() -> str:
     """What a run of each method is foretold to need, the most first."""
     order = sorted(METHODS.values(), key=lambda method: (-method.bytes_per_hex, method.name))
     rows = (
-        (f"`{one.name}`", f"{one.bytes_per_hex:,}", *(amount(needed(one(), hexes)) for hexes in _HEXES))
+        (f"`{one.name}`", f"{one.bytes_per_hex:,}", *(format_bytes(needed(one(), hexes)) for hexes in _HEXES))
         for one in order
     )
     return table(("method", "bytes a hex", *(f"{hexes:,} hexes" for hexes in _HEXES)), rows)

@@ -81,4 +81,4 @@ def _change(run: Run, due: list[tuple[int, Stage]], number: int) -> None:
     """Go on with what is chosen after an iteration."""
     while due and due[0][0] == number and run.outcome is None:
         stage = due.pop(0)[1]
-        run.go_on_with(stage.smoother, stage.stop)
+        run.switch_method(stage.smoother, stage.stop)

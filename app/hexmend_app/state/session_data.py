@@ -16,7 +16,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values
 from hexmend.quality import measure, summarise
 from hexmend.run.breakpoints import Breakpoints
-from hexmend.run.recipe import without_zero_for_no_limit
+from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.state.chain import ChainData
 from hexmend_app.state.choices import ChoicesData
@@ -179,7 +179,7 @@ def read(path: Path) -> SessionData:
         KeptCameras: Own(_none, lambda data: table.made(KeptCameras, data, ("cameras",))),
     }, stored.version, _FORMER)  # fmt: skip
     try:
-        window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else without_zero_for_no_limit(stored.window)
+        window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else migrate_surface_tolerance(stored.window)
         data = plain.value(window, SessionData, "the window")
         data.history.check()
         return data

@@ -174,5 +174,5 @@ class Worker:
             ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
             self.changes.append((run.last.number, change))
-            run.go_on_with(change.smoother, change.stop)  # which may take a while: the window must not wait for it
+            run.switch_method(change.smoother, change.stop)  # which may take a while: the window must not wait for it
         return run.outcome is None and not ended

@@ -11,7 +11,7 @@ from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, Result
 from hexmend.quality import describe_regressions
-from hexmend.run.messages import kept
+from hexmend.run.messages import kept_message
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ def advise(result: Result) -> Advice:
 def _why(now: Situation) -> str:
     several = len({stage.stage for stage in now.result.stages}) > 1
     why = f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
-    return why if now.result.kept == now.result.iterations else f"{why} {kept(now.result.kept)}"
+    return why if now.result.kept == now.result.iterations else f"{why} {kept_message(now.result.kept)}"
 
 
 def _end(now: Situation) -> str:

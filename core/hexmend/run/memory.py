@@ -55,13 +55,13 @@ class Shortage:
     def problem(self) -> str:
         """What is the matter, as a sentence."""
         return (
-            f"{self.title} on {self.hexes:,} hexes needs about {amount(self.needed)} of memory, and "
-            f"{amount(self.available)} are free."
+            f"{self.title} on {self.hexes:,} hexes needs about {format_bytes(self.needed)} of memory, and "
+            f"{format_bytes(self.available)} are free."
         )
 
     def remedy(self, *more: str, titled: bool = False) -> str:
         """What to do, as a sentence that calls methods by name or title; `more` are further ways."""
-        names = _listed([f"{cls.title if titled else cls.name} ({amount(size)})" for cls, size in self.lighter])
+        names = _listed([f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter])
         ways = [f"take {names}, which need less"] if names else []
         said = _listed([*ways, "close other programs", "smooth a smaller mesh", *more])
         return f"{said[:1].upper()}{said[1:]}."
@@ -127,9 +127,9 @@ def available(root: Path = Path("/")) -> int | None:
     return max(0, min(found)) if found else None
 
 
-def amount(size: int) -> str:
+def format_bytes(size: int) -> str:
     """
-    >>> amount(2_267_000_000), amount(48_300_000)
+    >>> format_bytes(2_267_000_000), format_bytes(48_300_000)
     ('2.3 GB', '48 MB')
     """
     return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.0f} MB"

@@ -9,36 +9,36 @@ from hexmend.parameters import declared
 from hexmend.run.recipe import Stage
 
 
-def changes(old: Stage, new: Stage) -> str:
+def describe_change(old: Stage, new: Stage) -> str:
     """What differs between a stage and what takes its place.
 
     >>> from hexmend.smoothers import METHODS
     >>> local, soft = METHODS["local-sd"](), METHODS["local-sd"](p=4)
-    >>> changes(Stage(local), Stage(soft))
+    >>> describe_change(Stage(local), Stage(soft))
     'p = 4 instead of 2'
-    >>> changes(Stage(METHODS["laplacian"]()), Stage(soft))
+    >>> describe_change(Stage(METHODS["laplacian"]()), Stage(soft))
     'Local steepest descent (p = 4) takes over from Laplacian'
     """
     limits = _differences(old.stop.values(), new.stop.values())
     if type(old.smoother) is type(new.smoother):
         return ", ".join(_differences(old.smoother.values(), new.smoother.values()) + limits)
     defaults = {one.name: one.default for one in declared(new.smoother)}
-    own = [f"{name} = {_said(value)}" for name, value in new.smoother.values().items() if value != defaults[name]]
+    own = [f"{name} = {_format(value)}" for name, value in new.smoother.values().items() if value != defaults[name]]
     named = f" ({', '.join(own)})" if own else ""
     return ", ".join([f"{new.smoother.title}{named} takes over from {old.smoother.title}", *limits])
 
 
-def iterations(count: int) -> str:
+def format_iterations(count: int) -> str:
     """
-    >>> iterations(1), iterations(2)
+    >>> format_iterations(1), format_iterations(2)
     ('1 iteration', '2 iterations')
     """
     return f"{count} iteration{'s' * (count != 1)}"
 
 
-def kept(number: int) -> str:
+def kept_message(number: int) -> str:
     """
-    >>> kept(3)
+    >>> kept_message(3)
     'Kept is iteration 3, better than what came after.'
     """
     which = "" if number else ", the mesh as given"
@@ -47,9 +47,11 @@ def kept(number: int) -> str:
 
 def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
     return [
-        f"{name} = {_said(value)} instead of {_said(old[name])}" for name, value in new.items() if value != old[name]
+        f"{name} = {_format(value)} instead of {_format(old[name])}"
+        for name, value in new.items()
+        if value != old[name]
     ]
 
 
-def _said(value: Any) -> str:
+def _format(value: Any) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)

@@ -123,7 +123,7 @@ def from_toml(text: str) -> Recipe:
     ParameterError
         Naming line and column where it is no TOML, else the stage, the key and what was expected there.
     """
-    data = in_this_format(parse_toml(text, "a recipe"))
+    data = migrate(parse_toml(text, "a recipe"))
     check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
@@ -133,7 +133,7 @@ def from_toml(text: str) -> Recipe:
     return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
 
 
-def in_this_format(data: dict[str, Any]) -> dict[str, Any]:
+def migrate(data: dict[str, Any]) -> dict[str, Any]:
     """A recipe as data of the format that is written.
 
     Raises
@@ -148,20 +148,20 @@ def in_this_format(data: dict[str, Any]) -> dict[str, Any]:
         raise ParameterError(f"format = {number!r} is no format of a recipe: expected {FORMAT}")
     if number > FORMAT:
         raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads up to {FORMAT}")
-    return data if number > 1 else without_zero_for_no_limit(data)
+    return data if number > 1 else migrate_surface_tolerance(data)
 
 
-def without_zero_for_no_limit(data: Any) -> Any:
+def migrate_surface_tolerance(data: Any) -> Any:
     """Data of a file from the time when a surface tolerance of 0 meant that there is no limit, as it is read now.
 
-    >>> without_zero_for_no_limit({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
+    >>> migrate_surface_tolerance({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
     {'stage': [{'parameters': {'surface_tolerance': 'unlimited', 'p': 2.0}}]}
     """
     if isinstance(data, list):
-        return [without_zero_for_no_limit(one) for one in data]
+        return [migrate_surface_tolerance(one) for one in data]
     if not isinstance(data, dict):
         return data
-    now = {key: without_zero_for_no_limit(one) for key, one in data.items()}
+    now = {key: migrate_surface_tolerance(one) for key, one in data.items()}
     if "surface_tolerance" in now:
         given = now["surface_tolerance"]
         several = [UNLIMITED if _is_zero(one) else one for one in (given if isinstance(given, list) else [given])]
@@ -180,13 +180,13 @@ def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
         if "method" not in data:
             raise ParameterError('it has no method: expected a line such as  method = "mend"')
         cls = METHODS[str(data["method"])]
-        smoother = from_values(cls, table_in(data, "parameters"), owner=cls.name)
-        return Stage(smoother, from_values(StoppingCriteria, table_in(data, "stop"), owner="stop"))
+        smoother = from_values(cls, read_table(data, "parameters"), owner=cls.name)
+        return Stage(smoother, from_values(StoppingCriteria, read_table(data, "stop"), owner="stop"))
     except ParameterError as error:
         raise ParameterError(f"stage {number}: {error}") from None
 
 
-def table_in(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+def read_table(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
     """The table of this name, empty where there is none. Raises `ParameterError` where it is something else."""
     table = data.get(key, {})
     if not isinstance(table, dict):

@@ -11,7 +11,7 @@ from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
-from hexmend.run.messages import changes, iterations, kept
+from hexmend.run.messages import describe_change, format_iterations, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
@@ -60,25 +60,25 @@ class Run(Iterator[Iteration]):
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._legs = [StageRun(mesh, self._stages[0], 1, self.start, self.start)]
-        self._settle()
+        self._stage_runs = [StageRun(mesh, self._stages[0], 1, self.start, self.start)]
+        self._end_if_done()
 
     def __next__(self) -> Iteration:
         while self.outcome is None:
-            if self._leg.outcome is not None:
-                self._begin_the_next_stage()
+            if self._stage_run.outcome is not None:
+                self._begin_next_stage()
                 continue
-            iteration = self._leg.advance()
+            iteration = self._stage_run.advance()
             if iteration is not None:
                 self.history.append(iteration.row())
-                if self._leg.decision:
-                    self.decisions.append(self._leg.decision)
-            self._settle()
+                if self._stage_run.decision:
+                    self.decisions.append(self._stage_run.decision)
+            self._end_if_done()
             if iteration is not None:
                 return iteration
         raise StopIteration
 
-    def go_on_with(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
+    def switch_method(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
         """Do the rest of the stage at hand by another method, with other values or under other limits.
 
         It goes on from the newest iteration, where the nodes are. A stage that has just ended goes on too, if its new
@@ -97,48 +97,48 @@ class Run(Iterator[Iteration]):
         """
         if self.outcome is not None:
             raise ValueError("the run has ended, so that nothing is left to change: begin another from its result")
-        old = self._leg
+        old = self._stage_run
         new = Stage(METHODS[smoother]() if isinstance(smoother, str) else smoother, stop or old.stage.stop)
         if new == old.stage:
             return
-        self.decisions.append(f"After iteration {self.last.number}: {changes(old.stage, new)}.")
+        self.decisions.append(f"After iteration {self.last.number}: {describe_change(old.stage, new)}.")
         if new.smoother == old.smoother and old.outcome is None:
             old.limit(new.stop)
         else:
-            leg = StageRun(self.mesh, new, old.number, old.at, self.last, old)
+            stage_run = StageRun(self.mesh, new, old.number, old.at, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
-            self._legs.append(leg)
-        self._settle()
+            self._stage_runs.append(stage_run)
+        self._end_if_done()
 
     def close(self) -> None:
         """End the run where it is; what was reached stands."""
         if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came as the iteration was being recorded
             self.history.append(self.last.row())
         if self.outcome is None:
-            if self._leg.outcome is None:
-                self._leg.end(Outcome.STOPPED)
+            if self._stage_run.outcome is None:
+                self._stage_run.end(Outcome.STOPPED)
             self.outcome = Outcome.STOPPED
 
     @property
     def last(self) -> Iteration:
         """See the class."""
-        return self._leg.last
+        return self._stage_run.last
 
     @property
     def best(self) -> Iteration:
         """See the class."""
-        return self._leg.best
+        return self._stage_run.best
 
     @property
     def stage(self) -> Stage:
         """The method at work and its limits."""
-        return self._leg.stage
+        return self._stage_run.stage
 
     @property
     def stage_number(self) -> int:
         """Number of the stage at hand, from 1."""
-        return self._leg.number
+        return self._stage_run.number
 
     @property
     def stage_count(self) -> int:
@@ -148,22 +148,22 @@ class Run(Iterator[Iteration]):
     @property
     def limit(self) -> int:
         """The most iterations that it can come to as things stand."""
-        leg = self._leg
-        here = self.last.number if leg.outcome is not None else leg.since.number + leg.stage.stop.max_iterations
-        return here + sum(stage.stop.max_iterations for stage in self._to_come)
+        at = self._stage_run
+        here = self.last.number if at.outcome is not None else at.since.number + at.stage.stop.max_iterations
+        return here + sum(stage.stop.max_iterations for stage in self._remaining_stages)
 
     @property
     def setup_seconds(self) -> float:
         """What the methods' preparations took so far."""
-        return sum(leg.setup_seconds for leg in self._legs)
+        return sum(one.setup_seconds for one in self._stage_runs)
 
     @property
     def recipe(self) -> Recipe:
         """What was run and what is still to come, as a recipe that does it again."""
-        legs = [leg.as_stage(cut=later.number == leg.number) for leg, later in pairwise(self._legs)]
-        done = [stage for stage in legs if stage is not None]
+        changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
+        done = [stage for stage in changed if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        return Recipe.of(*done, self._leg.as_stage(), *self._to_come, title=title)
+        return Recipe.of(*done, self._stage_run.as_stage(), *self._remaining_stages, title=title)
 
     @property
     def message(self) -> str:
@@ -176,13 +176,13 @@ class Run(Iterator[Iteration]):
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
         decided = self.decisions
-        if not self._kept_last and decided and decided[-1] == self._leg.decision:
+        if not self._kept_last and decided and decided[-1] == self._stage_run.decision:
             decided = decided[:-1]  # it says how the last one is
-        words = [said, f"{iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
+        words = [said, f"{format_iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
-            words.append(kept(self.best.number))
-        hint = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
-        return " ".join(filter(None, [*words, describe_regressions(before, after), hint]))
+            words.append(kept_message(self.best.number))
+        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
+        return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
 
     @property
     def _kept_last(self) -> bool:
@@ -191,7 +191,7 @@ class Run(Iterator[Iteration]):
     def result(self) -> Result:
         """The record of the run as far as it went."""
         before, after = self._summaries()
-        several = isinstance(self.smoother, Recipe) or len(self._legs) > 1
+        several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self.mesh.with_points(self.best.points)
         return Result(
             mesh=mesh,
@@ -206,15 +206,15 @@ class Run(Iterator[Iteration]):
             seconds=self.last.seconds,
             setup_seconds=self.setup_seconds,
             history=tuple(self.history),
-            stages=tuple(leg.result() for leg in self._legs),
+            stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
-            limits=self._leg.limits if self._kept_last else None,
+            limits=self._stage_run.limits if self._kept_last else None,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Of the boundary as given to that of a mesh, where a method let it slide."""
         angles = [
-            leg.smoother.values().get("feature_angle", FEATURE_ANGLE) for leg in self._legs if leg.smoother.slides
+            one.smoother.values().get("feature_angle", FEATURE_ANGLE) for one in self._stage_runs if one.smoother.slides
         ]
         return surface_change(self.mesh, mesh, angles[0]) if angles else None
 
@@ -224,25 +224,25 @@ class Run(Iterator[Iteration]):
         return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
 
     @property
-    def _leg(self) -> StageRun:
-        return self._legs[-1]
+    def _stage_run(self) -> StageRun:
+        return self._stage_runs[-1]
 
     @property
-    def _to_come(self) -> Sequence[Stage]:
-        return self._stages[self._leg.number :]
+    def _remaining_stages(self) -> Sequence[Stage]:
+        return self._stages[self._stage_run.number :]
 
-    def _begin_the_next_stage(self) -> None:
-        done, last, best = self._leg, self.last, self.best
-        kept = f" Kept of it is iteration {best.number}." if best is not last else ""
-        count = iterations(last.number - done.since.number)
+    def _begin_next_stage(self) -> None:
+        done, last, reached = self._stage_run, self.last, self.best
+        kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
+        count = format_iterations(last.number - done.since.number)
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._legs.append(StageRun(self.mesh, self._to_come[0], done.number + 1, best, last))
-        self._settle()
+        self._stage_runs.append(StageRun(self.mesh, self._remaining_stages[0], done.number + 1, reached, last))
+        self._end_if_done()
 
-    def _settle(self) -> None:
-        """End where the leg at hand has ended and nothing comes after it."""
-        over = self._leg.outcome
-        if over is Outcome.NOTHING_FREE or (over is not None and not self._to_come):
+    def _end_if_done(self) -> None:
+        """End where the stage_run at hand has ended and nothing comes after it."""
+        over = self._stage_run.outcome
+        if over is Outcome.NOTHING_FREE or (over is not None and not self._remaining_stages):
             self.outcome = over
 
 

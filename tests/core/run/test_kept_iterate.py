@@ -132,9 +132,9 @@ def test_what_was_best_before_the_method_was_changed_is_still_kept(bridge):
     for _ in range(4):
         next(run)
     assert run.best.number == 4
-    run.go_on_with("laplacian", SHORT)
+    run.switch_method("laplacian", SHORT)
     assert run.best.number == 3
-    run.go_on_with(METHODS["laplacian"](update="simultaneous"))
+    run.switch_method(METHODS["laplacian"](update="simultaneous"))
     list(run)
     assert (run.best.number, run.last.number) == (3, 12)
 
@@ -143,7 +143,7 @@ def test_a_method_that_takes_over_goes_on_from_the_newest_and_may_end_better(bri
     run = iterate(bridge, "laplacian")
     for _ in range(6):
         newest = next(run)
-    run.go_on_with("local-sd")
+    run.switch_method("local-sd")
     taken_over = next(run)
     expected = next(iterate(bridge.with_points(newest.points), "local-sd"))
     np.testing.assert_array_equal(taken_over.points, expected.points)
@@ -213,5 +213,5 @@ def test_a_method_that_takes_over_may_keep_where_it_begins(bridge):
             break
     kept = run.best
     assert kept.number < newest.number
-    run.go_on_with("local-sd", StoppingCriteria(max_iterations=newest.number))
+    run.switch_method("local-sd", StoppingCriteria(max_iterations=newest.number))
     assert run.best.number == newest.number

@@ -136,7 +136,7 @@ def test_closing_ends_the_whole(mesh):
 def test_the_rest_of_a_stage_is_done_by_another_method(mesh):
     run = iterate(mesh, Recipe.of(stage("getme", 5), stage("mend", 1)))
     at = [next(run), next(run)][-1]
-    run.go_on_with("local-sd")
+    run.switch_method("local-sd")
     rest = list(run)
     assert [(it.number, it.diagnostics["stage"], it.diagnostics["method"]) for it in rest] == [
         (3, 1, "local-sd"), (4, 1, "local-sd"), (5, 1, "local-sd"), (6, 2, "mend"),
@@ -153,7 +153,7 @@ def test_other_values_on_the_way_and_the_recipe_that_does_it_again(mesh):
     run = iterate(mesh, METHODS["local-sd"](), StoppingCriteria(max_iterations=6, tolerance=0))
     next(run)
     next(run)
-    run.go_on_with(METHODS["local-sd"](p=4), StoppingCriteria(max_iterations=7, tolerance=0))
+    run.switch_method(METHODS["local-sd"](p=4), StoppingCriteria(max_iterations=7, tolerance=0))
     points = [it.points for it in run]
     assert run.decisions == ["After iteration 2: p = 4 instead of 2, max_iterations = 7 instead of 6."]
     assert run.last.number == 7
@@ -170,7 +170,7 @@ def test_other_limits_alone_do_not_begin_the_method_anew(mesh):
     plain = [it.points for it in iterate(mesh, "mend", StoppingCriteria(max_iterations=8))]
     run = iterate(mesh, "mend", StoppingCriteria(max_iterations=3))
     seen = [next(run).points, next(run).points]
-    run.go_on_with("mend", StoppingCriteria(max_iterations=8))
+    run.switch_method("mend", StoppingCriteria(max_iterations=8))
     seen += [it.points for it in run]
     for ours, theirs in zip(seen, plain, strict=True):
         np.testing.assert_array_equal(ours, theirs)
@@ -181,7 +181,7 @@ def test_other_limits_alone_do_not_begin_the_method_anew(mesh):
 def test_going_on_as_before_changes_nothing(mesh):
     run = iterate(mesh, "local-sd", FEW)
     next(run)
-    run.go_on_with("local-sd", FEW)
+    run.switch_method("local-sd", FEW)
     assert (run.decisions, len(list(run)), run.result().method) == ([], 3, "local-sd")
 
 
@@ -189,7 +189,7 @@ def test_a_stage_that_has_ended_goes_on_under_new_limits_and_the_next_one_follow
     run = iterate(mesh, Recipe.of(stage("getme", 2), stage("local-sd", 1)))
     next(run)
     next(run)
-    run.go_on_with(METHODS["getme"](relaxation=0.5), StoppingCriteria(max_iterations=3, tolerance=0))
+    run.switch_method(METHODS["getme"](relaxation=0.5), StoppingCriteria(max_iterations=3, tolerance=0))
     assert [it.diagnostics["method"] for it in run] == ["getme", "local-sd"]
 
 
@@ -197,11 +197,11 @@ def test_limits_that_are_passed_already_end_the_stage(mesh):
     run = iterate(mesh, "local-sd", FEW)
     next(run)
     next(run)
-    run.go_on_with("local-mnr", StoppingCriteria(max_iterations=1))
+    run.switch_method("local-mnr", StoppingCriteria(max_iterations=1))
     assert run.outcome is Outcome.MAX_ITERATIONS
     assert list(run) == []
     with pytest.raises(ValueError, match="the run has ended"):
-        run.go_on_with("mend")
+        run.switch_method("mend")
 
 
 def test_a_method_that_cannot_be_prepared_leaves_the_run_as_it_was(mesh, monkeypatch):
@@ -213,7 +213,7 @@ def test_a_method_that_cannot_be_prepared_leaves_the_run_as_it_was(mesh, monkeyp
     next(run)
     monkeypatch.setattr(METHODS["laplacian"], "steps", steps)
     with pytest.raises(MemoryError):
-        run.go_on_with(METHODS["laplacian"](update="simultaneous"))
+        run.switch_method(METHODS["laplacian"](update="simultaneous"))
     assert len(list(run)) == 3
 
 
@@ -222,13 +222,13 @@ def test_the_seconds_that_are_left_are_those_of_the_stage_less_what_it_has_taken
     for _ in range(3):
         next(run)
     assert run.recipe.stages[0].stop.max_seconds == 1000
-    run.go_on_with("local-sd")
+    run.switch_method("local-sd")
     spent = run.last.seconds
     next(run)
     cut, rest = run.recipe.stages
     assert (cut.stop.max_seconds, rest.stop.max_seconds) == (1000, pytest.approx(1000 - spent))
     assert (cut.stop.max_iterations, rest.stop.max_iterations) == (3, 47)
-    run.go_on_with("local-nr", StoppingCriteria(max_seconds=1e-9, max_iterations=2))
+    run.switch_method("local-nr", StoppingCriteria(max_seconds=1e-9, max_iterations=2))
     assert run.recipe.stages[-1].stop.max_seconds == 1e-3  # 0 would be no limit
     assert run.recipe.stages[-1].stop.max_iterations == 0
 

@@ -185,7 +185,7 @@ def test_all_stages_of_a_run_slide_on_the_surface_that_it_began_with():
     assert on_its_surface(sliding, smooth(mesh, Recipe.of(*stages)).mesh.points) < 1e-9
     run = iterate(mesh, stages[0].smoother)
     next(run)
-    run.go_on_with(stages[1].smoother, StoppingCriteria(max_iterations=4))
+    run.switch_method(stages[1].smoother, StoppingCriteria(max_iterations=4))
     for iteration in run:
         assert on_its_surface(sliding, iteration.points) < 1e-9
     again = smooth(

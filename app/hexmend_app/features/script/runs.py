@@ -64,11 +64,11 @@ class Told:
     def _loop(self, mesh: str, end: int | None, at_the_end: str) -> str:
         changes = [one for one in self.changes if end is None or one[0] < end]
         lines = [f"run = hx.iterate({mesh}, {with_limits(self.work, self.stop)})"]
-        lines += [f"run.go_on_with({_both(stage)})" for number, stage in changes if not number]
+        lines += [f"run.switch_method({_both(stage)})" for number, stage in changes if not number]
         lines.append("for it in run:")
         for number, stage in changes:
             if number:
-                lines += [f"    if it.number == {number}:", f"        run.go_on_with({_both(stage)})"]
+                lines += [f"    if it.number == {number}:", f"        run.switch_method({_both(stage)})"]
         if end is not None:
             lines += [f"    if it.number == {end}:", f"        {at_the_end}"]
         return "\n".join(lines if len(lines) > 2 or "for" not in lines[-1] else [*lines, "    pass"])

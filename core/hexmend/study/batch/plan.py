@@ -17,7 +17,7 @@ from hexmend.errors import ParameterError
 from hexmend.io.storage.toml_files import read_toml
 from hexmend.parameters import declared, from_values
 from hexmend.run import StoppingCriteria
-from hexmend.run.recipe import check_keys, in_this_format, table_in
+from hexmend.run.recipe import check_keys, migrate, read_table
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import Case, TaskLimits
@@ -108,11 +108,11 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
     >>> [case.name for case in plan.cases][:3]
     ['laplacian', 'local-sd p=2 max_iterations=50', 'local-sd p=2 max_iterations=100']
     """
-    data = in_this_format(parse_toml(text, "a recipe"))
+    data = migrate(parse_toml(text, "a recipe"))
     check_keys("the study", data, ("format", "title", "methods", "method", "stop", "task", "boundary"))
     if not isinstance(title := data.get("title", title), str):
         raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
-    stop, boundary = table_in(data, "stop"), _boundary(table_in(data, "boundary"))
+    stop, boundary = read_table(data, "stop"), _boundary(read_table(data, "boundary"))
     surface = boundary.pop("surface", None)
     found = (
         case for place, table in _tables(data) for case in _locate_errors(place, _cases(table, folder, stop, boundary))
@@ -127,7 +127,7 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
             raise ParameterError(f"two of the methods would be called {name!r} in tables: give each of them a  title")
     if surface is not None and not any(case.slides for case in cases):
         raise ParameterError("surface names what the boundary slides on, and it is fixed: say boundary = slide")
-    limits = from_values(TaskLimits, table_in(data, "task"), owner="task")
+    limits = from_values(TaskLimits, read_table(data, "task"), owner="task")
     return Plan(title, cases, limits, None if surface is None else folder / surface)
 
 
@@ -170,7 +170,7 @@ def _cases(
     for key in (*named, "title"):
         if not isinstance(table.get(key, ""), str):
             raise ParameterError(f"{key} = {table[key]!r} is no text: expected it in quotes")
-    stops = _underscored(stop) | _underscored(table_in(table, "stop"))
+    stops = _underscored(stop) | _underscored(read_table(table, "stop"))
     if "recipe" in table:
         if "parameters" in table:
             raise ParameterError("a recipe has values of its own: leave out parameters, or change the recipe")
@@ -184,7 +184,7 @@ def _cases(
     for key in boundary:
         if key not in known:
             raise ParameterError(f"[boundary] {key}: {method.name} keeps the boundary fixed")
-    for values, words in _choices(dict(boundary) | _underscored(table_in(table, "parameters"))):
+    for values, words in _choices(dict(boundary) | _underscored(read_table(table, "parameters"))):
         smoother = from_values(method, values, owner=method.name)
         for limits, more in _choices(stops):
             name = table.get("title", method.name) + words + more

@@ -137,7 +137,7 @@ def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_
     with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
         session.smoothing.resume()
     text = same_again(session, tmp_path)
-    assert text.count("run.go_on_with(hx.Laplacian()") == 2
+    assert text.count("run.switch_method(hx.Laplacian()") == 2
 
 
 @pytest.mark.slow
