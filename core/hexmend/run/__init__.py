@@ -1,4 +1,4 @@
-"""Runs: the only loop, and the two doors to it, `iterate` and `smooth`."""
+"""Runs of smoothers and recipes: `iterate` gives one iteration after the other, `smooth` the result."""
 
 from __future__ import annotations
 
@@ -30,27 +30,26 @@ def iterate(
     Parameters
     ----------
     mesh : Mesh or path
-        A mesh, which stays as it is, or the file of one.
+        A mesh, which is not changed, or the path of a file.
     smoother : Smoother, Recipe or str
-        A smoother, or the name of one to be used with its defaults; or a recipe.
+        A smoother, the name of one to be used with its defaults, or a recipe.
     stop : StoppingCriteria, optional
-        For a recipe: in place of the limits of every stage.
+        Limits; for a recipe they replace those of every stage.
     **settings
-        Parameters of the method and limits of `StoppingCriteria` by their names, in place of those of `smoother` and
-        `stop`:
-        `boundary="slide", max_iterations=50`. Of a recipe only limits, which hold for every stage.
+        Parameters of the method and limits by name, such as `boundary="slide", max_iterations=50`. They replace those
+        of `smoother` and `stop`. A recipe takes only limits, which hold for every stage.
 
     Returns
     -------
     Run
-        An iterator of `Iteration`; leaving it early loses nothing.
+        An iterator of `Iteration`; it has the result at any time.
 
     Raises
     ------
     ParameterError
         For a name that neither the method nor `StoppingCriteria` has, and for a value out of bounds.
     FileError, MeshError
-        Where the file cannot be read.
+        If the file cannot be read.
 
     Examples
     --------
@@ -79,14 +78,18 @@ def smooth(
     Parameters
     ----------
     mesh, smoother, stop, **settings
-        As for `iterate`.
+        See `iterate`.
     watch : callable, optional
-        Called with each iteration; the run ends as stopped where it returns False.
+        Called with each iteration; the run is stopped if it returns False.
+
+    Returns
+    -------
+    Result
 
     Raises
     ------
     ParameterError, FileError, MeshError
-        As `iterate`.
+        See `iterate`.
 
     Examples
     --------
@@ -106,8 +109,8 @@ def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
     if isinstance(mesh, Mesh):
         return mesh
     if not isinstance(mesh, str | os.PathLike):
-        raise TypeError(f"{type(mesh).__name__} is no mesh: expected a hexmend.Mesh or the path of a file")
-    from hexmend.io import read  # who has a mesh does not wait for the formats
+        raise TypeError(f"{type(mesh).__name__} is not a mesh: expected a hexmend.Mesh or the path of a file")
+    from hexmend.io import read  # the formats are not loaded for a mesh in memory
 
     return read(mesh)
 
@@ -115,24 +118,24 @@ def _read(mesh: Mesh | str | os.PathLike[str]) -> Mesh:
 def _configured(
     smoother: Smoother | Recipe | str, stop: StoppingCriteria | None, settings: dict[str, Any]
 ) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
-    """A smoother or recipe and its limits, with settings in place of some of their values."""
+    """Return the smoother or recipe and its limits, with the settings applied."""
     if isinstance(smoother, str):
         smoother = METHODS[smoother]()
     if not isinstance(smoother, Smoother | Recipe):
-        raise TypeError(f"{type(smoother).__name__} is no method: expected a hexmend.Smoother, a Recipe or a name")
+        raise TypeError(f"{type(smoother).__name__} is not a method: expected a hexmend.Smoother, a Recipe or a name")
     limits = {one.name for one in declared(StoppingCriteria)}
     own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
     settings = {current_name(type(smoother), name): value for name, value in settings.items()}
     for name in settings:
         if name not in limits and name not in own:
             raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *sorted(limits)])}")
-    wanted = {name: value for name, value in settings.items() if name in limits}
+    limits_given = {name: value for name, value in settings.items() if name in limits}
     values = {name: value for name, value in settings.items() if name not in limits}
     if values:
         smoother = dataclasses.replace(smoother, **values)
-    if wanted and isinstance(smoother, Recipe) and stop is None:
-        return smoother.limited(**wanted), None
-    return smoother, dataclasses.replace(stop or StoppingCriteria(), **wanted) if wanted else stop
+    if limits_given and isinstance(smoother, Recipe) and stop is None:
+        return smoother.limited(**limits_given), None
+    return smoother, dataclasses.replace(stop or StoppingCriteria(), **limits_given) if limits_given else stop
 
 
 __getattr__ = exports(__name__)

@@ -1,4 +1,4 @@
-"""Break-points: what a run pauses at."""
+"""Break-points: events at which a run pauses."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class Hit:
     Parameters
     ----------
     sentence : str
-        What has happened.
+        Description of the event.
     hexes, nodes : tuple of int
-        Where; empty where it is nowhere in particular.
+        Hexes and nodes concerned; may be empty.
     """
 
     sentence: str
@@ -28,20 +28,21 @@ class Hit:
 
 @dataclass(frozen=True)
 class Breakpoints:
-    """What a run pauses at; nothing by default.
+    """Events at which a run pauses; none by default.
 
     Parameters
     ----------
     inverts : bool
-        An element that was not inverted is.
+        Pause when a hex becomes inverted.
     q_min_falls : bool
-        The least quality is lower than it was before the iteration.
+        Pause when the least quality falls.
     node, move : int or None, float
-        The node moves further than `move` mean edge lengths in an iteration.
+        Pause when this node moves further than `move` mean edge lengths in an iteration.
     hex, change : int or None, float
-        The quality of the element changes by more than `change` in an iteration.
+        Pause when the quality of this hex changes by more than `change` in an iteration.
     cuts : int or None
-        The line search cuts the step more often; methods that search for each node by itself do not tell.
+        Pause when the line search shortens the step more often than this. Methods with a line search for each node do
+        not report it.
     """
 
     inverts: bool = False
@@ -54,22 +55,27 @@ class Breakpoints:
 
     @property
     def any(self) -> bool:
-        """Whether there is anything to pause at."""
+        """True if any event is set."""
         watched = (self.node, self.hex, self.cuts)
         return self.inverts or self.q_min_falls or any(one is not None for one in watched)
 
     def hit(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
-        """The first break-point that an iteration reaches, in the order above.
+        """Return the first break-point that an iteration reaches, in the order of the fields, or None.
 
         Parameters
         ----------
         before, now : Iteration
-            Of one run, one after the other.
+            Two consecutive iterations of a run.
         unit : float
             Mean edge length of the mesh.
         """
-        hits = (self._inverted(before, now), self._fell(before, now), self._moved(before, now, unit),
-                self._changed(before, now), self._cut(now))  # fmt: skip
+        hits = (
+            self._inverted(before, now),
+            self._fell(before, now),
+            self._moved(before, now, unit),
+            self._changed(before, now),
+            self._cut(now),
+        )
         return next((hit for hit in hits if hit is not None), None)
 
     def _inverted(self, before: Iteration, now: Iteration) -> Hit | None:
@@ -107,4 +113,4 @@ class Breakpoints:
         cuts = now.diagnostics.get("cuts", 0)
         if self.cuts is None or not cuts > self.cuts:
             return None
-        return Hit(f"The line search cut the step {cuts} times, to {now.diagnostics.get('step_length', 0.0):.3g}")
+        return Hit(f"The line search shortened the step {cuts} times, to {now.diagnostics.get('step_length', 0.0):.3g}")

@@ -1,4 +1,4 @@
-"""Whether memory will suffice for a run: what it will need, and what there is."""
+"""Memory that a run needs, and memory that is available."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
 
-#: Bytes of every run, however small the mesh: SciPy with its libraries, and what the allocator keeps.
+#: Bytes of every run, however small the mesh: SciPy with its libraries, and memory that the allocator retains.
 FIXED = 64 << 20
 
-#: Bytes of a hex that does not move, and of a node that there is beyond one a hex: topology, positions, figures.
+#: Bytes per hex that does not move, and per node in excess of one per hex: topology, positions, quality.
 AT_REST = 400
 
-#: Bytes of a face of the boundary that nodes slide on: its patch, and how closest points of it are found.
+#: Bytes per boundary face on which nodes slide: its patch and its part of the search tree for closest points.
 A_FACE = 4500
 
-#: Address space that libraries and threads reserve beside what they use: a limit of it counts that too.
+#: Bytes of address space that libraries and threads reserve without using them; a limit of RLIMIT_AS includes them.
 _RESERVED = 256 << 20
 
-#: From here on, a number stands for "without a limit": so control groups of version 1 say it.
+#: Control groups of version 1 write "no limit" as a number above this one, in bytes.
 _UNLIMITED = 1 << 60
 
-#: How many methods that need less are named.
-_NAMED = 3
+#: Methods needing less memory that are named at most.
+_MAX_NAMED = 3
 
 
 @dataclass(frozen=True)
@@ -36,13 +36,14 @@ class Shortage:
     Parameters
     ----------
     title : str
-        Of the method or the recipe.
+        Title of the method or recipe.
     hexes : int
-        Of the mesh.
+        Number of hexes of the mesh.
     needed, available : int
         Bytes.
     lighter : tuple of (type, int)
-        Methods for which it would suffice, and the bytes they need: those of the same kind first, then by need.
+        Methods for which memory suffices, with the bytes they need: those of the same kind first, then in ascending
+        order.
     """
 
     title: str
@@ -53,71 +54,86 @@ class Shortage:
 
     @property
     def problem(self) -> str:
-        """What is the matter, as a sentence."""
+        """The shortage, as a sentence."""
         return (
             f"{self.title} on {self.hexes:,} hexes needs about {format_bytes(self.needed)} of memory, and "
             f"{format_bytes(self.available)} are free."
         )
 
     def remedy(self, *more: str, titled: bool = False) -> str:
-        """What to do, as a sentence that calls methods by name or title; `more` are further ways."""
+        """Return what the user can do, as a sentence.
+
+        Parameters
+        ----------
+        more : str
+            Further remedies.
+        titled : bool
+            Call methods by their titles and not by their names.
+        """
         names = _listed([f"{cls.title if titled else cls.name} ({format_bytes(size)})" for cls, size in self.lighter])
-        ways = [f"take {names}, which need less"] if names else []
-        said = _listed([*ways, "close other programs", "smooth a smaller mesh", *more])
-        return f"{said[:1].upper()}{said[1:]}."
+        lighter = [f"use {names}, which need less"] if names else []
+        remedies = _listed([*lighter, "close other programs", "smooth a smaller mesh", *more])
+        return f"{remedies[:1].upper()}{remedies[1:]}."
 
 
-def shortage(work: Smoother | Recipe, mesh: Mesh | int, free: int | None) -> Shortage | None:
-    """What is to be said before a run; None where memory will suffice, or nobody knows.
+def shortage(method: Smoother | Recipe, mesh: Mesh | int, free: int | None) -> Shortage | None:
+    """Return the shortage of memory for a run, or None if memory suffices or the free memory is not known.
 
     Parameters
     ----------
-    work : Smoother or Recipe
+    method : Smoother or Recipe
     mesh : Mesh or int
-        Or how many hexes it will have.
+        The mesh, or the number of its hexes.
     free : int or None
-        Bytes, as `available` says.
+        Bytes, from `available`.
     """
     if free is None:
         return None
-    need = needed(work, mesh)
+    need = needed(method, mesh)
     if need <= free:
         return None
-    optimises = not isinstance(work, Recipe) and work.optimises
+    optimises = not isinstance(method, Recipe) and method.optimises
     others = [(cls, needed(cls(), mesh)) for cls in METHODS.values()]
     fitting = [(cls, size) for cls, size in others if size <= free]
-    lighter = sorted(fitting, key=lambda one: (one[0].optimises != optimises, one[1]))[:_NAMED]
-    return Shortage(work.title, mesh if isinstance(mesh, int) else mesh.n_hexes, need, free, tuple(lighter))
+    lighter = sorted(fitting, key=lambda one: (one[0].optimises != optimises, one[1]))[:_MAX_NAMED]
+    return Shortage(method.title, mesh if isinstance(mesh, int) else mesh.n_hexes, need, free, tuple(lighter))
 
 
-def needed(work: Smoother | Recipe, mesh: Mesh | int) -> int:
-    """Bytes that a run takes at most beside the open mesh, estimated from what its methods declare.
+def needed(method: Smoother | Recipe, mesh: Mesh | int) -> int:
+    """Estimate the bytes that a run takes at most in addition to the open mesh, from what its methods declare.
+
+    Parameters
+    ----------
+    method : Smoother or Recipe
+    mesh : Mesh or int
+        The mesh, or the number of its hexes.
 
     Examples
     --------
     >>> needed(METHODS["mend"](), 1_000_000) // 10**6, needed(METHODS["local-sd"](), 1_000_000) // 10**6
     (2267, 467)
     """
-    if isinstance(work, Recipe):
-        return max(needed(stage.smoother, mesh) for stage in work.stages)
+    if isinstance(method, Recipe):
+        return max(needed(stage.smoother, mesh) for stage in method.stages)
     if isinstance(mesh, int):
-        hexes, still, more, faces = mesh, 0, 0, 6 * mesh ** (2 / 3)
+        hexes, fixed, extra_nodes, faces = mesh, 0, 0, 6 * mesh ** (2 / 3)
     else:
-        hexes, more = mesh.n_hexes, max(0, mesh.n_nodes - mesh.n_hexes)
-        still = 0 if mesh.pinned is None else int(mesh.pinned[mesh.hexes].all(axis=1).sum())
-        faces = len(mesh.topology.boundary_faces) if work.slides else 0
-    moved = work.bytes_per_hex * (hexes - still) + AT_REST * (still + more)
-    return FIXED + moved + (round(A_FACE * faces) if work.slides else 0)
+        hexes, extra_nodes = mesh.n_hexes, max(0, mesh.n_nodes - mesh.n_hexes)
+        fixed = 0 if mesh.pinned is None else int(mesh.pinned[mesh.hexes].all(axis=1).sum())
+        faces = len(mesh.topology.boundary_faces) if method.slides else 0
+    moved = method.bytes_per_hex * (hexes - fixed) + AT_REST * (fixed + extra_nodes)
+    return FIXED + moved + (round(A_FACE * faces) if method.slides else 0)
 
 
 def available(root: Path = Path("/")) -> int | None:
-    """Bytes that this process can still take without swapping: the least of what the system, its control groups and its
-    limit of address space leave; None where none of them says, as on systems other than Linux.
+    """Return the bytes that this process can still take without swapping; None on systems other than Linux.
+
+    It is the least of what the system, the control groups and the limit of address space leave.
 
     Parameters
     ----------
     root : Path
-        Where `proc` and `sys` are.
+        Folder of `proc` and `sys`.
 
     Notes
     -----
@@ -142,7 +158,7 @@ def _of_the_system(root: Path) -> Iterator[int]:
 
 
 def _of_control_groups(root: Path) -> Iterator[int]:
-    """What each group that the process is in leaves, up to the outermost: of all of them the tightest binds."""
+    """Yield the bytes that each control group of the process leaves, from the innermost to the outermost."""
     for line in _text(root / "proc/self/cgroup").splitlines():
         _, controllers, path = line.split(":", 2)
         if not controllers:
@@ -156,7 +172,7 @@ def _of_control_groups(root: Path) -> Iterator[int]:
         else:
             continue
         inside = PurePosixPath(path.lstrip("/"))
-        inside = PurePosixPath() if ".." in inside.parts else inside  # beyond what this process can see
+        inside = PurePosixPath() if ".." in inside.parts else inside  # outside the namespace of this process
         for folder in (root / mount / group for mount in mounts for group in (inside, *inside.parents)):
             yield from _of_a_group(folder, *names)
 
@@ -170,7 +186,7 @@ def _of_a_group(folder: Path, limit: str, usage: str, reclaimable: str) -> Itera
 def _of_address_space(root: Path) -> Iterator[int]:
     try:
         import resource
-    except ImportError:  # Windows has none
+    except ImportError:  # on Windows
         return
     limit, taken = resource.getrlimit(resource.RLIMIT_AS)[0], _figure(root / "proc/self/status", "VmSize:")
     if limit != resource.RLIM_INFINITY and taken is not None:
@@ -178,7 +194,7 @@ def _of_address_space(root: Path) -> Iterator[int]:
 
 
 def _figure(path: Path, name: str) -> int | None:
-    """The number after a name at the beginning of a line."""
+    """Return the number after a name at the beginning of a line."""
     for line in _text(path).splitlines():
         words = line.split()
         if len(words) > 1 and words[0] == name:

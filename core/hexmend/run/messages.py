@@ -1,4 +1,4 @@
-"""How a run tells of what was decided on its way."""
+"""Messages of a run about changes of the method and about the iteration that is kept."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend.run.recipe import Stage
 
 
 def describe_change(old: Stage, new: Stage) -> str:
-    """What differs between a stage and what takes its place.
+    """Describe the differences between a stage and the one that replaces it.
 
     >>> from hexmend.smoothers import METHODS
     >>> local, soft = METHODS["local-sd"](), METHODS["local-sd"](p=4)
@@ -39,18 +39,16 @@ def format_iterations(count: int) -> str:
 def kept_message(number: int) -> str:
     """
     >>> kept_message(3)
-    'Kept is iteration 3, better than what came after.'
+    'Iteration 3 was kept: later ones were worse.'
     """
-    which = "" if number else ", the mesh as given"
-    return f"Kept is iteration {number}{which}, better than what came after."
+    if not number:
+        return "The mesh as given was kept: every iteration was worse."
+    return f"Iteration {number} was kept: later ones were worse."
 
 
 def _differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
-    return [
-        f"{name} = {_format(value)} instead of {_format(old[name])}"
-        for name, value in new.items()
-        if value != old[name]
-    ]
+    changed = [name for name, value in new.items() if value != old[name]]
+    return [f"{name} = {_format(new[name])} instead of {_format(old[name])}" for name in changed]
 
 
 def _format(value: Any) -> str:

@@ -1,6 +1,6 @@
-"""Recipes: methods one after another, each with its values and its limits, as data that people read and write.
+"""Recipes: methods that run one after another, each with its parameters and limits.
 
-As a file a recipe is TOML::
+A recipe is written as TOML::
 
     format = 2
     title = "GETMe, then mend"
@@ -13,8 +13,8 @@ As a file a recipe is TOML::
     [[stage]]
     method = "mend"
 
-What is not named has its default; what Hexmend writes names everything, so that a file means the same when defaults
-change. Only data is read: nothing in a file is ever run.
+Values that are not named have their defaults. Hexmend writes all values, so that a file means the same when defaults
+change.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from hexmend.smoothers import METHODS, Smoother
 from hexmend.smoothers.sliding_smoother import UNLIMITED
 from hexmend.toml_text import parse_toml
 
-#: The number of the format that is written; lower ones can be read.
+#: Version of the format that is written; lower ones can be read.
 FORMAT = 2
 
 _HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
@@ -38,19 +38,19 @@ _HEAD = "# A recipe: hexmend smooth MESH -o OUT --recipe THIS-FILE\n"
 
 @dataclass(frozen=True)
 class Stage:
-    """A method and when it ends."""
+    """A method and its limits."""
 
     smoother: Smoother
     stop: StoppingCriteria = field(default_factory=StoppingCriteria)
 
     def values(self) -> dict[str, Any]:
-        """The stage as data: `method`, `parameters` and `stop`, every value of them."""
+        """Return the stage as data with the keys `method`, `parameters` and `stop`, and all values."""
         return {"method": self.smoother.name, "parameters": self.smoother.values(), "stop": self.stop.values()}
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """Stages that a run goes through, each from what the one before it reached.
+    """Stages of a run; each begins with the result of the one before it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Recipe:
     True
     """
 
-    #: What stands for the method in reports.
+    #: Name in place of a method's in reports.
     name: ClassVar[str] = "recipe"
 
     title: str
@@ -85,19 +85,23 @@ class Recipe:
 
     @classmethod
     def of(cls, *parts: Stage | Smoother | str, title: str = "") -> Recipe:
-        """A recipe of stages; a method, or the name of one, is a stage with the usual limits.
+        """Make a recipe of stages; a method, or the name of one, becomes a stage with the default limits.
 
-        Without a title, it is that of its methods.
+        Parameters
+        ----------
+        *parts : Stage, Smoother or str
+        title : str
+            By default the titles of the methods.
         """
         stages = tuple(map(_stage, parts))
         return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
 
     def limited(self, **limits: Any) -> Recipe:
-        """The same with these limits of `StoppingCriteria` for every stage, in place of its own."""
+        """Return a copy with these fields of `StoppingCriteria` replaced in every stage."""
         return replace(self, stages=tuple(replace(stage, stop=replace(stage.stop, **limits)) for stage in self.stages))
 
     def values(self) -> dict[str, Any]:
-        """The recipe as data."""
+        """Return the recipe as data with the keys `title` and `stages`."""
         return {"title": self.title, "stages": [stage.values() for stage in self.stages]}
 
 
@@ -108,7 +112,7 @@ def _stage(part: Stage | Smoother | str) -> Stage:
 
 
 def to_toml(recipe: Recipe) -> str:
-    """The recipe as TOML text that names every value."""
+    """Return the recipe as TOML text with all values."""
     import tomli_w
 
     stages = [stage.values() for stage in recipe.stages]
@@ -116,43 +120,43 @@ def to_toml(recipe: Recipe) -> str:
 
 
 def from_toml(text: str) -> Recipe:
-    """The recipe that TOML text describes.
+    """Parse a recipe from TOML text.
 
     Raises
     ------
     ParameterError
-        Naming line and column where it is no TOML, else the stage, the key and what was expected there.
+        If the text is not a recipe; the message names line and column, or the stage, the key and what was expected.
     """
     data = migrate(parse_toml(text, "a recipe"))
     check_keys("the recipe", data, ("format", "title", "stage"))
     title, stages = data.get("title", ""), data.get("stage", [])
     if not isinstance(title, str):
-        raise ParameterError(f"title = {title!r} is no text: expected a title in quotes")
+        raise ParameterError(f"title = {title!r} is not a text: expected a title in quotes")
     if not isinstance(stages, list) or not all(isinstance(stage, dict) for stage in stages) or not stages:
         raise ParameterError('the recipe has no stage: expected [[stage]] and a line such as  method = "mend"')
     return Recipe.of(*(read_stage(number, stage) for number, stage in enumerate(stages, 1)), title=title)
 
 
 def migrate(data: dict[str, Any]) -> dict[str, Any]:
-    """A recipe as data of the format that is written.
+    """Convert the data of a recipe to today's format.
 
     Raises
     ------
     ParameterError
-        Where it does not say of which format it is, or is of a newer one.
+        If the data have no version of the format, or a newer one.
     """
     number = data.get("format")
     if number is None:
         raise ParameterError(f"the recipe has no format: expected  format = {FORMAT}  as its first line")
     if type(number) is not int or number < 1:
-        raise ParameterError(f"format = {number!r} is no format of a recipe: expected {FORMAT}")
+        raise ParameterError(f"format = {number!r} is not a format of recipes: expected {FORMAT}")
     if number > FORMAT:
         raise ParameterError(f"format = {number} is newer than this version of Hexmend, which reads up to {FORMAT}")
     return data if number > 1 else migrate_surface_tolerance(data)
 
 
 def migrate_surface_tolerance(data: Any) -> Any:
-    """Data of a file from the time when a surface tolerance of 0 meant that there is no limit, as it is read now.
+    """Replace surface tolerances of 0, which meant "no limit" in format 1, by that word.
 
     >>> migrate_surface_tolerance({"stage": [{"parameters": {"surface_tolerance": 0.0, "p": 2.0}}]})
     {'stage': [{'parameters': {'surface_tolerance': 'unlimited', 'p': 2.0}}]}
@@ -174,7 +178,18 @@ def _is_zero(value: Any) -> bool:
 
 
 def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
-    """The stage that data as of `Stage.values` describe; `ParameterError` names its number where they are none."""
+    """Make a stage from data as of `Stage.values`.
+
+    Parameters
+    ----------
+    number : int
+        Its number in the recipe, for messages.
+    data : mapping
+
+    Raises
+    ------
+    ParameterError
+    """
     try:
         check_keys("the stage", data, ("method", "parameters", "stop"))
         if "method" not in data:
@@ -187,15 +202,15 @@ def read_stage(number: int, data: Mapping[str, Any]) -> Stage:
 
 
 def read_table(data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    """The table of this name, empty where there is none. Raises `ParameterError` where it is something else."""
+    """Return the table of this key, empty if it is missing; `ParameterError` if it is not a table."""
     table = data.get(key, {})
     if not isinstance(table, dict):
-        raise ParameterError(f"{key} = {table!r} is no table: expected  {key} = {{ name = value, ... }}")
+        raise ParameterError(f"{key} = {table!r} is not a table: expected  {key} = {{ name = value, ... }}")
     return table
 
 
 def check_keys(owner: str, data: Mapping[str, Any], known: Iterable[str]) -> None:
-    """Raise `ParameterError` for the first key of `data` that is not known, with what may have been meant."""
+    """Raise `ParameterError` for the first unknown key of `data`, with the most similar known one."""
     for key in data:
         if key not in known:
             raise ParameterError(f"{owner} has no key {key!r}: {hint(key, known)}")

@@ -1,4 +1,4 @@
-"""Recipes from and to files."""
+"""Reading and writing of recipes as TOML files."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
     Raises
     ------
     FileError
-        Where the file cannot be read or is no recipe: it names the line, or the stage and the key.
+        If the file cannot be read or is not a recipe; the message names the line, or the stage and the key.
     """
     return read_toml(path, "a recipe", from_toml)
 
 
 def write_recipe(path: str | os.PathLike[str], recipe: Recipe) -> None:
-    """Write a recipe as a whole or, where that fails, leave what was there.
+    """Write a recipe to a TOML file, as a whole or not at all.
 
     Raises
     ------
     FileError
-        For a suffix other than .toml, or where the place cannot be written to.
+        For a suffix other than .toml, or if the file cannot be written.
     """
     write_toml(path, "a recipe", to_toml(recipe))

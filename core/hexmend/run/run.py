@@ -1,4 +1,4 @@
-"""The only loop: a smoother's steps become iterations with clocks, figures, stop conditions and an outcome."""
+"""The run of a smoother or recipe: its steps become iterations with times, quality, limits and an outcome."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from hexmend.smoothers import METHODS, Smoother
 
 @reads_old_names
 class Run(Iterator[Iteration]):
-    """A smoother or a recipe at work on a mesh: an iterator of iterations that knows its record and its outcome.
+    """Iterator of the iterations of a smoother or recipe on a mesh; keeps the history and the outcome.
 
-    The stages of a recipe follow one another in one numbering, one clock and one history, each from what the stage
-    before it reached; one that has nothing to do is passed over.
+    The stages of a recipe share one numbering, one clock and one history. Each begins with the result of the stage
+    before it; a stage with nothing to do is skipped.
 
     Parameters
     ----------
     mesh : Mesh
     smoother : Smoother or Recipe
     stop : StoppingCriteria, optional
-        The defaults for a smoother; for a recipe, in place of the limits of every stage.
+        The limits; the defaults for a smoother if None. For a recipe they replace those of every stage.
 
     Attributes
     ----------
@@ -38,16 +38,16 @@ class Run(Iterator[Iteration]):
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
-        The newest.
+        The newest iteration.
     best : Iteration
-        The one that is the run's result: the best of the stage at hand by the rank of the method at work, of equals
-        the last; the last in any case under `StoppingCriteria.keep_last`.
+        The run's result: the best iteration of the current stage by the method's rank, of equal ones the latest; with
+        `StoppingCriteria.keep_last` always the latest.
     history : list of dict
         `Iteration.row` of every iteration so far, number 0 first.
     outcome : Outcome or None
-        None while the run goes on; then that of the last stage.
+        The outcome of the last stage; None until the run ends.
     decisions : list of str
-        What was decided on the way, in sentences.
+        Decisions of methods and changes of the method so far, as sentences.
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
@@ -79,24 +79,24 @@ class Run(Iterator[Iteration]):
         raise StopIteration
 
     def switch_method(self, smoother: Smoother | str, stop: StoppingCriteria | None = None) -> None:
-        """Do the rest of the stage at hand by another method, with other values or under other limits.
+        """Continue the current stage with another method, other parameters or other limits.
 
-        It goes on from the newest iteration, where the nodes are. A stage that has just ended goes on too, if its new
-        limits let it. What has been decided says so; the record names each method.
+        The stage continues from the newest iteration, even if it has just ended, as far as the new limits allow.
+        `decisions` gets a sentence, and the result names each method.
 
         Parameters
         ----------
         smoother : Smoother or str
         stop : StoppingCriteria, optional
-            Limits of the stage as a whole, counted from where it began; its own so far if None.
+            Limits of the whole stage, counted from its beginning; unchanged if None.
 
         Raises
         ------
         ValueError
-            Where the run has ended.
+            If the run has ended.
         """
         if self.outcome is not None:
-            raise ValueError("the run has ended, so that nothing is left to change: begin another from its result")
+            raise ValueError("the run has ended: begin another one with its result")
         old = self._stage_run
         new = Stage(METHODS[smoother]() if isinstance(smoother, str) else smoother, stop or old.stage.stop)
         if new == old.stage:
@@ -112,8 +112,8 @@ class Run(Iterator[Iteration]):
         self._end_if_done()
 
     def close(self) -> None:
-        """End the run where it is; what was reached stands."""
-        if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came as the iteration was being recorded
+        """End the run after the newest iteration; it keeps its result."""
+        if self.last.number > self.history[-1]["iteration"]:  # Ctrl-C came before the iteration was recorded
             self.history.append(self.last.row())
         if self.outcome is None:
             if self._stage_run.outcome is None:
@@ -132,12 +132,12 @@ class Run(Iterator[Iteration]):
 
     @property
     def stage(self) -> Stage:
-        """The method at work and its limits."""
+        """The current method and its limits."""
         return self._stage_run.stage
 
     @property
     def stage_number(self) -> int:
-        """Number of the stage at hand, from 1."""
+        """Number of the current stage, from 1."""
         return self._stage_run.number
 
     @property
@@ -147,19 +147,19 @@ class Run(Iterator[Iteration]):
 
     @property
     def limit(self) -> int:
-        """The most iterations that it can come to as things stand."""
+        """Largest number of iterations that the run can have with its present limits."""
         at = self._stage_run
         here = self.last.number if at.outcome is not None else at.since.number + at.stage.stop.max_iterations
         return here + sum(stage.stop.max_iterations for stage in self._remaining_stages)
 
     @property
     def setup_seconds(self) -> float:
-        """What the methods' preparations took so far."""
+        """Seconds that the methods took for their preparations so far."""
         return sum(one.setup_seconds for one in self._stage_runs)
 
     @property
     def recipe(self) -> Recipe:
-        """What was run and what is still to come, as a recipe that does it again."""
+        """Recipe that repeats the run, with the stages still to come."""
         changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
         done = [stage for stage in changed if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
@@ -167,7 +167,7 @@ class Run(Iterator[Iteration]):
 
     @property
     def message(self) -> str:
-        """What has been reached, why the run ended, and in what the mesh is worse than it was, in sentences."""
+        """Result, reason of the end, and figures that are worse than before, as sentences."""
         return self._message(*self._summaries())
 
     def _message(self, before: Summary, after: Summary) -> str:
@@ -177,7 +177,7 @@ class Run(Iterator[Iteration]):
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
         decided = self.decisions
         if not self._kept_last and decided and decided[-1] == self._stage_run.decision:
-            decided = decided[:-1]  # it says how the last one is
+            decided = decided[:-1]  # it is about the last iteration, which is not the result
         words = [said, f"{format_iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
@@ -189,7 +189,7 @@ class Run(Iterator[Iteration]):
         return self.best is self.last
 
     def result(self) -> Result:
-        """The record of the run as far as it went."""
+        """Return the result so far."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self.mesh.with_points(self.best.points)
@@ -212,16 +212,16 @@ class Run(Iterator[Iteration]):
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
-        """Of the boundary as given to that of a mesh, where a method let it slide."""
-        angles = [
-            one.smoother.values().get("feature_angle", FEATURE_ANGLE) for one in self._stage_runs if one.smoother.slides
-        ]
-        return surface_change(self.mesh, mesh, angles[0]) if angles else None
+        """Return the change of the boundary from the mesh as given; None if no method let it slide."""
+        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides), None)
+        if sliding is None:
+            return None
+        return surface_change(self.mesh, mesh, sliding.values().get("feature_angle", FEATURE_ANGLE))
 
     def _summaries(self) -> tuple[Summary, Summary]:
-        """Of the mesh as given and of what was reached."""
+        """Return the summaries of the mesh as given and of the result."""
         mesh = self.mesh.with_points(self.best.points)
-        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
+        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.figures)
 
     @property
     def _stage_run(self) -> StageRun:
@@ -233,17 +233,17 @@ class Run(Iterator[Iteration]):
 
     def _begin_next_stage(self) -> None:
         done, last, reached = self._stage_run, self.last, self.best
-        kept = f" Kept of it is iteration {reached.number}." if reached is not last else ""
+        kept = f" Iteration {reached.number} of it was kept." if reached is not last else ""
         count = format_iterations(last.number - done.since.number)
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
         self._stage_runs.append(StageRun(self.mesh, self._remaining_stages[0], done.number + 1, reached, last))
         self._end_if_done()
 
     def _end_if_done(self) -> None:
-        """End where the stage_run at hand has ended and nothing comes after it."""
-        over = self._stage_run.outcome
-        if over is Outcome.NOTHING_FREE or (over is not None and not self._remaining_stages):
-            self.outcome = over
+        """End the run if the current stage has ended and no other one follows."""
+        outcome = self._stage_run.outcome
+        if outcome is Outcome.NOTHING_FREE or (outcome is not None and not self._remaining_stages):
+            self.outcome = outcome
 
 
 def _stages(smoother: Smoother | Recipe, stop: StoppingCriteria | None) -> Sequence[Stage]:

@@ -1,4 +1,4 @@
-"""One smoother at work: a run goes in legs, one for each stage and one more wherever the method is changed."""
+"""The run of one smoother: a run has one for each stage, and a further one after each change of the method."""
 
 from __future__ import annotations
 
@@ -18,43 +18,45 @@ from hexmend.smoothers import Smoother
 
 log = logging.getLogger(__name__)
 
-#: An objective still falls if a step lowers what it has above that of cubes by a greater share than the first, and by
-#: more than the second share of what one hex of q = 1/2 has above a cube.
-_FALLING, _WORTH = 1e-3, 1e-2
+#: An objective still falls if a step lowers its excess over that of cubes by more than this share ...
+_MIN_RELATIVE_FALL = 1e-3
+
+#: ... and by more than this share of the excess of a single hex of q = 1/2.
+_MIN_FALL = 1e-2
 
 
 class StageRun:
-    """A smoother at work from one iteration on, until a limit is reached or it has no further step.
+    """Run of one smoother from a given iteration until a limit is reached or it has no further step.
 
     Parameters
     ----------
     mesh : Mesh
-        The run's.
+        The mesh of the run.
     stage : Stage
     number : int
-        Of the stage in its recipe, from 1.
+        Number of the stage in the recipe, from 1.
     start : Iteration
-        Where the nodes are as it begins.
+        The iteration whose points it begins with.
     after : Iteration
-        The run's newest: numbers and seconds go on from it.
+        The run's newest iteration, from which numbers and seconds are counted on.
     before : StageRun, optional
-        The one whose stage it takes over: limits count and iterates are ranked from where that stage began.
+        The stage run that it replaces: limits are counted and iterations ranked from the beginning of that stage.
 
     Attributes
     ----------
     at : Iteration
-        Where the nodes are.
+        The iteration with the present points.
     last, best : Iteration
         See `Run`.
     since : Iteration
-        The run's newest as the stage began.
+        The run's newest iteration at the beginning of the stage.
     outcome : Outcome or None
-        None while it goes on.
+        None until it ends.
     setup_seconds : float
     decision : str
-        What the method decided at its newest step.
+        The method's decision at its newest step, as a sentence.
     limits : ActiveSet or None
-        What lets the method go no further, as far as it has said so.
+        The constraints that stop the method, if it reports them.
     """
 
     def __init__(
@@ -71,7 +73,7 @@ class StageRun:
         self._origin = start if before is None else before._origin
         self._best = start if before is None else before._best
         self._best_rank = self._rank(self._best)
-        self._consider(start)
+        self._update_best(start)
         began = perf_counter()
         self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
         next(self._steps)
@@ -83,7 +85,7 @@ class StageRun:
 
     @property
     def smoother(self) -> Smoother:
-        """The method at work."""
+        """The method."""
         return self.stage.smoother
 
     @property
@@ -92,12 +94,12 @@ class StageRun:
         return self.at if self.stage.stop.keep_last else self._best
 
     @property
-    def made(self) -> int:
-        """Iterations of this leg so far."""
+    def n_iterations(self) -> int:
+        """Number of iterations so far."""
         return self.last.number - self.after.number
 
     def advance(self) -> Iteration | None:
-        """Make a step; None where the method has none left."""
+        """Make a step; return the new iteration, or None if the method has no further step."""
         began = perf_counter()
         try:
             step = next(self._steps)
@@ -120,44 +122,47 @@ class StageRun:
         )
         self.decision, self.limits = step.decision, step.limits or self.limits
         if not step.infeasible:
-            self._consider(now)
-        if (
-            self._move(moves, move) < self.stage.stop.tolerance
-            and not step.intermediate
-            and not self._falling(before, now)
-        ):  # Algorithm A.1
+            self._update_best(now)
+        small = self._step_measure(moves, move) < self.stage.stop.tolerance
+        if small and not step.intermediate and not self._still_falls(before, now):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()
         return now
 
-    def _move(self, moves: np.ndarray, length: float) -> float:
-        """What A.1 compares with the tolerance."""
+    def _step_measure(self, moves: np.ndarray, length: float) -> float:
+        """Return the measure of a step that Algorithm A.1 compares with the tolerance, in mean edge lengths."""
         return length if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
 
     def limit(self, stop: StoppingCriteria) -> None:
-        """Go on under other limits."""
+        """Continue with other limits."""
         self.stage = Stage(self.smoother, stop)
         self._end_at_a_limit()
 
     def end(self, outcome: Outcome) -> None:
-        """End it here."""
+        """End the run of the stage."""
         self.outcome = outcome
         self._steps.close()
         log.info("%s ended: %s", self.smoother.name, outcome.value)
 
     def as_stage(self, cut: bool = False) -> Stage | None:
-        """The stage that does it again by itself; where it was cut off by a change, None if it had not made a step."""
-        if cut and not self.made:
+        """Return the stage that repeats this run alone.
+
+        Parameters
+        ----------
+        cut : bool
+            True if a change of the method ended it; None is returned if it had n_iterations no step until then.
+        """
+        if cut and not self.n_iterations:
             return None
         stop, before, spent = self.stage.stop, self.after.number - self.since.number, self.after.seconds
-        most = self.made if cut else max(stop.max_iterations - before, 0)
+        most = self.n_iterations if cut else max(stop.max_iterations - before, 0)
         left = max(stop.max_seconds - (spent - self.since.seconds), 1e-3) if stop.max_seconds else 0.0
-        last = cut or stop.keep_last  # what took over went on from there
+        last = cut or stop.keep_last  # its successor continued from the last iteration
         return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left, keep_last=last))
 
     def result(self) -> StageResult:
-        """Its record as far as it went."""
+        """Return the result so far."""
         return StageResult(
             stage=self.number,
             method=self.smoother.name,
@@ -165,7 +170,7 @@ class StageRun:
             stop=self.stage.stop,
             outcome=self.outcome or Outcome.STOPPED,
             first=self.start.number,
-            iterations=self.made,
+            iterations=self.n_iterations,
             seconds=self.last.seconds - self.after.seconds,
             setup_seconds=self.setup_seconds,
         )
@@ -173,22 +178,22 @@ class StageRun:
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
         return self.smoother.rank(self._origin.quality, iteration.quality)
 
-    def _consider(self, iteration: Iteration) -> None:
-        """Take it for the best of the stage if none before it was better."""
+    def _update_best(self, iteration: Iteration) -> None:
+        """Make the iteration the best of the stage unless an earlier one is better."""
         rank = self._rank(iteration)
         if rank <= self._best_rank:
             self._best, self._best_rank = iteration, rank
 
-    def _falling(self, before: Iteration, now: Iteration) -> bool:
-        """Whether an optimiser's objective still falls: beside the barrier steps are short, however much they gain."""
+    def _still_falls(self, before: Iteration, now: Iteration) -> bool:
+        """Return True if an optimiser's objective still falls: near the barrier steps are short but gain much."""
         if not self.smoother.optimises:
             return False
-        power = now.power  # the step before may have had another objective
+        power = now.power  # the previous step may have had another objective
         then, later = objective(before.quality, *power), now.objective
         if then is None or later is None:
             return False
         least = power.least * now.quality.q.size
-        return then - later > max(_FALLING * (then - least), _WORTH * (power.of(1.0) - power.least))
+        return then - later > max(_MIN_RELATIVE_FALL * (then - least), _MIN_FALL * (power.of(1.0) - power.least))
 
     def _end_at_a_limit(self) -> None:
         stop, last, since = self.stage.stop, self.last, self.since

@@ -99,7 +99,7 @@ def test_a_stage_begins_where_the_one_before_was_best(mesh, monkeypatch):
     expected = next(iterate(mesh, "local-sd")).points  # as every Laplacian step is worse by that rank
     np.testing.assert_array_equal(kept, expected)
     assert run.last.number == 4
-    assert run.decisions[0].endswith("Kept of it is iteration 0.")
+    assert run.decisions[0].endswith("Iteration 0 of it was kept.")
 
 
 def test_nothing_free_ends_all_at_once():

@@ -149,7 +149,7 @@ def test_what_is_kept_is_said_and_shown(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     assert window.session.document.now.summary.inverted == 0
     assert window.session.timeline.moment.number == 3
-    kept = "Kept is iteration 3, better than what came after."
+    kept = "Iteration 3 was kept: later ones were worse."
     assert kept in said(window)
     assert "Worse than" not in said(window)
     panel = window.features["smooth"].panel
