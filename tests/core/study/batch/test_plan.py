@@ -96,7 +96,7 @@ def test_the_boundary_applies_to_methods_without_their_own(folder):
     ('[[method]]\nmethod = "mend"\nparameters = { p = [2, 99] }', "[[method]] 1: p = 99 is out of range"),
     ('[[method]]\nmethod = "mend"\nparameters = { p = [] }', "[[method]] 1: p = [] leaves nothing to run"),
     ('[[method]]\nmethod = "mend"\nparameters = { p = [[2]] }', "[[method]] 1: p = [2] is not a number"),
-    ('[[method]]\nmethod = "mend"\nparameters = 3', "[[method]] 1: parameters = 3 is no table"),
+    ('[[method]]\nmethod = "mend"\nparameters = 3', "[[method]] 1: parameters = 3 is not a table"),
     ('[[method]]\nrecipe = "chain.toml"\nparameters = { p = 3 }', "[[method]] 1: a recipe has values of its own"),
     ('methods = ["chain.toml"]\n[stop]\nmax_iterations = -1', "max_iterations = -1 is out of range"),
     ('methods = ["mend"]\n[stop]\niterations = 3', "methods, mend: stop has no parameter 'iterations'"),
