@@ -147,7 +147,7 @@ CALLS: dict[str, Callable[[object], object]] = {
     "describe_hex": lambda v: describe_hex(MESH, v),
     "describe_node": lambda v: describe_node(MESH, v),
     "explain": lambda v: explain(MESH, SD, v),
-    "Sweep.look": lambda v: Sweep(MESH, SD).look(v),
+    "Sweep.preview": lambda v: Sweep(MESH, SD).preview(v),
 }
 
 SHAPES = st.sampled_from(

@@ -107,7 +107,7 @@ class Stepping(QObject):
 
     def _show(self) -> None:
         self._state = State.of(self._document.now.mesh.with_points(self.sweep.points))
-        if self.sweep.over:
+        if self.sweep.finished:
             self.leave()
         else:
             self._document.preview(self._state)

@@ -1,6 +1,6 @@
-"""What a method would do to one node, and why: the node at hand of a sweep, laid open.
+"""Explanation of the step that a method makes for one node.
 
-`explain` tells it for any method; a `Sweep` goes through one sweep of a local method node by node.
+`explain` explains the step of any method; a `Sweep` goes through a sweep of a local method node by node.
 """
 
 from hexmend.aliases import exports

@@ -1,4 +1,4 @@
-"""A node's step by GETMe: each of its hexes has a place for it."""
+"""The step of one node by GETMe: each of its hexes gives a target position."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 from hexmend.iteration import Step
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.explain import explained
-from hexmend.node_step.mean_step import straight_step
+from hexmend.node_step.explain import explain_free_node
+from hexmend.node_step.mean_step import step_to_target
 from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
 from hexmend.smoothers.base import Smoother
@@ -19,43 +19,43 @@ from hexmend.smoothers.getme.sequential import SequentialGETMe
 from hexmend.smoothers.getme.simultaneous import GETMe
 
 
-@explained.register
+@explain_free_node.register
 def _(smoother: GETMe, mesh: Mesh, node: int) -> NodeStep:
-    hexes, places, q = _places(smoother, mesh, node)
+    hexes, targets, q = _targets(smoother, mesh, node)
     weights = smoother.weigh(q)
     weights = weights / weights.sum()
-    pulls = tuple(Pull("hex", *row) for row in zip(hexes.tolist(), places, weights.tolist(), strict=True))
+    pulls = tuple(Pull("hex", *row) for row in zip(hexes.tolist(), targets, weights.tolist(), strict=True))
     step = _next(smoother, mesh)
     after = step.points[node].copy()
-    return straight_step(smoother, mesh, node, after, weights @ places, pulls, notes=step.diagnostics)
+    return step_to_target(smoother, mesh, node, after, weights @ targets, pulls, notes=step.diagnostics)
 
 
-@explained.register
+@explain_free_node.register
 def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
-    hexes, places, _ = _places(smoother, mesh, node)
-    pulls = tuple(Pull("hex", h, place, None) for h, place in zip(hexes.tolist(), places, strict=True))
+    hexes, targets, _ = _targets(smoother, mesh, node)
+    pulls = tuple(Pull("hex", h, target, None) for h, target in zip(hexes.tolist(), targets, strict=True))
     step = _next(smoother, mesh)
     after = step.points[node].copy()
-    return straight_step(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.STAYS, notes=step.diagnostics)
+    return step_to_target(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.UNCHANGED, notes=step.diagnostics)
 
 
-@explained.register
+@explain_free_node.register
 def _(smoother: General, mesh: Mesh, node: int) -> NodeStep:
-    return explained(GETMe(), mesh, node)
+    return explain_free_node(GETMe(), mesh, node)
 
 
 def _next(smoother: Smoother, mesh: Mesh) -> Step:
-    """The next step of all nodes."""
+    """Return the method's next step."""
     steps = smoother.steps(mesh)
     step = next(itertools.islice(steps, 1, None))
     steps.close()
     return step
 
 
-def _places(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The hexes of a node, (k,); where each of them wants it, (k, 3); their q(H), (k,)."""
+def _targets(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the hexes of a node, (k,), its target position in each, (k, 3), and their q(H), (k,)."""
     corners = mesh.topology.node_corners[node]
     hexes = np.ascontiguousarray(mesh.hexes[corners // 8])
-    places = np.empty((len(hexes), 8, 3))
-    element_steps(mesh.points, hexes, smoother.scaling, smoother.relaxation, places)
-    return corners // 8, places[np.arange(len(hexes)), corners % 8], measure(mesh.points, hexes).q
+    targets = np.empty((len(hexes), 8, 3))
+    element_steps(mesh.points, hexes, smoother.scaling, smoother.relaxation, targets)
+    return corners // 8, targets[np.arange(len(hexes)), corners % 8], measure(mesh.points, hexes).q

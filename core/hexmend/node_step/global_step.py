@@ -1,22 +1,23 @@
-"""A node's step by a global method: its part of the step that all nodes take at once, Algorithm 3.3."""
+"""The step of one node by a global method: its part of the step of all nodes, Algorithm 3.3."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.patch import Patch, reach_of
+from hexmend.node_step.patch import Patch, curve_length
 from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.optimise.descent import descend
 from hexmend.quality import measure
 from hexmend.smoothers.global_.base import GlobalDescent
 
-#: Places at which the curve is drawn: each costs the energy of the whole mesh.
-PLACES = 25
+#: Samples of the energy along the direction; each needs the energy of the whole mesh.
+_SAMPLES = 25
 
 
 class _RecordedSearch(LineSearch):
@@ -37,30 +38,38 @@ class _RecordedSearch(LineSearch):
         return super().__call__(recorded, value, slope)
 
 
-def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
-    """What the method's next step does to a node."""
+def global_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
+    """Return the part of one node in the method's next step."""
     energy = MeshEnergy(mesh, smoother.power)
     search = _RecordedSearch(smoother.line_search)
     x, before = energy.to_edge_units(mesh.points), mesh.points[node].copy()
     delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
     patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)
     known = {
-        "method": smoother.name, "node": node, "hexes": patch.hexes, "before": before, "unit": energy.unit,
-        "power": smoother.power, "delta": delta, "gradient": patch.gradient, "hessian": patch.hessian, "whole": True,
-    }  # fmt: skip
+        "method": smoother.name,
+        "node": node,
+        "hexes": patch.hexes,
+        "before": before,
+        "unit": energy.unit,
+        "power": smoother.power,
+        "delta": delta,
+        "gradient": patch.gradient,
+        "hessian": patch.hessian,
+        "is_global": True,
+    }
     taken = descend(energy, x, delta, smoother.direction(), search)
     if taken is None:
-        return NodeStep(**known, after=before, energy=np.inf, energy_after=np.inf, verdict=StepStatus.INFINITE)
+        return _without_move(known, np.inf, StepStatus.INFINITE)
     row = int(np.searchsorted(energy.nodes, node))
     if not taken.slope < 0:
-        return NodeStep(**known, after=before, energy=taken.value, energy_after=taken.value, verdict=StepStatus.FLAT)
-    curve = np.empty((PLACES, 2))
-    curve[:, 0] = np.linspace(0, reach_of(smoother.initial_step, taken.alpha), PLACES)
+        return _without_move(known, taken.value, StepStatus.STATIONARY)
+    curve = np.empty((_SAMPLES, 2))
+    curve[:, 0] = np.linspace(0, curve_length(smoother.initial_step, taken.alpha), _SAMPLES)
     curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
     return NodeStep(
         **known,
         after=energy.to_mesh_units(taken.x)[node] if taken.alpha > 0 else before,
-        verdict=StepStatus.MOVED if taken.alpha > 0 else StepStatus.NO_DESCENT,
+        status=StepStatus.MOVED if taken.alpha > 0 else StepStatus.NO_DESCENT,
         energy=taken.value,
         energy_after=search.trials[-1].energy if taken.alpha > 0 else taken.value,
         direction=taken.found.p[row] * energy.unit,
@@ -71,3 +80,7 @@ def whole_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
         curve=curve,
         notes=taken.diagnostics(delta),
     )
+
+
+def _without_move(known: dict[str, Any], energy: float, status: StepStatus) -> NodeStep:
+    return NodeStep(**known, after=known["before"], energy=energy, energy_after=energy, status=status)

@@ -1,4 +1,4 @@
-"""A node's step by Laplacian smoothing, smart or not: to the mean of its edge neighbours."""
+"""The step of one node by Laplacian or smart Laplacian smoothing: to the mean of its edge neighbours."""
 
 from __future__ import annotations
 
@@ -6,30 +6,30 @@ import numpy as np
 
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.explain import explained
-from hexmend.node_step.mean_step import straight_step
+from hexmend.node_step.explain import explain_free_node
+from hexmend.node_step.mean_step import step_to_target
 from hexmend.node_step.record import NodeStep, Pull
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
 
 
-@explained.register
+@explain_free_node.register
 def _(smoother: Laplacian, mesh: Mesh, node: int) -> NodeStep:
     target, pulls = _mean(mesh, node)
-    return straight_step(smoother, mesh, node, target, target, pulls)
+    return step_to_target(smoother, mesh, node, target, target, pulls)
 
 
-@explained.register
+@explain_free_node.register
 def _(smoother: SmartLaplacian, mesh: Mesh, node: int) -> NodeStep:
     target, pulls = _mean(mesh, node)
     ring, points, alone = mesh.topology.rings, mesh.points.copy(), np.array([node], np.int32)
     keep = smoother.guard == "quality"
     kernels.smart_sweep(points, mesh.topology.hex_mesh, ring.start, ring.items, alone, keep)
-    return straight_step(smoother, mesh, node, points[node], target, pulls)
+    return step_to_target(smoother, mesh, node, points[node], target, pulls)
 
 
 def _mean(mesh: Mesh, node: int) -> tuple[np.ndarray, tuple[Pull, ...]]:
-    """The mean of the edge neighbours, (3,), and what it is made of."""
+    """Return the mean of the edge neighbours, (3,), and the neighbours with their weights."""
     ring, points = mesh.topology.rings, mesh.points.copy()
     kernels.in_place(points, ring.start, ring.items, np.array([node], np.int32))
     neighbours = ring[node].tolist()

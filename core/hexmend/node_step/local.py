@@ -1,4 +1,4 @@
-"""A node's step by a local method: Algorithms A.2 to A.5 on its patch."""
+"""The step of one node by a local method: Algorithms A.2 to A.5 on its patch."""
 
 from __future__ import annotations
 
@@ -6,27 +6,35 @@ import numpy as np
 
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
-from hexmend.node_step.patch import Patch, reach_of
+from hexmend.node_step.patch import Patch, curve_length
 from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.smoothers.local.single_node import LocalDescent
 
-_VERDICTS = {
+_STATUS = {
     local.MOVED: StepStatus.MOVED,
     local.NO_DESCENT: StepStatus.NO_DESCENT,
-    local.FLAT: StepStatus.FLAT,
+    local.FLAT: StepStatus.STATIONARY,
     local.INFINITE: StepStatus.INFINITE,
 }
 
 
 def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int, delta: float) -> NodeStep:
-    """What `local.sweep` does to a node of the mesh at points (n, 3), with the delta of the sweep."""
+    """Return the step that `local.sweep` makes for a node.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Present positions of all nodes.
+    delta : float
+        The delta of the sweep, (3.2).
+    """
     patch, before = Patch(mesh, points, node, smoother.power, delta), points[node].copy()
-    verdict, way, slope, fallback, shift, alpha, place, trials = local.recorded_step(
+    status, way, slope, fallback, shift, alpha, place, trials = local.recorded_step(
         points, mesh.hexes, mesh.topology.node_corners[node], smoother.step_settings(delta)
     )
-    moved, searched, direction = verdict == local.MOVED, len(trials) > 0, np.array(way)
+    moved, searched, direction = status == local.MOVED, len(trials) > 0, np.array(way)
     return NodeStep(
-        smoother.name, node, patch.hexes, before, np.array(place) if moved else before, _VERDICTS[verdict], patch.unit,
+        smoother.name, node, patch.hexes, before, np.array(place) if moved else before, _STATUS[status], patch.unit,
         smoother.power, delta, patch.energy, patch.gradient, patch.hessian,
         energy_after=float(trials[-1, 1]) if moved else patch.energy,
         direction=direction * patch.unit,
@@ -35,5 +43,5 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         fallback=fallback,
         shift=shift,
         trials=tuple(Trial(*row) for row in trials.tolist()),
-        curve=patch.curve(direction, reach_of(smoother.initial_step, alpha)) if searched else np.empty((0, 2)),
+        curve=patch.curve(direction, curve_length(smoother.initial_step, alpha)) if searched else np.empty((0, 2)),
     )  # fmt: skip

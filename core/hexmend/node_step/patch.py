@@ -1,4 +1,4 @@
-"""A node's patch, ready to be asked for its energy at other places of the node."""
+"""The energy of a node's patch at other positions of the node."""
 
 from __future__ import annotations
 
@@ -8,30 +8,35 @@ from hexmend.energy import ObjectiveNorm
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 
-#: Places at which a curve is drawn, and how far it reaches: so many times the step that was accepted, or a little more
-#: than the first trial.
-PLACES, FAR, MORE = 96, 6.0, 1.05
+#: Samples of the energy along a direction.
+SAMPLES = 96
+
+#: Largest length of a curve, in accepted step lengths.
+MAX_LENGTH = 6.0
+
+#: Factor by which a curve is longer than what it shows.
+MARGIN = 1.05
 
 
 class Patch:
-    """The energy of one free node.
+    """The energy of one free node as a function of its position.
 
     Parameters
     ----------
     mesh : Mesh
     points : (n, 3) float64
-        Of all nodes.
+        Positions of all nodes.
     node : int
     power : ObjectiveNorm
     delta : float
     unit : float, optional
-        The length that is taken for 1; without it, the mean edge length of the patch.
+        Unit of length; by default the mean edge length of the patch.
 
     Attributes
     ----------
     hexes : (k,) int32
     unit : float
-        0 where the patch has no extent.
+        0 for a patch without extent.
     energy : float
     gradient, hessian : (3,), (3, 3) float64
     """
@@ -45,26 +50,26 @@ class Patch:
         self._factor, self.energy, gradient, second = local.patch_energy(
             points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.power
         )
-        self._where = points, mesh.hexes, star, self._factor
+        self._patch = points, mesh.hexes, star, self._factor
         self.unit = 1 / self._factor if self._factor else 0.0
         self.gradient = np.array(gradient)
         xx, xy, xz, yy, yz, zz = second
         self.hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
     def curve(self, direction: np.ndarray, reach: float) -> np.ndarray:
-        """The energy along a direction, in `unit`, from alpha = 0 to `reach`: alpha, energy, (PLACES, 2)."""
-        answer = np.empty((PLACES, 2))
-        answer[:, 0] = np.linspace(0, reach, PLACES)
-        local.energy_along(*self._where, direction, self.delta, self.power, answer)
+        """Return pairs of alpha and energy along a direction (3,) in `unit`, alpha from 0 to `reach`, (SAMPLES, 2)."""
+        answer = np.empty((SAMPLES, 2))
+        answer[:, 0] = np.linspace(0, reach, SAMPLES)
+        local.energy_along(*self._patch, direction, self.delta, self.power, answer)
         return answer
 
     def value(self, direction: np.ndarray, alpha: float) -> float:
-        """The energy at alpha of a direction (3,), in `unit`."""
+        """Return the energy at a step length alpha along a direction (3,) in `unit`."""
         answer = np.array([[alpha, 0.0]])
-        local.energy_along(*self._where, direction, self.delta, self.power, answer)
+        local.energy_along(*self._patch, direction, self.delta, self.power, answer)
         return float(answer[0, 1])
 
 
-def reach_of(first: float, alpha: float) -> float:
-    """How far the curve is drawn beside a line search that accepted `alpha`."""
-    return MORE * (min(first, FAR * alpha) if alpha > 0 else first)
+def curve_length(first: float, alpha: float) -> float:
+    """Return the length, as alpha, of the curve to be drawn for a line search that accepted `alpha`."""
+    return MARGIN * (min(first, MAX_LENGTH * alpha) if alpha > 0 else first)

@@ -1,4 +1,4 @@
-"""The record of one node's step."""
+"""The record of the step of one node."""
 
 from __future__ import annotations
 
@@ -14,24 +14,21 @@ from hexmend.energy import ObjectiveNorm
 
 
 class StepStatus(Enum):
-    """What became of the node, as a sentence."""
+    """Outcome of the step of a node, as a sentence."""
 
     MOVED = "Moved."
-    SHORTENED = "Moved a part of the way: the whole of it would invert a hex."
-    TAKEN_BACK = "Stays: its move would harm a hex, and is taken back."
-    NO_DESCENT = "Stays: along the search direction no step descends enough, however short."
-    FLAT = "Stays: its energy has no slope here."
-    THERE = "Stays: it is where the method wants it."
-    STAYS = "Stays: the method leaves it where it is in this iteration."
-    INFINITE = "Stays: its energy is infinite, for a hex is inverted and δ is zero."
-    FINISHED = "Stays: the method has no further step to make."
+    SHORTENED = "Moved part of the way: the full step would invert a hex."
+    REJECTED = "Not moved: the step would make a hex worse and was rejected."
+    NO_DESCENT = "Not moved: no step along the search direction lowers the energy enough."
+    STATIONARY = "Not moved: the gradient of its energy is zero."
+    AT_TARGET = "Not moved: it is at its target already."
+    UNCHANGED = "Not moved: the method does not move it in this iteration."
+    INFINITE = "Not moved: its energy is infinite, as a hex is inverted and δ is zero."
+    FINISHED = "Not moved: the method has finished."
 
 
 class Trial(NamedTuple):
-    """A trial step of the line search, A.5.
-
-    `energy` has to be less than `bound`, which is f + c1 alpha slope, for the step to be accepted.
-    """
+    """A trial step of the line search, Algorithm A.5; it is accepted if `energy` < `bound` = f + c1 alpha slope."""
 
     alpha: float
     energy: float
@@ -39,9 +36,9 @@ class Trial(NamedTuple):
 
 
 class Pull(NamedTuple):
-    """What draws the node to a place: a neighbour ("node") or a hex that it is a corner of ("hex").
+    """Contribution of an edge neighbour (`kind` "node") or of a hex ("hex") to the target of a node.
 
-    `place` (3,) is in the mesh's unit of length; `weight` is the share in the mean, None where there is no mean.
+    `place` (3,) is a position in the mesh's unit of length; `weight` is its share in the mean, None without a mean.
     """
 
     kind: str
@@ -52,55 +49,54 @@ class Pull(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class NodeStep:
-    """One node's step by a method.
+    """The step of one node by a method.
 
-    Places and vectors are in the mesh's own unit of length. Energies have none; their derivatives `gradient` and
-    `hessian`, and so the eigenvalues, are those by the node's place in lengths of `unit`.
+    Positions and vectors are in the mesh's unit of length. Energies are dimensionless; `gradient`, `hessian` and
+    `eigenvalues` are derivatives with respect to the node's position in `unit`.
 
     Parameters
     ----------
     method : str
-        Its name.
+        Name of the method.
     node : int
     hexes : (k,) int32
-        The node's patch: the hexes that it is a corner of.
+        The node's patch: hexes of which it is a corner.
     before, after : (3,) float64
-        Where the node is, and where the method puts it.
-    verdict : StepStatus
+        Position of the node before and after the step.
+    status : StepStatus
     unit : float
-        The length that the energy takes for 1: the mean edge length of the patch, or, where the energy is that of the
-        whole mesh, of the mesh.
+        Unit of length of the energy: the mean edge length of the patch, or of the mesh if `is_global`.
     power : ObjectiveNorm
         p and offset of the energy, (3.3).
     delta : float
-        Of the energy, in the cube of `unit`.
+        Regularisation of the energy, (3.2), in the cube of `unit`.
     energy : float
         Sum of eta(H)^p, with the node at `before`: over the patch, or over the whole mesh.
     gradient, hessian : (3,), (3, 3) float64
-        Of that energy by the node alone; not finite where it is infinite.
+        Derivatives of that energy by the position of the node; not finite if it is infinite.
     energy_after : float
-        The same with the node at `after`; of the whole mesh, with all nodes stepped.
-    whole : bool
-        Whether `energy`, `trials` and `curve` are those of the whole mesh, all nodes of which step at once; the node's
-        own energy is among them, and gradient and Hessian are the node's.
+        The energy after the step; after the step of all nodes if `is_global`.
+    is_global : bool
+        True if `energy`, `trials` and `curve` are those of the whole mesh, all nodes of which move at once; gradient
+        and Hessian remain those of the node.
     direction : (3,) float64
-        The search direction, or the way to where a method without one wants the node.
+        The search direction; for a method without one, the vector to its target.
     slope : float
-        Of the energy along the direction, by alpha.
+        Derivative of the energy along the direction by alpha.
     alpha : float
-        Share of the direction that is taken: 0 where the node stays.
+        Step length as a share of `direction`; 0 if the node does not move.
     fallback : bool
-        Whether Newton's direction did not descend, and was replaced by steepest descent.
+        True if Newton's direction did not descend and was replaced by steepest descent.
     shift : float
-        What A.4 added to the eigenvalues, of the node's Hessian or of the whole mesh's.
+        Shift of the eigenvalues by Algorithm A.4, of the Hessian of the node or of the mesh.
     trials : tuple of Trial
-        Of the line search, the first first; of a method that has none, empty.
+        Trials of the line search in order; empty for a method without one.
     curve : (j, 2) float64
-        alpha, ascending from 0, and the energy there.
+        alpha, ascending from 0, and the energy.
     pulls : tuple of Pull
-        Of a method that goes to a mean of places.
+        Contributions to the target, for methods that move to a mean of positions.
     notes : mapping
-        What the method tells of the whole step that this one is a part of.
+        Diagnostics of the iteration of which this step is a part.
     """
 
     method: str
@@ -108,7 +104,7 @@ class NodeStep:
     hexes: np.ndarray
     before: np.ndarray
     after: np.ndarray
-    verdict: StepStatus
+    status: StepStatus
     unit: float
     power: ObjectiveNorm
     delta: float
@@ -116,7 +112,7 @@ class NodeStep:
     gradient: np.ndarray
     hessian: np.ndarray
     energy_after: float = np.nan
-    whole: bool = False
+    is_global: bool = False
     direction: np.ndarray = field(default_factory=lambda: np.zeros(3))
     slope: float = 0.0
     alpha: float = 0.0
@@ -129,15 +125,15 @@ class NodeStep:
 
     @cached_property
     def eigenvalues(self) -> np.ndarray:
-        """Of the Hessian, ascending, (3,); not a number where the energy is infinite."""
+        """Eigenvalues of the Hessian, ascending, (3,); NaN if the energy is infinite."""
         return np.linalg.eigvalsh(self.hessian) if np.isfinite(self.hessian).all() else np.full(3, np.nan)
 
     @property
     def cuts(self) -> int:
-        """How often the line search cut the step."""
+        """Number of times that the line search shortened the step."""
         return max(0, len(self.trials) - 1)
 
     @property
     def move(self) -> float:
-        """How far the node goes, in lengths of `unit`."""
+        """Length of the node's move in `unit`."""
         return float(np.linalg.norm(self.after - self.before)) / self.unit

@@ -16,22 +16,22 @@ from hexmend.smoothers.visit_order import ORDERS
 
 
 class Sweep(Iterator[NodeStep]):
-    """Goes through the free nodes in the order in which `LocalDescent` visits them, and moves one after the other.
+    """Iterator that moves one free node after the other, in the order in which `LocalDescent` visits them.
 
     Parameters
     ----------
     mesh : Mesh
-        Stays as it is.
+        Is not changed.
     smoother : LocalDescent
 
     Attributes
     ----------
     nodes : (k,) int32
-        The free nodes in the order of the sweep, the first of a run with these places.
+        The free nodes in the order of the first sweep of a run.
     done : int
-        How many of them have been visited.
+        Number of nodes that have been visited.
     delta : float
-        That of the sweep, found at its beginning.
+        The delta of the sweep, (3.2), determined at its beginning.
 
     Examples
     --------
@@ -50,40 +50,40 @@ class Sweep(Iterator[NodeStep]):
         self._points = mesh.points.copy()
 
     def __next__(self) -> NodeStep:
-        if self.over:
+        if self.finished:
             raise StopIteration
-        step = self.look(int(self.nodes[self.done]))
+        step = self.preview(int(self.nodes[self.done]))
         self._points[step.node] = step.after
         self.done += 1
         return step
 
     @property
-    def over(self) -> bool:
-        """Whether all nodes have been visited."""
+    def finished(self) -> bool:
+        """True if all nodes have been visited."""
         return self.done == self.nodes.size
 
     @property
     def points(self) -> np.ndarray:
-        """Where the nodes are by now, (n, 3) float64; a copy."""
+        """Copy of the present positions of all nodes, (n, 3) float64."""
         return self._points.copy()
 
     @property
     def title(self) -> str:
-        """What it has changed, in short."""
+        """Short text about what was done, for lists of changes."""
         return f"sweep of {self.smoother.name}, {self.done:,} node{'s' * (self.done != 1)}"
 
-    def look(self, node: int) -> NodeStep:
-        """What the method would do to a node if its turn were now."""
+    def preview(self, node: int) -> NodeStep:
+        """Return the step that the method would make for a node at the present positions."""
         node = as_index(node, self.mesh.n_nodes, "node")
         return local_step(self.smoother, self.mesh, self._points, node, self.delta)
 
-    def place(self, node: int) -> int:
-        """Which node of the sweep a free node is, from 0."""
+    def position(self, node: int) -> int:
+        """Return the position of a free node in the order of the sweep, from 0."""
         return int(np.flatnonzero(self.nodes == node)[0])
 
     def finish(self) -> NodeStep | None:
-        """Visit all nodes that are left, at the kernel's speed; the step of the last, None where none was left."""
-        if self.over:
+        """Visit the remaining nodes by the kernel; return the step of the last, or None if none remained."""
+        if self.finished:
             return None
         last, settings = self.nodes.size - 1, self.smoother.step_settings(self.delta)
         groups = self.mesh.topology.wavefronts(self.nodes[self.done : last])

@@ -46,7 +46,7 @@ def test_the_line_search_is_algorithm_a_5(name, seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     smoother = METHODS[name](initial_step=2.0, backtrack_factor=0.5)
     step = explain(mesh, smoother, int(np.flatnonzero(mesh.free)[seed % 8]))
-    assert step.verdict is StepStatus.MOVED
+    assert step.status is StepStatus.MOVED
     np.testing.assert_array_equal([t.alpha for t in step.trials], 2.0 * 0.5 ** np.arange(len(step.trials)))
     assert [t.energy < t.bound for t in step.trials] == [False] * step.cuts + [True]
     assert step.alpha == step.trials[-1].alpha
@@ -90,7 +90,7 @@ def test_newton_solves_with_the_hessian_that_is_told_and_the_modified_one_with_i
 
 def test_a_node_that_cannot_move_says_why():
     mesh = grid(2)
-    assert explain(mesh, METHODS["local-sd"](), 13).verdict is StepStatus.FLAT
+    assert explain(mesh, METHODS["local-sd"](), 13).status is StepStatus.STATIONARY
     mesh = scrambled(grid(3), 0.9, 3)
     node = next(
         int(i)
@@ -98,11 +98,11 @@ def test_a_node_that_cannot_move_says_why():
         if measure(mesh.points, mesh.hexes[mesh.topology.node_corners[i] // 8]).n_inverted
     )
     step = explain(mesh, METHODS["local-sd"](delta=0), node)
-    assert step.verdict is StepStatus.INFINITE
+    assert step.status is StepStatus.INFINITE
     assert np.isnan(step.eigenvalues).all()
     np.testing.assert_array_equal(step.after, step.before)
     step = explain(mesh, METHODS["local-sd"](initial_step=1e3, max_backtracks=1), node)
-    assert step.verdict is StepStatus.NO_DESCENT
+    assert step.status is StepStatus.NO_DESCENT
     assert (len(step.trials), step.alpha, step.move) == (2, 0, 0)
 
 
@@ -128,10 +128,10 @@ def test_node_by_node_a_sweep_ends_where_the_kernels_does(name, shape):
     seen = []
     for number, step in enumerate(sweep, start=1):
         assert sweep.done == number
-        assert sweep.place(step.node) == number - 1
+        assert sweep.position(step.node) == number - 1
         np.testing.assert_array_equal(sweep.points[step.node], step.after)
         seen.append(step.node)
-    assert sweep.over
+    assert sweep.finished
     assert sorted(seen) == np.flatnonzero(mesh.free).tolist()
     np.testing.assert_allclose(sweep.points, expected, rtol=0, atol=1e-13)
 
@@ -145,7 +145,7 @@ def test_the_rest_of_a_sweep_can_be_left_to_the_kernel(done):
         next(sweep)
     before = sweep.points
     step = sweep.finish()
-    assert sweep.over
+    assert sweep.finished
     assert (step and step.node) == (sweep.nodes[-1] if done < 64 else None)
     np.testing.assert_allclose(sweep.points, after(mesh, smoother), rtol=0, atol=1e-13)
     np.testing.assert_array_equal(sweep.points[sweep.nodes[:done]], before[sweep.nodes[:done]])
@@ -157,7 +157,7 @@ def test_looking_at_a_node_moves_none():
     sweep = Sweep(scrambled(grid(4), 0.4), METHODS["local-sd"]())
     next(sweep)
     points = sweep.points
-    step = sweep.look(int(sweep.nodes[1]))
+    step = sweep.preview(int(sweep.nodes[1]))
     np.testing.assert_array_equal(sweep.points, points)
     np.testing.assert_array_equal(next(sweep).after, step.after)
 

@@ -52,9 +52,9 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
 def test_a_global_method_without_a_finite_energy_says_so():
     mesh = scrambled(grid(4), 0.9, 3)
     step = explain(mesh, METHODS["global-sd"](delta=0), int(np.flatnonzero(mesh.free)[0]))
-    assert step.verdict is StepStatus.INFINITE
+    assert step.status is StepStatus.INFINITE
     step = explain(grid(3), METHODS["global-nr"](), int(np.flatnonzero(grid(3).free)[0]))
-    assert step.verdict is StepStatus.FLAT
+    assert step.status is StepStatus.STATIONARY
 
 
 # The others
@@ -67,7 +67,7 @@ def test_of_any_other_method_it_is_the_next_iteration(name):
     for node in np.flatnonzero(mesh.free)[::4].tolist():
         step = explain(mesh, METHODS[name](), node)
         np.testing.assert_array_equal(step.after, points[node])
-        assert (step.verdict in (StepStatus.MOVED, StepStatus.SHORTENED)) == bool((step.after != step.before).any())
+        assert (step.status in (StepStatus.MOVED, StepStatus.SHORTENED)) == bool((step.after != step.before).any())
         assert step.delta > 0 or not measure(mesh.points, mesh.hexes[step.hexes]).n_inverted
         assert step.energy == pytest.approx(patch_energy(mesh, step, step.before), rel=1e-9)
         assert step.energy_after == pytest.approx(patch_energy(mesh, step, step.after), rel=1e-7)
@@ -80,10 +80,10 @@ def test_laplacian_goes_to_the_mean_of_what_it_names():
     mesh = scrambled(grid(4), 0.4, 1)
     for node in np.flatnonzero(mesh.free)[::5].tolist():
         step = explain(mesh, Laplacian(), node)
-        assert step.verdict is StepStatus.MOVED
+        assert step.status is StepStatus.MOVED
         assert [pull.number for pull in step.pulls] == mesh.topology.rings[node].tolist()
         np.testing.assert_allclose(step.after, sum(pull.weight * pull.place for pull in step.pulls), atol=1e-13)
-    assert explain(grid(2), Laplacian(), 13).verdict is StepStatus.THERE
+    assert explain(grid(2), Laplacian(), 13).status is StepStatus.AT_TARGET
 
 
 def test_smart_laplacian_says_which_moves_are_taken_back():
@@ -92,16 +92,16 @@ def test_smart_laplacian_says_which_moves_are_taken_back():
         mesh = make("bridge-sharp", size=500, scramble=0.35, seed=seed)
         for node in np.flatnonzero(mesh.free)[::9].tolist():
             step = explain(mesh, SmartLaplacian(guard="quality"), node)
-            seen.add(step.verdict)
+            seen.add(step.status)
             went = explain(mesh, Laplacian(), node)
             attached = np.ascontiguousarray(mesh.hexes[step.hexes])
             points = mesh.points.copy()
             points[node] = went.after
             was, now = measure(mesh.points, attached), measure(points, attached)
             harm = (now.inverted & ~was.inverted).any() or now.q.min() < was.q.min()
-            assert (step.verdict is StepStatus.TAKEN_BACK) == harm
+            assert (step.status is StepStatus.REJECTED) == harm
             np.testing.assert_array_equal(step.after, step.before if harm else went.after)
-    assert seen == {StepStatus.MOVED, StepStatus.TAKEN_BACK}
+    assert seen == {StepStatus.MOVED, StepStatus.REJECTED}
 
 
 def test_getme_goes_to_the_weighted_mean_of_its_hexes_places_or_a_part_of_the_way():
@@ -116,7 +116,7 @@ def test_getme_goes_to_the_weighted_mean_of_its_hexes_places_or_a_part_of_the_wa
             np.testing.assert_allclose(step.before + step.direction, mean, atol=1e-12)
             np.testing.assert_allclose(step.after, step.before + step.alpha * step.direction, atol=1e-12)
             shares.add(round(step.alpha, 9))
-            assert (step.verdict is StepStatus.SHORTENED) == (0 < round(step.alpha, 9) < 1)
+            assert (step.status is StepStatus.SHORTENED) == (0 < round(step.alpha, 9) < 1)
     assert shares <= {0, 0.125, 0.25, 0.5, 1}
     assert {1, 0.5} < shares
 

@@ -127,7 +127,7 @@ class FeatureNode(Feature):
         elif made is not None and made.node == node:
             self._show(made, made=True)
         elif sweep is not None and sweep.smoother == smoother:
-            self._show(sweep.look(node), made=False)
+            self._show(sweep.preview(node), made=False)
         else:
             self._ask(self._document.now.mesh, smoother, node)
 

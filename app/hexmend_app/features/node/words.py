@@ -36,8 +36,8 @@ class Row:
 
 def verdict(step: NodeStep) -> StepStatus:
     """What became of the node; a move that is nothing but rounding is none."""
-    moved = step.verdict in (StepStatus.MOVED, StepStatus.SHORTENED)
-    return StepStatus.THERE if moved and step.move < _NO_MOVE else step.verdict
+    moved = step.status in (StepStatus.MOVED, StepStatus.SHORTENED)
+    return StepStatus.AT_TARGET if moved and step.move < _NO_MOVE else step.status
 
 
 def rows(step: NodeStep) -> list[Row]:
@@ -59,7 +59,7 @@ _ROUNDING = 1e-12
 
 
 def _scale(step: NodeStep) -> str:
-    return "mesh" if step.whole else "patch"
+    return "mesh" if step.is_global else "patch"
 
 
 def _power(step: NodeStep) -> str:
@@ -69,7 +69,7 @@ def _power(step: NodeStep) -> str:
 
 def _energy(step: NodeStep) -> Row:
     before, after = _finite(step.energy), _finite(step.energy_after)
-    of = "of the whole mesh" if step.whole else f"of its {counted(step.hexes.size, 'hex')}, the patch"
+    of = "of the whole mesh" if step.is_global else f"of its {counted(step.hexes.size, 'hex')}, the patch"
     least = short_number(step.power.least)
     meaning = f"The sum of η(H){_power(step)} {of}, in mean edge lengths of it; a cube has {least}."
     rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
@@ -127,11 +127,11 @@ def _direction(step: NodeStep) -> list[Row]:
     name, meaning = _DIRECTIONS[kind]
     if step.fallback:
         name, meaning = _DIRECTIONS["sd"][0], "Newton's direction would lead uphill; steepest descent takes its place."
-    if step.whole:
+    if step.is_global:
         meaning += " The node's part of the direction of all nodes, which depend on each other."
     said = [Row("Direction", name, meaning, WORSE if step.fallback else TEXT)]
     if kind == "mnr":
-        whose = "the whole mesh's" if step.whole else "its"
+        whose = "the whole mesh's" if step.is_global else "its"
         said.append(
             Row("Shift", figure(step.shift), f"What A.4 adds to {whose} eigenvalues; 0 where all are well above 0.")
         )

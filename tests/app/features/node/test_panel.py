@@ -34,8 +34,8 @@ def test_a_move_of_a_rounding_error_is_none():
     step = step_of("local-sd")
     assert verdict(step) is StepStatus.MOVED
     nudged = dataclasses.replace(step, after=step.before + 1e-17)
-    assert verdict(nudged) is StepStatus.THERE
-    assert verdict(dataclasses.replace(nudged, verdict=StepStatus.TAKEN_BACK)) is StepStatus.TAKEN_BACK
+    assert verdict(nudged) is StepStatus.AT_TARGET
+    assert verdict(dataclasses.replace(nudged, status=StepStatus.REJECTED)) is StepStatus.REJECTED
 
 
 def test_an_eigenvalue_below_zero_is_called_a_saddle():
@@ -55,7 +55,7 @@ def test_what_is_infinite_is_said_and_not_drawn(shown):
     nothing = np.full(3, np.nan)
     step = dataclasses.replace(
         step_of("local-sd"), energy=np.inf, energy_after=np.inf, gradient=nothing, hessian=np.full((3, 3), np.nan),
-        curve=np.empty((0, 2)), trials=(), alpha=0.0, verdict=StepStatus.INFINITE,
+        curve=np.empty((0, 2)), trials=(), alpha=0.0, status=StepStatus.INFINITE,
     )  # fmt: skip
     assert row(step, "Energy").value.startswith("∞")
     assert not [one for one in rows(step) if one.name == "Eigenvalues"]

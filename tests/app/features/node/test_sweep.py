@@ -23,7 +23,7 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     start = window.session.document.now
     press(button(window, "Next node"))
     step = wait_for_step(window, qtbot, "local-sd")
-    assert step.verdict is StepStatus.MOVED
+    assert step.status is StepStatus.MOVED
     points = window.session.document.now.mesh.points
     np.testing.assert_array_equal(points[step.node], step.after)
     assert (points != start.mesh.points).any(axis=1).sum() == 1
@@ -66,7 +66,7 @@ def test_a_node_looked_at_in_a_sweep_is_explained_as_the_sweep_would_treat_it(at
     step = wait_for_step(window, qtbot, "local-sd", coming)
     assert "Will be moved" in texts(window)
     assert window.session.stepping.sweep is sweep
-    np.testing.assert_array_equal(step.after, sweep.look(coming).after)
+    np.testing.assert_array_equal(step.after, sweep.preview(coming).after)
 
 
 @pytest.mark.parametrize("what", ["run", "method", "tag", "save", "reset"])
