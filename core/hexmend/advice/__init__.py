@@ -1,4 +1,4 @@
-"""Why a run ended, what it left, and what to try next, in words for engineers.
+"""Explanation of a run that ended, with suggestions for the next one.
 
 >>> from hexmend.gallery import make
 >>> from hexmend.run import StoppingCriteria, smooth
@@ -10,7 +10,7 @@ Converged: in the last of 48 iterations no node moved further than 0.0001 mean e
 >>> print(advice.worse)
 Worse than at the start: inverted 0 → 12, q min 0.2522 → 0.1774, scaled Jacobian min 0.1625 → -0.8854.
 >>> [suggestion.title for suggestion in advice.suggestions]
-['Mend', 'Smart Laplacian from before the run']
+['Mend', 'Undo, then Smart Laplacian']
 """
 
 from hexmend.advice.advice import Advice, advise

@@ -1,4 +1,4 @@
-"""A run that ended, explained."""
+"""The explanation of a run that ended."""
 
 from __future__ import annotations
 
@@ -16,49 +16,58 @@ from hexmend.run.messages import kept_message
 
 @dataclass(frozen=True, eq=False)
 class Advice:
-    """Why a run ended and what to do.
+    """Explanation of a run that ended.
 
     Parameters
     ----------
     why : str
-        The outcome, as sentences, and which iteration is kept if not the last.
+        Reason of the end, as sentences, with the iteration that was kept if it is not the last.
     left : str
-        What the run left, as sentences.
+        State of the mesh after the run, as sentences.
     worse : str
-        In what that is worse than what the run was given, as a sentence; "" where it is not.
-    locked, loose : (k,) int64
-        Numbers, from 0, of the inverted hexes that fixed nodes hold in inversion, and of the other inverted ones.
+        Figures that are worse than before the run, as a sentence; may be empty.
+    locked, unlocked : (k,) int64
+        Numbers, from 0, of the inverted hexes that no move of free nodes can repair, and of the other inverted ones.
     surface : str
-        How far its boundary is from where it was, as a sentence; "" where no method let it slide.
+        Change of the boundary, as a sentence; empty if no method let it slide.
     limiting, held : (k,) int64
-        Hexes whose corners let the least rise no further, in one place or in several, and those with a corner that is
-        lower yet, whose nodes are all fixed.
+        Hexes whose corners prevent the least scaled Jacobian from rising further, and hexes with a lower corner whose
+        nodes are all fixed.
     suggestions : tuple of Suggestion
-        The most urgent first; empty where nothing is known to help.
-    nothing : str
-        What to say where there is no suggestion; "" where nothing can be said, as nothing was tried.
+        The most urgent first; may be empty.
+    no_suggestion : str
+        Text for the place of suggestions if there is none; empty after a run without an iteration.
     """
 
     why: str
     left: str
     worse: str
     locked: np.ndarray
-    loose: np.ndarray
+    unlocked: np.ndarray
     surface: str
     limiting: np.ndarray
     held: np.ndarray
     suggestions: tuple[Suggestion, ...]
-    nothing: str
+    no_suggestion: str
 
 
 def advise(result: Result) -> Advice:
-    """Explain a run that ended."""
+    """Explain a run that ended.
+
+    Parameters
+    ----------
+    result : Result
+
+    Returns
+    -------
+    Advice
+    """
     now = Situation(result)
-    told = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
+    suggestions = [suggestion for rule in RULES if (suggestion := rule(now)) is not None]
     if result.outcome is Outcome.NOTHING_FREE:
-        told = [one for one in told if one.unpin.size]
+        suggestions = [one for one in suggestions if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
-    nothing = "" if untried else "Nothing is known that would better this mesh."
+    no_suggestion = "" if untried else "No further suggestions."
     fallen = describe_regressions(result.before, result.after)
     limits, none = result.limits, np.empty(0, dtype=np.int64)
     return Advice(
@@ -66,12 +75,12 @@ def advise(result: Result) -> Advice:
         left=_left(now),
         worse=fallen,
         locked=now.locked,
-        loose=now.loose,
+        unlocked=now.unlocked,
         surface="" if result.surface is None else result.surface.sentence,
         limiting=none if limits is None else np.unique(limits.hexes),
         held=none if limits is None else limits.locked[~now.figures.inverted[limits.locked]],
-        suggestions=tuple(told),
-        nothing=nothing,
+        suggestions=tuple(suggestions),
+        no_suggestion=no_suggestion,
     )
 
 
@@ -92,24 +101,24 @@ def _end(now: Situation) -> str:
         return (
             f"Converged: in the last of {count} no node moved further than {stop.tolerance:g} mean edge lengths."
             if move < stop.tolerance
-            else f"Converged after {count}: what another step could gain is less than rounding."
+            else f"Converged after {count}: a further step would gain less than the rounding error."
         )
     if result.outcome is Outcome.MAX_ITERATIONS:
         return f"Stopped at the limit of {stop.max_iterations:,} iterations before it converged.{still}"
     if result.outcome is Outcome.MAX_SECONDS:
         return f"Stopped at the limit of {stop.max_seconds:g} s, after {count}, before it converged.{still}"
     if result.outcome is Outcome.STOPPED and not result.iterations:
-        return "Stopped by you before its first iteration: no node has moved. Run begins again."
+        return "Stopped by you before its first iteration: no node has moved. Press Run to start again."
     if result.outcome is Outcome.STOPPED:
         return f"Stopped by you after {count}.{still}"
     return result.outcome.value
 
 
 def _left(now: Situation) -> str:
-    """What is inverted, and by whose fault; else how good the worst hex is."""
+    """Describe the inverted hexes and why they are inverted; else the quality of the worst hex."""
     before, after = now.result.before, now.result.after
     if not after.inverted:
-        done = " It can hardly be better." if after.q_min >= 0.99 else ""
+        done = " This is close to the best possible." if after.q_min >= 0.99 else ""
         count = before.inverted
         mended = f" {count:,} {'was' if count == 1 else 'were'} inverted at the start." if count else ""
         least = f"{after.q_min:.3f}"
@@ -138,7 +147,7 @@ def _locked(now: Situation) -> str:
         if not freed:
             said += f", and sliding alone does not free {'it' if one else 'them'}."
             remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide:"
-            remedy += " it also takes nodes off the surface within its tolerance."
+            remedy += " it also moves nodes off the surface within the tolerance."
         else:
             said += ", and no method moves these unless the boundary slides: "
             rest = f", {many - freed:,} cannot" if freed < many else ""
@@ -147,6 +156,6 @@ def _locked(now: Situation) -> str:
     else:
         said += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
-    if not now.pins_of(now.locked).size:
+    if not now.pinned_nodes(now.locked).size:
         said += remedy
     return said

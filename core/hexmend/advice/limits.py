@@ -1,4 +1,4 @@
-"""Limits under which a run that is suggested goes on."""
+"""Limits of suggested runs."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.smoothers.base_optimiser import Optimiser
 
 
-def raised_limits(now: Situation) -> tuple[StoppingCriteria, str]:
-    """The limits of the run, raised where they ended it, and the sentence part that says so."""
+def larger_limits(now: Situation) -> tuple[StoppingCriteria, str]:
+    """Return the limits of the run, with the one that ended it raised, and the words for the suggestion."""
     stop = now.stop
     if now.result.outcome is Outcome.MAX_ITERATIONS:
         stop = replace(stop, max_iterations=min(max(2 * stop.max_iterations, 100), 1_000_000))
@@ -21,11 +21,11 @@ def raised_limits(now: Situation) -> tuple[StoppingCriteria, str]:
     return stop, ""
 
 
-def keeping_last(now: Situation, stop: StoppingCriteria) -> tuple[StoppingCriteria, str]:
-    """The limits with `keep_last` for a method that descends, and the sentence that says so.
+def with_last_kept(now: Situation, stop: StoppingCriteria) -> tuple[StoppingCriteria, str]:
+    """Return the limits with `keep_last` for a method that descends, and the sentence for the suggestion.
 
-    Near its optimum the least q(H) goes up and down by a little while the objective falls. Where it happens to be high
-    as a run begins, every later iteration would be taken for worse, and the mesh be left as it was.
+    Near the optimum the least q(H) varies a little while the objective falls. If it happens to be high at the beginning
+    of a run, every later iteration would count as worse, and the mesh would stay as it was.
     """
     if now.result.after.inverted or not isinstance(now.smoother, Optimiser):  # with delta more may be inverted
         return stop, ""

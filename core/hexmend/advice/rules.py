@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hexmend.advice.limits import keeping_last, raised_limits
+from hexmend.advice.limits import larger_limits, with_last_kept
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.iteration import Outcome, StoppingCriteria
@@ -18,25 +18,30 @@ from hexmend.smoothers import METHODS
 
 Mend, SequentialGETMe, SmartLaplacian = METHODS["mend"], METHODS["getme-sequential"], METHODS["smart-laplacian"]
 
-#: Least q(H) from which there is nothing left to gain, and from which the worst hexes need no care of their own.
-PERFECT, GOOD = 0.99, 0.9
-#: The highest p that is worth its price.
+#: Least q(H) above which no method can gain anything.
+PERFECT = 0.99
+
+#: Least q(H) above which the worst hexes need no special treatment.
+GOOD = 0.9
+
+#: Highest p that is suggested.
 HIGH_P = 16.0
 
 Rule = Callable[[Situation], Suggestion | None]
 
 
 def unpin(now: Situation) -> Suggestion | None:
-    """Pins that hold hexes in inversion."""
-    resisting = now.loose[: None if _is_mend(now) and not now.cut_short else 0]
-    pins = now.pins_of(np.concatenate([now.locked, resisting]))
+    """Suggest to unpin nodes that keep hexes inverted."""
+    remaining = now.unlocked[: None if _is_mend(now) and not now.cut_short else 0]
+    pins = now.pinned_nodes(np.concatenate([now.locked, remaining]))
     if not pins.size:
         return None
     one = pins.size == 1
     return Suggestion(
         "Unpin, then Mend",
-        f"Unpin {'the node' if one else f'the {pins.size:,} nodes'} of inverted hexes that only "
-        f"{'a pin holds' if one else 'pins hold'}, then run Mend: it can move {'it' if one else 'them'} then.",
+        f"Unpin {'the node' if one else f'the {pins.size:,} nodes'} of inverted hexes that "
+        f"{'is' if one else 'are'} fixed only by {'a pin' if one else 'pins'}, then run Mend, which can move "
+        f"{'it' if one else 'them'} then.",
         "inverted",
         Mend(**now.objective),
         unpin=pins,
@@ -44,74 +49,79 @@ def unpin(now: Situation) -> Suggestion | None:
 
 
 def untangle(now: Situation) -> Suggestion | None:
-    """Inverted hexes that are not locked, left by a method that does not care for them."""
-    if not now.loose.size or _is_mend(now):
+    """Suggest Mend for inverted hexes that are not locked, after another method."""
+    if not now.unlocked.size or _is_mend(now):
         return None
     return Suggestion(
         "Mend",
-        "Run Mend: it untangles whatever the fixed nodes allow, which no other method does as surely.",
+        "Run Mend: it untangles all hexes that the fixed nodes allow, more reliably than other methods.",
         "inverted",
         Mend(**now.objective),
     )
 
 
 def slide(now: Situation) -> Suggestion | None:
-    """Locked hexes that are free to be mended once the boundary slides."""
+    """Suggest a sliding boundary for locked hexes that it can free."""
     if not now.locked.size or now.result.surface is not None or now.smoother.slides or not now.freed:
         return None
     many = now.locked.size
     which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
     return Suggestion(
-        "Mend, boundary slides",
+        "Mend with sliding boundary",
         f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface; where "
-        "that is not enough, Mend takes nodes off it within surface_tolerance.",
+        "that is not enough, Mend moves nodes off it within surface_tolerance.",
         "inverted",
         Mend(**now.objective, boundary="slide"),
     )
 
 
-def undo_harm(now: Situation) -> Suggestion | None:
-    """A method that inverted hexes of a sound mesh."""
-    if now.result.before.inverted or not now.loose.size:
+def undo_inversion(now: Situation) -> Suggestion | None:
+    """Suggest a safe method after one that inverted hexes."""
+    if now.result.before.inverted or not now.unlocked.size:
         return None
     return Suggestion(
-        "Smart Laplacian from before the run",
-        "Begin again from before the run: no hex was inverted then. Smart Laplacian takes back every "
-        "move that would invert one.",
+        "Undo, then Smart Laplacian",
+        "Undo the run, before which no hex was inverted, and run Smart Laplacian: it rejects every move that would "
+        "invert a hex.",
         "inverted",
         SmartLaplacian(),
         undo=True,
     )
 
 
-def go_on(now: Situation) -> Suggestion | None:
-    """An optimiser that was cut short while it still gained."""
-    if not now.cut_short or not now.smoother.optimises or (now.loose.size and not _is_mend(now)) or not now.improving:
+def continue_run(now: Situation) -> Suggestion | None:
+    """Suggest to continue an optimiser that was ended while it still improved the mesh."""
+    if (
+        not now.cut_short
+        or not now.smoother.optimises
+        or (now.unlocked.size and not _is_mend(now))
+        or not now.improving
+    ):
         return None
-    stop, more = raised_limits(now)
-    stop, keeping = keeping_last(now, stop)
-    gain = "inverted" if now.loose.size else now.aim
+    stop, more = larger_limits(now)
+    stop, keeping = with_last_kept(now, stop)
+    gain = "inverted" if now.unlocked.size else now.aim
     gained = {
         "inverted": "fewer hexes were inverted",
         "objective": "the objective fell",
         "energy": "nodes moved down the energy",
         "q_norm": "the quality rose",
     }
-    text = f"Run the same again{more}: it goes on from here, and {gained[gain]} until its last iterations.{keeping}"
-    return Suggestion("Go on", text, gain, now.smoother, stop)
+    text = f"Run the same again{more}: it continues from here, and {gained[gain]} up to its last iterations.{keeping}"
+    return Suggestion("Continue", text, gain, now.smoother, stop)
 
 
-def begin_again(now: Situation) -> Suggestion | None:
-    """A mend that was cut short on a detour, of which nothing is kept that it could go on from."""
+def restart_longer(now: Situation) -> Suggestion | None:
+    """Suggest larger limits for Mend if it ended during a phase whose iterations are not kept."""
     limited = now.result.outcome in (Outcome.MAX_ITERATIONS, Outcome.MAX_SECONDS)
     detours = _is_mend(now) and (now.smoother.slides or now.smoother.goal != "shape")
-    if not (limited and detours) or go_on(now) is not None:
+    if not (limited and detours) or continue_run(now) is not None:
         return None
-    stop, more = raised_limits(now)
+    stop, more = larger_limits(now)
     return Suggestion(
-        "The same from before the run, longer",
-        f"Begin the same again from before the run{more}: it was cut short before it had raised the worst corners, and "
-        "what comes between is worse for a while, so that going on from here would do that once more.",
+        "Undo, then the same with larger limits",
+        f"Undo the run and start the same{more}: it ended before the worst corners had improved. In between the mesh is "
+        "worse for a while, and continuing from here would pass through that again.",
         "inverted",
         now.smoother,
         stop,
@@ -119,9 +129,9 @@ def begin_again(now: Situation) -> Suggestion | None:
     )
 
 
-def faster(now: Situation) -> Suggestion | None:
-    """An optimiser that is too slow for its limit."""
-    if not now.cut_short or not now.smoother.optimises or now.loose.size or _is_mend(now) or not now.improving:
+def suggest_newton(now: Situation) -> Suggestion | None:
+    """Suggest Mend for a slower optimiser that reached its limit."""
+    if not now.cut_short or not now.smoother.optimises or now.unlocked.size or _is_mend(now) or not now.improving:
         return None
     return Suggestion(
         "Mend",
@@ -131,14 +141,14 @@ def faster(now: Situation) -> Suggestion | None:
     )
 
 
-def tighten(now: Situation) -> Suggestion | None:
-    """An optimiser that was content early."""
+def tighten_tolerance(now: Situation) -> Suggestion | None:
+    """Suggest the usual tolerance for an optimiser that ended early under a larger one."""
     usual = StoppingCriteria().tolerance
-    if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.loose.size:
+    if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.unlocked.size:
         return None
     if now.stop.tolerance <= usual or not now.improving:
         return None
-    stop, keeping = keeping_last(now, replace(now.stop, tolerance=usual))
+    stop, keeping = with_last_kept(now, replace(now.stop, tolerance=usual))
     return Suggestion(
         "Tighter tolerance",
         f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained."
@@ -150,38 +160,38 @@ def tighten(now: Situation) -> Suggestion | None:
 
 
 def optimum(now: Situation) -> Suggestion | None:
-    """A heuristic, which knows no optimum."""
+    """Suggest an optimiser after a heuristic."""
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
     if not (heuristic or now.result.outcome is Outcome.SUFFICIENT) or not _sound_below(now, PERFECT):
         return None
     return Suggestion(
         "Mend",
-        "Run Mend: it goes on to the optimum of the objective, where the worst hexes gain most; the mean may fall a "
-        "little.",
+        "Run Mend: it moves the mesh to the optimum of the objective, where the worst hexes gain most; the mean may "
+        "fall a little.",
         "objective",
         Mend(**now.objective),
     )
 
 
-def lift_the_worst(now: Situation) -> Suggestion | None:
-    """An optimum whose worst hexes could be better."""
+def improve_worst(now: Situation) -> Suggestion | None:
+    """Suggest a method for the worst hexes of an optimised mesh."""
     if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
         return None
     return Suggestion(
         "GETMe, sequential",
-        "Run sequential GETMe: it lifts the worst hexes one by one and leaves the mean nearly as it is.",
+        "Run sequential GETMe: it improves the worst hexes one by one and hardly changes the mean.",
         "q_min",
         SequentialGETMe(),
     )
 
 
 def raise_p(now: Situation) -> Suggestion | None:
-    """An optimum for the mean, where the worst hexes matter more."""
+    """Suggest a higher p, which improves the worst hexes of an optimised mesh."""
     if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
         return None
     return Suggestion(
         f"Mend, p up to {HIGH_P:g}",
-        f"Run Mend with p raised up to {HIGH_P:g}: the worst hexes rise at the expense of the mean.",
+        f"Run Mend with p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean.",
         "q_min",
         Mend(**now.objective, max_p=HIGH_P),
         StoppingCriteria(max_iterations=max(500, now.stop.max_iterations)),
@@ -189,37 +199,48 @@ def raise_p(now: Situation) -> Suggestion | None:
 
 
 def guard(now: Situation) -> Suggestion | None:
-    """An optimum for which the least quality had to fall."""
+    """Suggest the guard if the least quality has fallen."""
     before, after = now.result.before, now.result.after
     if not _is_mend(now) or now.smoother.guard or before.inverted or after.inverted or after.q_min >= before.q_min:
         return None
     return Suggestion(
-        "Guarded Mend from before the run",
-        f"Begin again from before the run, as q min fell from {before.q_min:.3f} to {after.q_min:.3f}, with Mend's "
-        "guard: it keeps the best iterate that lowers neither q min nor the least scaled Jacobian.",
+        "Undo, then Mend with guard",
+        f"Undo the run, in which q min fell from {before.q_min:.3f} to {after.q_min:.3f}, and run Mend with guard: it "
+        "keeps the best iteration that lowers neither q min nor the least scaled Jacobian.",
         "q_min",
         replace(now.smoother, guard=True),
         undo=True,
     )
 
 
-def soften(now: Situation) -> Suggestion | None:
-    """A barrier without delta, of which inverted hexes have no gradient."""
-    if not now.loose.size or getattr(now.smoother, "delta", None) != 0 or now.smoother.delta_policy != "fixed":
+def regularise(now: Situation) -> Suggestion | None:
+    """Suggest a positive delta, without which the energy of inverted hexes has no gradient."""
+    if not now.unlocked.size or getattr(now.smoother, "delta", None) != 0 or now.smoother.delta_policy != "fixed":
         return None
     usual = type(now.smoother)().delta
     return Suggestion(
         f"δ = {usual:g}",
-        f"Run the same with δ = {usual:g}: with δ = 0 the energy of an inverted hex is infinite, and no step descends.",
+        f"Run the same with δ = {usual:g}: with δ = 0 the energy of an inverted hex is infinite.",
         "inverted",
         replace(now.smoother, delta=usual),
     )
 
 
 RULES: tuple[Rule, ...] = (
-    unpin, untangle, slide, soften, undo_harm, go_on, begin_again, faster, tighten, guard, optimum, lift_the_worst,
+    unpin,
+    untangle,
+    slide,
+    regularise,
+    undo_inversion,
+    continue_run,
+    restart_longer,
+    suggest_newton,
+    tighten_tolerance,
+    guard,
+    optimum,
+    improve_worst,
     raise_p,
-)  # fmt: skip
+)
 
 
 def _is_mend(now: Situation) -> bool:
@@ -227,8 +248,8 @@ def _is_mend(now: Situation) -> bool:
 
 
 def _sound_below(now: Situation, quality: float) -> bool:
-    """Whether no hex is inverted but what is locked, and the worst can still be made better."""
-    return not now.loose.size and not now.locked.size and now.result.after.q_min < quality and now.worst_can_move
+    """Return True if no hex is inverted and the worst one, below this quality, has a free node."""
+    return not now.unlocked.size and not now.locked.size and now.result.after.q_min < quality and now.worst_can_move
 
 
 def _at_an_optimum(now: Situation) -> bool:

@@ -1,4 +1,4 @@
-"""What a suggestion is."""
+"""A suggestion for the next run."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from hexmend.smoothers import Smoother
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """Something to try after a run.
+    """A run to try next.
 
     Parameters
     ----------
     title : str
-        A few words, as a button has them.
+        A few words, for a button.
     text : str
-        A sentence: what it does, and what it costs.
+        Effect and cost, as sentences.
     gain : {"inverted", "objective", "q_min", "q_norm", "energy"}
-        The figure of `Summary` that it betters, or at least keeps where `undo` is True; "energy" is the sum of eta(H)^p
-        for the method's own p.
+        The figure of `Summary` that improves, or at least does not fall if `undo` is True; "energy" is the sum of
+        eta(H)^p with the method's own p.
     smoother : Smoother
-        The method to run, with its values.
+        The method with its parameters.
     stop : StoppingCriteria
         Its limits.
     undo : bool
-        Whether the run is to be taken back first: the method begins from the mesh as it was.
+        True if the last run is to be undone first.
     unpin : (k,) int
         Nodes to be unpinned first.
     """

@@ -7,6 +7,7 @@ from functools import singledispatch
 from hexmend.errors import MeshError
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
+from hexmend.node_step.global_step import global_step
 from hexmend.node_step.local import local_step
 from hexmend.node_step.mean_step import step_to_target
 from hexmend.node_step.record import NodeStep, StepStatus

@@ -118,8 +118,8 @@ def test_every_kind_of_suggestion_is_made_somewhere():
     ]
     titles = {suggestion.title for result in runs for suggestion in advise(result).suggestions}
     assert titles == {
-        "Mend", "Smart Laplacian from before the run", "Go on", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
-        "Guarded Mend from before the run", "δ = 0.01", "Unpin, then Mend",
+        "Mend", "Undo, then Smart Laplacian", "Continue", "Tighter tolerance", "GETMe, sequential", "Mend, p up to 16",
+        "Undo, then Mend with guard", "δ = 0.01", "Unpin, then Mend",
     }  # fmt: skip
 
 
@@ -155,7 +155,7 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
     mesh = with_locked_corner(make("five-side", size=300))
     advice = advise(smooth(mesh, "mend"))
     assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
-    assert advice.loose.size == 0
+    assert advice.unlocked.size == 0
     assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
     assert "sliding alone does not free it. Correct the boundary" in advice.left
     assert "try mend with boundary = slide" in advice.left
@@ -172,7 +172,7 @@ def test_of_a_recipe_the_last_stage_is_explained():
 def test_a_perfect_mesh_wants_nothing():
     advice = advise(smooth(make("cube", size=64, scramble=0.3), "mend"))
     assert advice.suggestions == ()
-    assert advice.left.endswith("It can hardly be better.")
+    assert advice.left.endswith("This is close to the best possible.")
 
 
 def test_a_mesh_with_nothing_free_is_explained():
@@ -196,7 +196,7 @@ def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
     run.close()
     advice = advise(run.result())
     assert advice.why.startswith("Stopped by you after 1 iteration.")
-    assert advice.left.startswith(f"{advice.loose.size} of 500 hexes are inverted. 369 were at the start.")
+    assert advice.left.startswith(f"{advice.unlocked.size} of 500 hexes are inverted. 369 were at the start.")
     assert [one.title for one in advice.suggestions] == ["Mend"]
 
 
@@ -205,10 +205,10 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     run = iterate(make("plane", size=200), method)
     run.close()
     advice = advise(run.result())
-    assert advice.why == "Stopped by you before its first iteration: no node has moved. Run begins again."
-    assert advice.nothing == ""
+    assert advice.why == "Stopped by you before its first iteration: no node has moved. Press Run to start again."
+    assert advice.no_suggestion == ""
     finished = advise(smooth(make("cube", size=27), "mend"))
-    assert (finished.suggestions, finished.nothing) == ((), "Nothing is known that would better this mesh.")
+    assert (finished.suggestions, finished.no_suggestion) == ((), "No further suggestions.")
 
 
 @pytest.mark.slow
@@ -221,7 +221,7 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
         f"{now.freed} can be freed by sliding alone, {advice.locked.size - now.freed} cannot. Let it slide"
         in advice.left
     )
-    chosen = next(one for one in advice.suggestions if one.title == "Mend, boundary slides")
+    chosen = next(one for one in advice.suggestions if one.title == "Mend with sliding boundary")
     assert f"{now.freed} of the {advice.locked.size} locked hexes can be freed" in chosen.text
     after = smooth(result.mesh, chosen.smoother, chosen.stop)
     assert after.after.inverted < result.after.inverted
@@ -234,7 +234,7 @@ def test_a_mend_cut_short_on_a_detour_is_begun_again():
     advice = advise(result)
     assert result.kept < result.iterations
     assert "sliding has not freed these so far." in advice.left
-    longer = next(one for one in advice.suggestions if one.title == "The same from before the run, longer")
+    longer = next(one for one in advice.suggestions if one.title == "Undo, then the same with larger limits")
     assert longer.undo
     assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
     assert longer.stop == StoppingCriteria(max_iterations=100)

@@ -84,7 +84,7 @@ def test_what_to_try_next_is_printed_where_hexes_are_still_inverted(tmp_path, ca
     assert status == 4
     said = capsys.readouterr().out
     assert "12 of 864 hexes are inverted. 125 were at the start." in said
-    assert "Try next: Run Mend: it untangles whatever the fixed nodes allow" in said
+    assert "Try next: Run Mend: it untangles all hexes that the fixed nodes allow" in said
     line = next(line for line in said.splitlines() if line.startswith("      hexmend "))
     words = [str(tmp_path / "mended.vtu") if word == "OUT" else word for word in shlex.split(line)]
     assert main(words[1:]) == 0  # the command that stands below it does it

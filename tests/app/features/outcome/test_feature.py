@@ -135,7 +135,7 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian", keep_last=True)
     assert window.session.document.now.summary.inverted > 0
     assert "Worse than at the start: inverted 0 → 12" in said(window)
-    press(window, "Choose: Smart Laplacian from before the run")
+    press(window, "Choose: Undo, then Smart Laplacian")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
     assert window.session.order.method == "smart-laplacian"
     click(window, "Run")
