@@ -98,6 +98,8 @@ NAMES = {
     "hexmend.quality.worse": "hexmend.quality.regressions.regressions",
     "hexmend.quality.worse_in_words": "hexmend.quality.describe_regressions",
     "hexmend.quality.worst": "hexmend.quality.rank_worst",
+    "hexmend.report.made_folder": "hexmend.report.documents.output_folder",
+    "hexmend.report.table_of": "hexmend.report.comparison.record_table",
     "hexmend.run.Stop": "hexmend.iteration.StoppingCriteria",
 }
 

@@ -61,7 +61,7 @@ class Figures:
         from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.output.progress import Progress
         from hexmend.cli.process.interrupts import FinishesWriting
-        from hexmend.report import made_folder
+        from hexmend.report import output_folder
         from hexmend_app.report.captions import write_captions
         from hexmend_app.report.case import command_line, run_methods, source_of
         from hexmend_app.report.figure_set import PARTS, check_pages, write_figures
@@ -72,7 +72,7 @@ class Figures:
         check_pages(style, 1 + len(smoothers), args.only)
         mesh, source = source_of(args.mesh)
         check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
-        folder = made_folder(args.output)
+        folder = output_folder(args.output)
         with FinishesWriting():
             with Progress() as progress:
                 case = run_methods(mesh, source, smoothers, stop, names, progress.show)
@@ -115,7 +115,7 @@ def _thesis(args: argparse.Namespace) -> int:
     from hexmend.cli.output.progress import Progress
     from hexmend.cli.process.interrupts import FinishesWriting
     from hexmend.errors import HexmendError
-    from hexmend.report import made_folder
+    from hexmend.report import output_folder
     from hexmend.report.thesis import write_plots
     from hexmend.study.thesis.experiments import load
     from hexmend.study.thesis.mesh_figures import draw_figures
@@ -133,7 +133,7 @@ def _thesis(args: argparse.Namespace) -> int:
     thesis = select_tables(load(), [_THESIS[args.mesh]])
     if "max_seconds" in given_limits(args):
         thesis = thesis.with_max_seconds(given_limits(args)["max_seconds"])
-    folder = made_folder(args.output)
+    folder = output_folder(args.output)
     with FinishesWriting():
         with Progress() as progress:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show)

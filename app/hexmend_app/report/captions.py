@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hexmend.report import write_text
-from hexmend.report.markdown import escaped
+from hexmend.report.markdown import escape
 from hexmend.terminal_text import printable
 from hexmend_app.report.figure_set import Figure
 
@@ -27,12 +27,12 @@ def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str
     title : str
     figures : sequence of (Figure, command)
     """
-    texts, lines = [f"# {escaped(title)}"], ["#!/bin/sh", _HEAD]
+    texts, lines = [f"# {escape(title)}"], ["#!/bin/sh", _HEAD]
     done: set[str] = set()
     for figure, command in figures:
         names = ", ".join(f"[{path.name}]({path.name})" for path in figure.paths)
-        shown = [f"![{escaped(figure.part)}]({path.name})\n" for path in figure.paths if path.suffix in _SEEN][:1]
-        texts += ["\n".join([f"## {figure.part}\n", *shown, f"{escaped(figure.caption)} ({names})"])]
+        shown = [f"![{escape(figure.part)}]({path.name})\n" for path in figure.paths if path.suffix in _SEEN][:1]
+        texts += ["\n".join([f"## {figure.part}\n", *shown, f"{escape(figure.caption)} ({names})"])]
         lines.append(f"\n# {printable(figure.part)}: {printable(figure.caption)}")
         if command not in done:
             lines.append(command)

@@ -120,8 +120,8 @@ def restart_longer(now: Situation) -> Suggestion | None:
     stop, more = larger_limits(now)
     return Suggestion(
         "Undo, then the same with larger limits",
-        f"Undo the run and start the same{more}: it ended before the worst corners had improved. In between the mesh is "
-        "worse for a while, and continuing from here would pass through that again.",
+        f"Undo the run and start the same{more}: it ended before the worst corners had improved. In between the mesh "
+        "is worse for a while, and continuing from here would pass through that again.",
         "inverted",
         now.smoother,
         stop,

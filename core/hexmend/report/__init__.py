@@ -6,20 +6,21 @@ Names are imported when they are first used: a command that writes a record does
 import importlib as _importlib
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from hexmend.report.latex import latex  # their modules have their names
+from hexmend.aliases import exports as _exports
+from hexmend.report.latex import latex  # functions named like their modules, which would hide them if imported later
 from hexmend.report.markdown import markdown
 
 if _TYPE_CHECKING:
-    from hexmend.report.comparison import comparison_rows, comparison_table, table_of, write_comparison
-    from hexmend.report.documents import made_folder, write_csv, write_documents, write_text
+    from hexmend.report.comparison import comparison_rows, comparison_table, record_table, write_comparison
+    from hexmend.report.documents import output_folder, write_csv, write_documents, write_text
     from hexmend.report.outlook import write_outlook
     from hexmend.report.records import record, to_json, write_history, write_json
     from hexmend.report.tables import Table
     from hexmend.report.thesis import write_experiment, write_study
 
 _HOMES = {
-    "comparison": ("comparison_rows", "comparison_table", "table_of", "write_comparison"),
-    "documents": ("made_folder", "write_csv", "write_documents", "write_text"),
+    "comparison": ("comparison_rows", "comparison_table", "record_table", "write_comparison"),
+    "documents": ("output_folder", "write_csv", "write_documents", "write_text"),
     "outlook": ("write_outlook",),
     "records": ("record", "to_json", "write_history", "write_json"),
     "tables": ("Table",),
@@ -32,10 +33,10 @@ __all__ = [
     "comparison_rows",
     "comparison_table",
     "latex",
-    "made_folder",
     "markdown",
+    "output_folder",
     "record",
-    "table_of",
+    "record_table",
     "to_json",
     "write_comparison",
     "write_csv",
@@ -52,4 +53,4 @@ __all__ = [
 def __getattr__(name: str) -> object:
     if name in _HOME_OF:
         return getattr(_importlib.import_module(f"{__name__}.{_HOME_OF[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _exports(__name__)(name)

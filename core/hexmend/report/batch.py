@@ -13,7 +13,7 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.quantity import format_count, format_quality, format_significant
 from hexmend.report.documents import write_csv, write_text
 from hexmend.report.latex import latex
-from hexmend.report.markdown import escaped, markdown
+from hexmend.report.markdown import escape, markdown
 from hexmend.report.tables import Table
 
 #: The rest of the failures is in the CSV.
@@ -22,7 +22,7 @@ _FAILURES = 200
 Rows = Sequence[Mapping[str, Any]]
 
 
-def write_many(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any]) -> list[Path]:
+def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any]) -> list[Path]:
     """Write `study.csv`, all rows; `study.md` and `study.tex`, what each method came to, and each mesh.
 
     Parameters
@@ -37,7 +37,7 @@ def write_many(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any
     tables = [cases_table(study), meshes_table(rows)]
     paths = [folder / f"study{suffix}" for suffix in (".csv", ".md", ".tex")]
     write_csv(paths[0], rows)
-    said = [f"# {escaped(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
+    said = [f"# {escape(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
     if study["interrupted"]:
         said.append("The study was interrupted: the same command goes on with it.")
     failures = failures_table(rows)
@@ -166,4 +166,4 @@ def _line(rows: Rows) -> list[str]:
 
 
 def _words(machine: Mapping[str, Any]) -> str:
-    return f"Asked for on: {'; '.join(f'{key} {escaped(str(value))}' for key, value in machine.items())}."
+    return f"Asked for on: {'; '.join(f'{key} {escape(str(value))}' for key, value in machine.items())}."

@@ -105,7 +105,9 @@ def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
     return f"objective {formula}" if figure.key == "objective" and formula else figure.label
 
 
-def table_of(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None) -> Table:
+def record_table(
+    comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None
+) -> Table:
     """The table of `hexmend.study.compare.Comparison.record`.
 
     Parameters
@@ -149,7 +151,7 @@ def write_comparison(
 ) -> None:
     """Write the record of a comparison as CSV, Markdown, LaTeX or JSON, by the path's suffix.
 
-    In CSV, Markdown and LaTeX `names` and `title` are what `table_of` takes; JSON keeps the record's own.
+    In CSV, Markdown and LaTeX `names` and `title` are what `record_table` takes; JSON keeps the record's own.
 
     Raises
     ------
@@ -158,7 +160,7 @@ def write_comparison(
     ParameterError
         Where two methods are called the same.
     """
-    write_document(path, table_of(comparison, names, title), comparison_rows(comparison, names), comparison)
+    write_document(path, record_table(comparison, names, title), comparison_rows(comparison, names), comparison)
 
 
 def _called(own: str, names: Mapping[str, str] | None) -> str:

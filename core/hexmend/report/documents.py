@@ -20,7 +20,7 @@ from hexmend.report.tables import Table
 SUFFIXES = (".csv", ".md", ".tex", ".json")
 
 
-def made_folder(path: str | Path) -> Path:
+def output_folder(path: str | Path) -> Path:
     """The folder, made where it is missing, with those above it.
 
     Raises

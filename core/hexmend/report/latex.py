@@ -43,9 +43,9 @@ def latex(table: Table) -> str:
     \\caption{Cube}
     \\end{table}
     """
-    head, *rows = (" & ".join(escaped(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
+    head, *rows = (" & ".join(escape(cell) for cell in line) + r" \\" for line in [table.head, *table.rows])
     title = f"{table.title}." if table.title and table.notes else table.title
-    caption = " ".join(escaped(sentence) for sentence in (title, *table.notes) if sentence)
+    caption = " ".join(escape(sentence) for sentence in (title, *table.notes) if sentence)
     lines = [
         r"\begin{table}[htbp]",
         r"\centering\footnotesize\setlength{\tabcolsep}{3pt}",
@@ -60,10 +60,10 @@ def latex(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
-def escaped(text: str) -> str:
+def escape(text: str) -> str:
     """Text in which LaTeX finds no command.
 
-    >>> escaped("50 % of mesh_1 & more")
+    >>> escape("50 % of mesh_1 & more")
     '50 \\\\% of mesh\\\\_1 \\\\& more'
     """
     return "".join(_ESCAPES.get(letter, letter) for letter in text)

@@ -18,13 +18,13 @@ def markdown(table: Table) -> str:
     | q min | 1.0000 |
     """
     lines = [table.head, *table.rows]
-    drawn = ["| " + " | ".join(escaped(cell) for cell in line) + " |" for line in lines]
+    drawn = ["| " + " | ".join(escape(cell) for cell in line) + " |" for line in lines]
     drawn.insert(1, "|:---" + "|---:" * (len(table.head) - 1) + "|")
-    notes = "".join(f"\n{escaped(note)}\n" for note in table.notes)
-    title = f"**{escaped(table.title)}**\n\n" if table.title else ""
+    notes = "".join(f"\n{escape(note)}\n" for note in table.notes)
+    title = f"**{escape(table.title)}**\n\n" if table.title else ""
     return title + "\n".join(drawn) + "\n" + notes
 
 
-def escaped(text: str) -> str:
+def escape(text: str) -> str:
     """Text in which nothing is markup: file names and messages may hold anything."""
     return re.sub(r"([\\`*_{}\[\]<>#|])", r"\\\1", " ".join(text.split()))

@@ -12,7 +12,7 @@ from hexmend.report import plots
 from hexmend.report.comparison import comparison_table
 from hexmend.report.differences import differences_table, same_counts
 from hexmend.report.documents import write_documents, write_text
-from hexmend.report.markdown import escaped, markdown
+from hexmend.report.markdown import escape, markdown
 from hexmend.report.outlook import outlook_stem, outlook_table
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
@@ -100,7 +100,7 @@ def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str
     parts += ["## Beside the thesis, cell by cell", markdown(differences)] if differences else []
     missing = study.get("missing", "")
     if figures or missing:
-        parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escaped(missing)] if missing else [])
+        parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escape(missing)] if missing else [])
     for head, tables in (
         ("## Tables", [(stem(one), experiment_table(one)) for one in study["experiments"]]),
         ("## What section 5.2 hopes for", [(outlook_stem(one), outlook_table(one)) for one in study["outlooks"]]),
@@ -128,19 +128,19 @@ def _preface(study: Mapping[str, Any]) -> str:
         sentences.append("**The study was interrupted: what is below is what was measured until then.**")
     machine = study.get("machine", {})
     measured_on = "; ".join(f"{key} {value}" for key, value in machine.items())
-    return " ".join(sentences) + (f"\n\nMeasured on: {escaped(measured_on)}." if machine else "")
+    return " ".join(sentences) + (f"\n\nMeasured on: {escape(measured_on)}." if machine else "")
 
 
 def _claims(claims: Sequence[Mapping[str, Any]]) -> str:
     return "\n".join(
-        f"- {escaped(one['claim'])} ({one['section']}) **{VERDICTS[one['reproduced']]}** {escaped(one['figures'])}"
+        f"- {escape(one['claim'])} ({one['section']}) **{VERDICTS[one['reproduced']]}** {escape(one['figures'])}"
         for one in claims
     )
 
 
 def _figure(figure: Mapping[str, str]) -> str:
     title = f"Figure {figure['number']}"
-    return f"![{title}]({figure['file']})\n\n**{title}**, {escaped(figure['caption'])}."
+    return f"![{title}]({figure['file']})\n\n**{title}**, {escape(figure['caption'])}."
 
 
 def _number(figure: Mapping[str, str]) -> list[int]:

@@ -11,7 +11,16 @@ from hypothesis import strategies as st
 
 from hexmend.errors import FileError
 from hexmend.quantity import format_significant
-from hexmend.report import Table, comparison_table, latex, made_folder, markdown, table_of, write_csv, write_documents
+from hexmend.report import (
+    Table,
+    comparison_table,
+    latex,
+    markdown,
+    output_folder,
+    record_table,
+    write_csv,
+    write_documents,
+)
 from hexmend.report.comparison import LINES
 from hexmend.report.documents import write_document
 
@@ -105,7 +114,7 @@ def test_a_run_that_did_not_converge_is_said_below_the_table(outcome, note):
 def test_a_failure_and_locked_hexes_are_said():
     initial = {"hexes": 8, "free_nodes": 1, "locked_inverted": 3, "inverted": 4}
     failed = record("failed") | {"message": "Failed: singular"}
-    table = table_of({"mesh": "m", "initial": initial, "interrupted": True, "rows": [failed]})
+    table = record_table({"mesh": "m", "initial": initial, "interrupted": True, "rows": [failed]})
     said = " ".join(table.notes)
     for word in ("local-sd: Failed: singular", "3 of the inverted hexes are locked", "interrupted"):
         assert word in said
@@ -152,4 +161,4 @@ def test_a_folder_that_cannot_be_is_said(tmp_path):
     (tmp_path / "file").write_text("")
     for path in (tmp_path / "file", tmp_path / "file" / "below"):
         with pytest.raises(FileError, match="Name another folder"):
-            made_folder(path)
+            output_folder(path)

@@ -10,7 +10,7 @@ from hexmend.gallery import make
 from hexmend.iteration import Outcome, StoppingCriteria
 from hexmend.iteration.figures import objective_changes
 from hexmend.quality import measure, objective
-from hexmend.report import comparison_rows, table_of
+from hexmend.report import comparison_rows, record_table
 from hexmend.report.run_figures import write_convergence
 from hexmend.run import iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -105,9 +105,9 @@ def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     for row, one in zip(comparison_rows(record), meshes, strict=True):
         assert row["objective"] == objective(measure(one.points, one.hexes), *power)
         assert row["objective_formula"] == "Σ η², offset 0"
-    table = table_of(record)
+    table = record_table(record)
     assert "objective Σ η², offset 0" in [line[0] for line in table.rows]
-    heuristics = table_of(compare(mesh, ["laplacian"], StoppingCriteria(max_iterations=2)).record())
+    heuristics = record_table(compare(mesh, ["laplacian"], StoppingCriteria(max_iterations=2)).record())
     assert "objective Σ η²" in [line[0] for line in heuristics.rows]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from hexmend.energy.norm import ObjectiveNorm
 from hexmend.quality import objective
-from hexmend.report import markdown, table_of, write_comparison
+from hexmend.report import markdown, record_table, write_comparison
 from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
 from hexmend.run.recipe import Stage
@@ -181,9 +181,9 @@ class FeatureCompare(Feature):
         proposed = f"{self.host.stem}-comparison.csv"
 
         def text(style: ChartStyle) -> str:
-            return markdown(table_of(record, style.names, style.title))
+            return markdown(record_table(record, style.names, style.title))
 
-        title = table_of(record).title
+        title = record_table(record).title
         return TableDialog(text, "the table", proposed, _KINDS, self._style, title, names, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure, summarise
-from hexmend.report import made_folder
+from hexmend.report import output_folder
 from hexmend.report.charts import check_matplotlib
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
@@ -70,7 +70,7 @@ def write_set(
 def prepare(folder: Path, scene: Scene, recipes: Mapping[str, Recipe]) -> None:
     """Make the folder, with what the commands of the set read; raises as `write_set`."""
     check_matplotlib()
-    made_folder(folder)
+    output_folder(folder)
     write_scene(folder / "scene.toml", scene)
     for name, recipe in recipes.items():
         write_recipe(folder / name, recipe)

@@ -15,7 +15,7 @@ from hexmend.io.archive.folder import ArchiveFolder
 from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.storage import temporary_files
 from hexmend.io.storage.atomic import atomic_write
-from hexmend.report import made_folder
+from hexmend.report import output_folder
 
 #: Begins to write a file, says so, and waits.
 WRITER = """
@@ -92,8 +92,8 @@ def test_only_new_arrays_of_a_folder_are_flushed_before_its_description_names_th
 
 @needs_proc
 def test_new_folders_are_flushed_into_those_above_them(tmp_path, recorded):
-    made_folder(tmp_path / "a" / "b")
-    made_folder(tmp_path / "a" / "b")
+    output_folder(tmp_path / "a" / "b")
+    output_folder(tmp_path / "a" / "b")
     assert recorded == [("fsync", "a"), ("fsync", tmp_path.name)]
 
 

@@ -13,7 +13,7 @@ from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishesWriting
 from hexmend.io import read, write, writer_for
-from hexmend.report import comparison_rows, made_folder, table_of, write_documents
+from hexmend.report import comparison_rows, output_folder, record_table, write_documents
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend.study.method_spec import parse_methods, split_names
@@ -26,7 +26,7 @@ def run(args: argparse.Namespace) -> int:
     smoothers, limits = parse_methods(names, settings, given_limits(args)), stopping_criteria(args)
     mesh = read(args.mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
-    folder = made_folder(args.output)
+    folder = output_folder(args.output)
     suffix = Path(args.mesh).suffix
     if args.write_meshes:
         writer_for(folder / f"mesh{suffix}")  # raises now, and not after the runs, for a format that is only read
@@ -34,7 +34,7 @@ def run(args: argparse.Namespace) -> int:
         with Progress() as progress:
             comparison = compare(mesh, smoothers, limits, watch=progress.show)
         record = comparison.record()
-        table = table_of(record)
+        table = record_table(record)
         paths = write_documents(folder, "comparison", table, comparison_rows(record), record)
         for row in comparison.rows if args.write_meshes else ():
             if row.mesh is not None:

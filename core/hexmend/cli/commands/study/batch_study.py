@@ -11,8 +11,8 @@ from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.output.study_progress import TaskProgress
 from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
 from hexmend.errors import HexmendError, ParameterError
-from hexmend.report import made_folder
-from hexmend.report.batch import cases_table, failures, write_many, write_parquet
+from hexmend.report import output_folder
+from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
 from hexmend.study.batch.cluster import Cluster
 from hexmend.study.batch.local import Local
 from hexmend.study.batch.plan import read_plan
@@ -32,9 +32,9 @@ def run(args: argparse.Namespace) -> int:
     if not args.meshes:
         raise ParameterError(f"{args.study}: no mesh is named for this study: add MESH...")
     workers = _workers(args)
-    folder = made_folder(args.output or Path(args.study).stem)
-    store = Store(made_folder(folder / "tasks"))
-    meshes_to = made_folder(folder / "meshes") if args.write_meshes else None
+    folder = output_folder(args.output or Path(args.study).stem)
+    store = Store(output_folder(folder / "tasks"))
+    meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
     with FinishesWriting():
         with EndsCleanly() as signals, TaskProgress() as progress:
             study = run_study(
@@ -68,7 +68,7 @@ def _workers(args: argparse.Namespace) -> Workers:
 def _write_report(folder: Path, study: StudyResult) -> None:
     """Write the tables, and print the one of the cases and the failures."""
     record = study.record()
-    paths = write_many(folder, record, machine())
+    paths = write_batch_study(folder, record, machine())
     try:
         write_parquet(folder / "study.parquet", record["rows"], {column.name: column.type for column in COLUMNS})
         paths.append(folder / "study.parquet")

@@ -11,7 +11,7 @@ from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishesWriting
 from hexmend.parameters import from_strings
-from hexmend.report import made_folder, write_experiment, write_outlook, write_study
+from hexmend.report import output_folder, write_experiment, write_outlook, write_study
 from hexmend.report.thesis import VERDICTS
 from hexmend.run import StoppingCriteria
 from hexmend.study.bench.sections import machine
@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
         thesis = thesis.with_max_seconds(limit.max_seconds)
     for methods, hexes in planned_runs(thesis, args.quick):
         check_memory(args, methods, hexes, "run fewer tables (--only)", "run the small meshes (--quick)")
-    folder = made_folder(args.output)
+    folder = output_folder(args.output)
     with FinishesWriting():
         with Progress() as progress:
             study = run_experiments(
