@@ -1,7 +1,7 @@
-"""What a mesh or the result of a run looks like in a notebook.
+"""Meshes and results of runs in notebooks.
 
-The core draws no meshes. Who does joins through the entry-point group `hexmend.pictures`: `still` is a function like
-`Still`, and `view` one like `View`.
+The core draws no meshes. Distributions that do provide functions in the entry-point group `hexmend.pictures`: `still`
+is a `Still`, `view` a `View`.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from hexmend.notebook.html_tables import of_mesh, of_result
 
 __all__ = ["Still", "View", "html", "view"]
 
-#: Draws a mesh in so many pixels (width, height), as the bytes of a PNG; raises `HexmendError` where it cannot.
+#: Draws a mesh with (width, height) pixels as the bytes of a PNG; raises `HexmendError` if it cannot.
 Still = Callable[[Mesh, tuple[int, int]], bytes]
-#: Shows a mesh to be turned and zoomed, coloured by a metric: what a notebook displays.
+#: Shows a mesh that can be turned and zoomed, coloured by a metric; returns an object that a notebook displays.
 View = Callable[..., Any]
 
-#: Of the picture, in pixels: twice as many as it takes up, for sharp screens.
+#: Size of the picture in pixels: twice that on the page, for screens of high resolution.
 _SIZE = (960, 640)
 
 
 def html(value: object) -> str:
-    """A mesh or a result as HTML: a picture where one can be drawn, a table, and what became of a run.
+    """Return a mesh or a result as HTML: a picture if one can be drawn, a table, and the message of a run.
 
     Raises
     ------
@@ -43,43 +43,43 @@ def html(value: object) -> str:
         return of_result(value, *_still(value.mesh))
     if isinstance(value, Mesh):
         return of_mesh(value, *_still(value))
-    raise TypeError(f"{type(value).__name__} has no look of its own: expected a Mesh or a Result")
+    raise TypeError(f"{type(value).__name__} cannot be shown: expected a Mesh or a Result")
 
 
-def view(mesh: Mesh, metric: str = "q", **how: Any) -> Any:
-    """Show a mesh in a notebook to be turned and zoomed.
+def view(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
+    """Show a mesh that can be turned and zoomed in a notebook.
 
     Parameters
     ----------
     mesh : Mesh
     metric : str
-        The one that colours it: a name of `hexmend.METRICS`.
-    **how
-        For PyVista's `Plotter.show`, such as `jupyter_backend="trame"`, which draws where the notebook runs.
+        Name in `hexmend.METRICS` of the metric that colours it.
+    **options
+        Options of PyVista's `Plotter.show`, such as `jupyter_backend="trame"`, which draws where the notebook runs.
 
     Raises
     ------
     HexmendError
-        Where what draws it is not installed.
+        If the viewer is not installed.
     """
-    return _joined("view")(mesh, metric, **how)
+    return _provided("view")(mesh, metric, **options)
 
 
 def _still(mesh: Mesh) -> tuple[bytes | None, str]:
-    """A picture, or why there is none."""
+    """Return a picture, or the reason why there is none."""
     try:
-        return _joined("still")(mesh, _SIZE), ""
+        return _provided("still")(mesh, _SIZE), ""
     except HexmendError as error:
         return None, f"No picture: {error}"
 
 
-def _joined(name: str) -> Callable[..., Any]:
+def _provided(name: str) -> Callable[..., Any]:
     from importlib.metadata import entry_points
 
     why = "the viewer, which draws meshes, is not installed"
     for entry in entry_points(group="hexmend.pictures", name=name):
         try:
             return entry.load()
-        except ImportError as error:  # what it draws with is an extra
+        except ImportError as error:  # the libraries that it draws with are an extra
             why = f"{why} ({error})"
     raise HexmendError(f'{why}: pip install "hexmend[app,notebook]"')

@@ -1,4 +1,4 @@
-"""HTML of meshes and results: tables, pictures in the page itself, and lines of convergence.
+"""HTML of meshes and results: tables, embedded pictures, and small curves of convergence.
 
 Jinja2 is not used: it would be a dependency of the core, and 0.02 s, for two short tables.
 """
@@ -20,15 +20,15 @@ from hexmend.quantity import Quantity
 _ROW = "display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start"
 _IMAGE = "width: 480px; max-width: 100%; border-radius: 4px"
 _WORSE = "text-align: right; color: #b3261e; font-weight: 600"
-_LEFT, _SAID = "text-align: left", "max-width: 60em; margin: 0.3em 0"
+_LEFT, _MESSAGE = "text-align: left", "max-width: 60em; margin: 0.3em 0"
 _QUIET = "opacity: 0.7; font-size: 90%"
 
-#: Figures of a run that are drawn over its iterations.
+#: Figures with a small curve over the iterations.
 _LINES = ("q_min", "q_mean", "inverted", "objective")
 
 
 def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
-    """A mesh with its figures.
+    """Return the HTML of a mesh with its figures.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
     picture : bytes, optional
         A PNG.
     problem : str
-        Why there is no picture.
+        Reason why there is no picture.
     """
     summary = summarise(mesh)
     rows = [
@@ -46,7 +46,7 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
 
 
 def of_result(result: Result, picture: bytes | None = None, problem: str = "") -> str:
-    """A run with the figures before and after, what is worse in red, and how they came about."""
+    """Return the HTML of a run: figures before and after, worse ones in red, with their curves."""
     head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
     rows = [
         f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
@@ -54,20 +54,20 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
         for one in SUMMARY_QUANTITIES.values()
     ]
     table = f"<table>{head}{''.join(rows)}{_own_objective(result)}</table>"
-    return _page(_title(result.mesh), picture, problem, table, f'<p style="{_SAID}">{escape(result.message)}</p>')
+    return _page(_title(result.mesh), picture, problem, table, f'<p style="{_MESSAGE}">{escape(result.message)}</p>')
 
 
 def _title(mesh: Mesh) -> str:
     return escape(mesh.name or "A mesh without a name")
 
 
-def _page(title: str, picture: bytes | None, problem: str, inside: str, said: str = "") -> str:
+def _page(title: str, picture: bytes | None, problem: str, content: str, message: str = "") -> str:
     image = ""
     if picture is not None:
         data = b64encode(picture).decode("ascii")
         image = f'<img alt="{title}, coloured by q(H)" style="{_IMAGE}" src="data:image/png;base64,{data}"/>'
     note = f'<p style="{_QUIET}">{escape(problem)}</p>' if problem else ""
-    return f'<div><strong>{title}</strong>{said}<div style="{_ROW}">{image}<div>{inside}</div></div>{note}</div>'
+    return f'<div><strong>{title}</strong>{message}<div style="{_ROW}">{image}<div>{content}</div></div>{note}</div>'
 
 
 def _head(figure: Quantity) -> str:
@@ -81,9 +81,9 @@ def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
 
 
 def _own_objective(result: Result) -> str:
-    """A row of the objective that the method minimises, where it is not that of the summaries: as the history has it.
+    """Return a row of the method's objective, from the history, if it is not that of the summaries.
 
-    Each value is followed by its formula where it is another before and after.
+    Formulas follow the values if they differ before and after.
     """
     before, after = result.history[0], result.history[result.kept]
     if _has_one_objective(result):
@@ -101,7 +101,7 @@ def _own_objective(result: Result) -> str:
 
 
 def _has_one_objective(result: Result) -> bool:
-    """Whether all iterations recorded the objective that summaries have."""
+    """Return True if all iterations have the objective of the summaries."""
     return all(row["objective_formula"] == SQUARES.formula for row in result.history)
 
 

@@ -1,4 +1,4 @@
-"""A line of a word's size that shows how a figure went."""
+"""Sparkline: a curve of the size of a word."""
 
 from __future__ import annotations
 
@@ -8,29 +8,29 @@ from collections.abc import Sequence
 from html import escape
 
 _WIDTH, _HEIGHT, _EDGE = 120, 24, 3
-#: Places of a line: more cannot be told apart.
-_MOST = 2 * _WIDTH
+#: Points of a curve; more could not be distinguished.
+_MAX_POINTS = 2 * _WIDTH
 
 
 def sparkline(
     values: Sequence[float | int | None], title: str, marked: int | None = None, breaks: Sequence[int] = ()
 ) -> str:
-    """An SVG of values from left to right, with a dot at one of them; what is None or not finite leaves a gap.
+    """Return an SVG curve of values with a dot at one of them; None and infinite values are gaps.
 
     Parameters
     ----------
     values : sequence of float or None
     title : str
-        For who points at it, and for who cannot see it.
+        Tooltip, and text for screen readers.
     marked : int, optional
-        The place in `values` that has the dot.
+        Index of the value with the dot.
     breaks : sequence of int
-        Places in `values` at which the line is interrupted, ascending: from there on it is another figure.
+        Ascending indices at which a new curve begins.
 
     Returns
     -------
     str
-        "" where there are less than two values.
+        Empty for fewer than two finite values.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def sparkline(
 
     lines: list[list[str]] = [[]]
     passed = 0
-    for at in sorted({*range(0, len(values), math.ceil(len(values) / _MOST)), len(values) - 1}):
+    for at in sorted({*range(0, len(values), math.ceil(len(values) / _MAX_POINTS)), len(values) - 1}):
         if bisect_right(breaks, at) > passed:
             passed = bisect_right(breaks, at)
             lines.append([])

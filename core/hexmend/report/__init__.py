@@ -1,6 +1,6 @@
-"""Reports: records for programs; tables and figures for people.
+"""Reports: records for programs, tables and charts for readers.
 
-Names are imported when they are first used: a command that writes a record does not wait for tables and figures.
+Names are imported at their first use, so that a command that writes a record loads no tables and charts.
 """
 
 import importlib as _importlib

@@ -1,4 +1,4 @@
-"""The report of a study of many meshes: one table of all tasks, and what to read of it."""
+"""The report of a study of many meshes: the table of all tasks, and summaries by case and by mesh."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from hexmend.report.latex import latex
 from hexmend.report.markdown import escape, markdown
 from hexmend.report.tables import Table
 
-#: The rest of the failures is in the CSV.
-_FAILURES = 200
+#: Failures that are listed at most; the CSV has all of them.
+_MAX_FAILURES = 200
 
 Rows = Sequence[Mapping[str, Any]]
 
 
 def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[str, Any]) -> list[Path]:
-    """Write `study.csv`, all rows; `study.md` and `study.tex`, what each method came to, and each mesh.
+    """Write `study.csv` with all rows, and `study.md` and `study.tex` with summaries by case and by mesh.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
     study : mapping
         `hexmend.study.batch.runner.StudyResult.record`.
     machine : mapping
-        Where it was asked for, as `hexmend.study.bench.sections.machine` tells it.
+        The computer, from `hexmend.study.bench.sections.machine`.
     """
     rows = study["rows"]
     tables = [cases_table(study), meshes_table(rows)]
@@ -39,7 +39,7 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
     write_csv(paths[0], rows)
     said = [f"# {escape(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
     if study["interrupted"]:
-        said.append("The study was interrupted: the same command goes on with it.")
+        said.append("The study was interrupted: run the same command again to continue.")
     failures = failures_table(rows)
     write_text(paths[1], "\n\n".join([*said, *map(markdown, [*tables, *([failures] if failures else [])])]))
     write_text(paths[2], "\n".join(map(latex, tables)))
@@ -47,12 +47,19 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
 
 
 def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
-    """Write the rows as Parquet, with these columns and types.
+    """Write the rows as Parquet.
+
+    Parameters
+    ----------
+    path : Path
+    rows : sequence of mapping
+    types : mapping
+        Type of each column.
 
     Raises
     ------
     HexmendError
-        Where pyarrow is not installed.
+        If pyarrow is not installed.
     """
     try:
         import pyarrow as pa
@@ -66,7 +73,7 @@ def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
 
 
 def cases_table(study: Mapping[str, Any]) -> Table:
-    """What each case came to over all meshes: a line a case."""
+    """Make the table with a row for each case, over all meshes."""
     head = (
         "",
         "results",
@@ -93,7 +100,7 @@ def cases_table(study: Mapping[str, Any]) -> Table:
 
 
 def meshes_table(rows: Rows) -> Table:
-    """What became of each mesh, and by which case it is best: fewest inverted hexes, then the highest q min."""
+    """Make the table with a row for each mesh and its best case: fewest inverted hexes, then highest q min."""
     head = ("", "hexes", "inverted", "q min", "valid", "best by", "inverted then", "q min then", "sc. Jacobian then")
     lines, names = [], _names(rows)
     for mesh in dict.fromkeys(row["mesh"] for row in rows):
@@ -118,7 +125,7 @@ def meshes_table(rows: Rows) -> Table:
 
 
 def failures(rows: Rows) -> list[tuple[str, str, str, str]]:
-    """Mesh, cases, status and reason of the tasks without a result, those of a mesh together that have one reason."""
+    """Return mesh, cases, status and reason of failed tasks, in groups of equal mesh, status and reason."""
     groups: dict[tuple[str, str, str], list[str]] = {}
     for row in rows:
         if row["status"] != "done":
@@ -131,17 +138,17 @@ def failures(rows: Rows) -> list[tuple[str, str, str, str]]:
 
 
 def failures_table(rows: Rows) -> Table | None:
-    """Tasks without a result and why; None where there are none."""
+    """Make the table of the failed tasks; None if there are none."""
     failed = failures(rows)
     if not failed:
         return None
-    left = len(failed) - _FAILURES
+    left = len(failed) - _MAX_FAILURES
     notes = [f"And {left:,} more: see the column reason of study.csv."] if left > 0 else []
-    return Table("Without a result", ("", "case", "status", "reason"), failed[:_FAILURES], notes)
+    return Table("Without a result", ("", "case", "status", "reason"), failed[:_MAX_FAILURES], notes)
 
 
 def _names(rows: Rows) -> dict[str, str]:
-    """What each mesh is called: its file's name, or the whole path where another's is the same."""
+    """Return a name for each mesh: that of the file, or the whole path if two files have the same name."""
     meshes = dict.fromkeys(row["mesh"] for row in rows)
     counts = Counter(Path(mesh).name for mesh in meshes)
     return {mesh: name if counts[name := Path(mesh).name] == 1 else mesh for mesh in meshes}

@@ -1,4 +1,4 @@
-"""Charts as files: how large they are, with what letters, and what is called what."""
+"""Charts as files: size, font, titles and names."""
 
 from __future__ import annotations
 
@@ -25,32 +25,32 @@ if TYPE_CHECKING:
 
 MM_PER_INCH = 25.4
 
-#: Kinds of figure that can be written.
+#: Suffixes of figures that can be written.
 FIGURE_SUFFIXES = (".svg", ".pdf", ".png")
 
-#: Widths in mm that a figure can have: from less than a column to a poster.
+#: Least and largest width of a figure in mm.
 WIDTHS = (40.0, 1000.0)
 
 #: Pixels of the largest picture.
-_MOST_PIXELS = 2**26
+_MAX_PIXELS = 2**26
 
 
 @dataclass(frozen=True)
 class ChartStyle(Parametrised):
-    """What a chart is like on paper, and what is called what in it.
+    """Size, font, title and names of a chart.
 
     Parameters
     ----------
     width, height : float
-        In mm; a height of 0 is the chart's own for its width.
+        In mm; a height of 0 is chosen by the chart for its width.
     letters : float
-        In pt.
+        Font size in pt.
     resolution : float
-        Of PNG, in pixels per inch.
+        Pixels per inch of a PNG.
     title : str, optional
-        Instead of the chart's own.
+        Title in place of the chart's own.
     names : mapping of str to str
-        What curves are called, by what they call themselves.
+        Names to be printed, by the labels of the curves.
 
     Raises
     ------
@@ -73,27 +73,27 @@ class ChartStyle(Parametrised):
 
     def _check_pixels(self, height: float) -> None:
         share = self.resolution / MM_PER_INCH
-        if self.width * share * height * share > _MOST_PIXELS:
+        if self.width * share * height * share > _MAX_PIXELS:
             raise ParameterError(
                 f"{self.width:g} × {height:g} mm at {self.resolution:g} dpi are too many pixels: "
-                f"expected at most {_MOST_PIXELS:,}"
+                f"expected at most {_MAX_PIXELS:,}"
             )
 
     def name(self, own: str) -> str:
-        """What is written for a curve: plain text, whatever is in it."""
+        """Return the name to be printed for a curve, as plain text."""
         return plain(self.names.get(own) or own)
 
     def heading(self, own: str) -> str:
-        """What is written above the chart."""
+        """Return the title to be printed, as plain text."""
         return plain(own if self.title is None else self.title)
 
     def figure(self, shape: float) -> Figure:
-        """An empty figure of this size; `shape` is its height by its width where it has none of its own.
+        """Make an empty figure of this size; `shape` is height over width, used if the height is 0.
 
         Raises
         ------
         HexmendError
-            Where matplotlib is missing, and where it has too many pixels.
+            If matplotlib is not installed, or the figure would have too many pixels.
         """
         height = self.height or shape * self.width
         self._check_pixels(height)
@@ -101,16 +101,16 @@ class ChartStyle(Parametrised):
 
 
 class Chart(Protocol):
-    """What is drawn in a style: its own title, and what its curves call themselves, each once."""
+    """A chart that can be drawn in any style."""
 
     title: str
 
     @property
     def names(self) -> list[str]:
-        """Of its curves."""
+        """Labels of the curves, each once."""
 
     def draw(self, style: ChartStyle) -> Figure:
-        """The figure."""
+        """Draw the figure."""
 
 
 #: Draws a chart.
@@ -118,47 +118,47 @@ Draw = Callable[[ChartStyle], "Figure"]
 
 
 def write_chart(path: Path, draw: Draw, style: ChartStyle | None = None) -> None:
-    """Write a chart, as SVG, PDF or PNG by the path's suffix, as a whole or not at all.
+    """Write a chart as SVG, PDF or PNG, by the path's suffix.
 
     Raises
     ------
     HexmendError
-        For another suffix, and where matplotlib is missing or the file cannot be written.
+        For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
     check_figure(path)
     style = ChartStyle() if style is None else style
-    with _written(style):
+    with _font_size(style):
         save_figure(draw(style), path, style.resolution)
 
 
 def chart_png(draw: Draw, style: ChartStyle, dpi: float) -> bytes:
-    """A chart as the bytes of a PNG of so many pixels per inch.
+    """Return a chart as the bytes of a PNG with `dpi` pixels per inch.
 
     Raises
     ------
     HexmendError
-        Where matplotlib is missing.
+        If matplotlib is not installed.
     """
     into = BytesIO()
-    with _written(style):
+    with _font_size(style):
         draw(style).savefig(into, dpi=dpi, format="png")
     return into.getvalue()
 
 
 def add_legend(axes: Axes, named: Sequence[tuple[Artist, str]]) -> None:
-    """Say on the right of a chart what is what, whatever letter a name begins with."""
+    """Add a legend on the right of a chart."""
     if not named:
         return
     artists, names = zip(*named, strict=True)
-    places = [str(place) for place in range(len(names))]  # a label with "_" before it would be left out
+    places = [str(place) for place in range(len(names))]  # matplotlib leaves out labels that begin with "_"
     legend = axes.legend(artists, places, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize="small")
     for text, name in zip(legend.get_texts(), names, strict=True):
         text.set_text(name)
 
 
 @contextmanager
-def _written(style: ChartStyle) -> Iterator[None]:
-    """Letters of the style's size."""
+def _font_size(style: ChartStyle) -> Iterator[None]:
+    """Set the style's font size within the block."""
     check_matplotlib()
     from matplotlib import rc_context
 
@@ -167,17 +167,17 @@ def _written(style: ChartStyle) -> Iterator[None]:
 
 
 def plain(text: str) -> str:
-    """A text in which matplotlib finds no formula, and nothing that it or SVG cannot hold: names come from files."""
+    """Escape a text from outside, so that matplotlib finds no formula in it and SVG no control characters."""
     return printable(text).replace("$", r"\$")
 
 
 def check_figure(path: Path) -> None:
-    """Raise `FileError` for a suffix that no figure has."""
+    """Raise `FileError` if the suffix is not one of `FIGURE_SUFFIXES`."""
     suffix_for(path, "a figure", FIGURE_SUFFIXES)
 
 
 def check_matplotlib() -> None:
-    """Raise `HexmendError` where matplotlib is missing."""
+    """Raise `HexmendError` if matplotlib is not installed."""
     try:
         import_module("matplotlib.figure")
     except ImportError:
@@ -187,12 +187,12 @@ def check_matplotlib() -> None:
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of so many inches.
+    """Make an empty figure of this width and height in inches.
 
     Raises
     ------
     HexmendError
-        Where matplotlib is missing.
+        If matplotlib is not installed.
     """
     check_matplotlib()
     from matplotlib.figure import Figure
@@ -201,14 +201,21 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def save_figure(figure: Figure, path: Path, dpi: float = 160, *, outlines: bool = False) -> None:
-    """Write a figure as a whole or not at all, as its path's suffix says; equal figures make equal files.
+    """Write a figure in the format of the path's suffix; equal figures give equal files.
 
-    Texts of an SVG stay texts, which can be found and edited, or are `outlines`, which look the same everywhere.
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : Path
+    dpi : float
+        Pixels per inch of a PNG.
+    outlines : bool
+        Write the texts of an SVG as outlines, which look the same everywhere, and not as text that can be edited.
     """
     from matplotlib import rc_context
 
     kind = path.suffix.lower()[1:]
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-    how = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
-    with atomic_write(path) as temporary, rc_context(how):  # names that are not drawn by lot, and no date
+    settings = {"svg.hashsalt": "hexmend", "svg.fonttype": "path" if outlines else "none"}
+    with atomic_write(path) as temporary, rc_context(settings):  # no random ids and no dates
         figure.savefig(temporary, dpi=dpi, format=kind, metadata=dates.get(kind))

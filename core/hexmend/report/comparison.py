@@ -25,7 +25,7 @@ _ENDED = {
 
 
 def ended(outcome: str) -> str:
-    """Why a run ended, in a word or two.
+    """Return the reason why a run ended in a word or two.
 
     >>> ended("max-seconds")
     'time limit'
@@ -33,7 +33,7 @@ def ended(outcome: str) -> str:
     return _ENDED.get(outcome, outcome)
 
 
-#: The lines of the table: those of the thesis, and what tells how far they can be believed.
+#: Rows of the table: those of the thesis, and those by which readers can judge them.
 LINES: tuple[Quantity, ...] = (
     *(
         SUMMARY_QUANTITIES[key]
@@ -64,8 +64,8 @@ LINES: tuple[Quantity, ...] = (
     Quantity("outcome", "ended", "Why the run ended.", ended),
 )
 
-#: The thesis's widest table has this many columns of figures; a wider one is turned on its side.
-_WIDEST = 6
+#: Columns of figures in the widest table of the thesis; wider tables are transposed.
+_MAX_COLUMNS = 6
 
 
 def comparison_table(
@@ -74,15 +74,15 @@ def comparison_table(
     published: Mapping[str, Mapping[str, Any]] | None = None,
     notes: Sequence[str] = (),
 ) -> Table:
-    """Methods in columns and figures in lines, or the other way round where there are many methods.
+    """Make a table with methods in columns and figures in rows, transposed if there are many methods.
 
     Parameters
     ----------
     title : str
     columns : mapping
-        Records by the heads of their columns, the initial mesh's first.
+        Records by the heads of their columns, that of the initial mesh first.
     published : mapping, optional
-        The thesis's figures by column; they get a line below ours each.
+        Figures of the thesis by column; each gets a row below ours.
     notes : sequence of str
     """
     rows = []
@@ -92,11 +92,11 @@ def comparison_table(
         if any(record.get(figure.key) is not None for record in theirs):
             rows.append(["– thesis", *(figure.of(record) for record in theirs)])
     table = Table(title, ["", *columns], rows, [*notes, *_fallen(columns), *_explained(columns.values())])
-    return table if len(columns) <= _WIDEST or published else table.transposed
+    return table if len(columns) <= _MAX_COLUMNS or published else table.transposed
 
 
 def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
-    """The label of a line of records: of the objective with its formula, which all of them have in common.
+    """Return the label of a figure; that of the objective with its formula, common to all records.
 
     >>> label(SUMMARY_QUANTITIES["objective"], [{"objective": 7.0, "objective_formula": "Σ η⁴, offset 0"}])
     'objective Σ η⁴, offset 0'
@@ -108,25 +108,26 @@ def label(figure: Quantity, records: Iterable[Mapping[str, Any]]) -> str:
 def record_table(
     comparison: Mapping[str, Any], names: Mapping[str, str] | None = None, title: str | None = None
 ) -> Table:
-    """The table of `hexmend.study.compare.Comparison.record`.
+    """Make the table of a comparison's record.
 
     Parameters
     ----------
     comparison : mapping
+        See `hexmend.study.compare.Comparison.record`.
     names : mapping of str to str, optional
-        What methods, and the initial mesh, are called, by their own names.
+        Names to be printed by names of methods; "initial" is the initial mesh.
     title : str, optional
-        Instead of the mesh's name and sizes.
+        By default the name and size of the mesh.
 
     Raises
     ------
     ParameterError
-        Where two are called the same.
+        If two have the same name.
     """
     initial = comparison["initial"]
     columns: dict[str, Mapping[str, Any]] = {}
     for own, record in [("initial", initial), *((row["method"], row) for row in comparison["rows"])]:
-        head = _called(own, names)
+        head = _display_name(own, names)
         if head in columns:
             raise ParameterError(f"two methods are called {head!r}: expected a name for each")
         columns[head] = record
@@ -141,9 +142,9 @@ def record_table(
 
 
 def comparison_rows(comparison: Mapping[str, Any], names: Mapping[str, str] | None = None) -> list[Mapping[str, Any]]:
-    """The rows for spreadsheets: the initial mesh's and the methods', which may be called otherwise."""
+    """Return the rows for spreadsheets: the initial mesh and the methods, renamed by `names`."""
     rows = [{"method": "initial"} | comparison["initial"], *comparison["rows"]]
-    return [{**row, "method": _called(row["method"], names)} for row in rows]
+    return [{**row, "method": _display_name(row["method"], names)} for row in rows]
 
 
 def write_comparison(
@@ -151,19 +152,19 @@ def write_comparison(
 ) -> None:
     """Write the record of a comparison as CSV, Markdown, LaTeX or JSON, by the path's suffix.
 
-    In CSV, Markdown and LaTeX `names` and `title` are what `record_table` takes; JSON keeps the record's own.
+    For `names` and `title` see `record_table`; JSON has the record as it is.
 
     Raises
     ------
     FileError
-        For another suffix, or where the file cannot be written; the one that was there stays.
+        For another suffix, or if the file cannot be written.
     ParameterError
-        Where two methods are called the same.
+        If two methods have the same name.
     """
     write_document(path, record_table(comparison, names, title), comparison_rows(comparison, names), comparison)
 
 
-def _called(own: str, names: Mapping[str, str] | None) -> str:
+def _display_name(own: str, names: Mapping[str, str] | None) -> str:
     return (names or {}).get(own) or own
 
 
@@ -173,23 +174,23 @@ def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:
 
 
 def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """Which methods left what worse than the mesh they were given."""
+    """Return a note on methods after which figures are worse than before."""
     labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()}
-    those = [
+    worse = [
         f"{head} ({', '.join(labels[name] for name in record['worse'])})"
         for head, record in columns.items()
         if record.get("worse")
     ]
-    return [f"Worse than before: {'; '.join(those)}."] if those else []
+    return [f"Worse than before: {'; '.join(worse)}."] if worse else []
 
 
 def _explained(records: Sequence[Mapping[str, Any]]) -> list[str]:
-    """What a reader must know of runs that did not end by themselves."""
+    """Return notes on runs that ended by a limit, by the user or by an error."""
     ended = {record.get("outcome") for record in records}
     sentences = {
         "max-seconds": "Time limit: stopped at the time limit before it converged.",
         "max-iterations": "Iteration limit: stopped at the iteration limit before it converged.",
-        "no-descent": "No descent: along the search direction no step lowers the objective, however short.",
+        "no-descent": "No descent: no step lowers the objective along the search direction.",
         "stopped": "Stopped: ended by the user before it converged.",
     }
     failed = [f"{record['method']}: {record['message']}" for record in records if record.get("outcome") == "failed"]

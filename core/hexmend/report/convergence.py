@@ -1,4 +1,4 @@
-"""Figures of how runs converge: charts below one another with one axis of iterations or seconds."""
+"""Charts of the convergence of runs, one below the other with a common axis of iterations or seconds."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Heights by the width of the figure: of what stands around the charts, and of each of them.
+#: Heights over the width of the figure: of title and axis, and of each chart.
 _HEAD, _CHART = 0.16, 0.227
 
 
 @dataclass(frozen=True)
 class DrawnCurve:
-    """A figure of one run.
+    """One quantity of one run.
 
     Parameters
     ----------
     label, colour : str
     x, y : sequence of float
-        nan in y is a gap.
+        NaN in y is a gap.
     dashed, strong : bool
     part : str
-        What follows the name, where a run has several curves.
+        Text after the label, if a run has several curves.
     """
 
     label: str
@@ -42,16 +42,16 @@ class DrawnCurve:
 
 @dataclass(frozen=True)
 class DrawnChart:
-    """Curves with one axis.
+    """Curves with a common axis.
 
     Parameters
     ----------
     title : str
     curves : sequence of DrawnCurve
     log : bool
-        The axis goes by powers of ten, with zero below them, unless all lie within one.
+        Logarithmic axis, with zero below the powers of ten, unless all values lie within one power.
     whole : bool
-        The figures are counts.
+        The values are counts.
     """
 
     title: str
@@ -62,15 +62,15 @@ class DrawnChart:
 
 @dataclass(frozen=True)
 class Convergence:
-    """Charts below one another.
+    """Charts one below the other.
 
     Parameters
     ----------
     charts : sequence of DrawnChart
-        Those without curves are left out, unless there are no others.
+        Charts without curves are left out, unless all are.
     title, xlabel : str
     whole : bool
-        The axis counts.
+        The values of the axis are counts.
     """
 
     charts: Sequence[DrawnChart]
@@ -80,16 +80,16 @@ class Convergence:
 
     @property
     def names(self) -> list[str]:
-        """What runs call themselves, each once."""
+        """Labels of the runs, each once."""
         return list(dict.fromkeys(curve.label for chart in self.charts for curve in chart.curves))
 
     def draw(self, style: ChartStyle) -> Figure:
-        """The figure.
+        """Draw the figure.
 
         Raises
         ------
         HexmendError
-            Where matplotlib is missing.
+            If matplotlib is not installed.
         """
         charts = [chart for chart in self.charts if chart.curves] or self.charts[:1]
         count = max(1, len(charts))

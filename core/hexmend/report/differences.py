@@ -1,4 +1,4 @@
-"""Where our figures are furthest from the thesis's, on meshes of the same counts."""
+"""Largest differences from the figures of the thesis, for meshes of equal size."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from typing import Any
 
 from hexmend.report.tables import Table
 
-#: Qualities that are compared, and what they are called.
+#: Figures that are compared, with their labels.
 _QUALITIES = {"q_min": "q min", "q_mean": "q mean", "q_norm": "q norm"}
 
 
 def same_counts(experiment: Mapping[str, Any]) -> bool:
-    """Whether our mesh has as many hexes and free nodes as the thesis's."""
+    """Return True if our mesh has as many hexes and free nodes as that of the thesis."""
     thesis = experiment["thesis"]
     return (experiment["hexes"], experiment["free_nodes"]) == (thesis["hexes"], thesis["free_nodes"])
 
 
 def differences_table(experiments: Sequence[Mapping[str, Any]]) -> Table | None:
-    """One row a table of the thesis: the median and the largest difference of each quality, with the method's name.
+    """Make the table with a row for each table of the thesis: median and largest difference of each figure.
 
-    Differences are ours minus the thesis's; the last column is the median of our iterations over the thesis's. None
-    where no mesh has the thesis's counts.
+    Differences are ours minus those of the thesis; the last column is the median ratio of the iterations. None if no
+    mesh has the size of that in the thesis.
     """
     rows = []
     for one in filter(same_counts, experiments):
         cells = [f"{one['table']}, {one['thesis_mesh']}"]
-        found = [list(_apart(one, key)) for key in _QUALITIES]
+        found = [list(_differences(one, key)) for key in _QUALITIES]
         if not any(found):
             continue
         cells.append(str(sum(map(len, found))))
-        cells += [_told(differences) for differences in found]
+        cells += [_describe(differences) for differences in found]
         ratios = [ours / thesis for _, ours, thesis in _cells(one, "iterations")]
         cells.append(f"{median(ratios):.2g}" if ratios else "–")
         rows.append(cells)
@@ -42,19 +42,19 @@ def differences_table(experiments: Sequence[Mapping[str, Any]]) -> Table | None:
 
 
 def _cells(experiment: Mapping[str, Any], key: str) -> Iterator[tuple[str, float, float]]:
-    """Each column that has this figure with us and in the thesis."""
+    """Yield name, our value and that of the thesis for each column that has both."""
     for name, published in experiment["published"].items():
         ours = experiment["columns"].get(name, {}).get(key)
         if ours is not None and published.get(key) is not None:
             yield name, ours, published[key]
 
 
-def _apart(experiment: Mapping[str, Any], key: str) -> Iterator[tuple[float, str]]:
+def _differences(experiment: Mapping[str, Any], key: str) -> Iterator[tuple[float, str]]:
     for name, ours, thesis in _cells(experiment, key):
         yield ours - thesis, name
 
 
-def _told(differences: list[tuple[float, str]]) -> str:
+def _describe(differences: list[tuple[float, str]]) -> str:
     if not differences:
         return "–"
     largest, name = max(differences, key=lambda one: abs(one[0]))

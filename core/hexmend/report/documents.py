@@ -16,17 +16,17 @@ from hexmend.report.markdown import markdown
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
-#: What a table can be written as: for spreadsheets, to be read, to be typeset, for programs.
+#: Suffixes of tables: for spreadsheets, readers, LaTeX and programs.
 SUFFIXES = (".csv", ".md", ".tex", ".json")
 
 
 def output_folder(path: str | Path) -> Path:
-    """The folder, made where it is missing, with those above it.
+    """Return the path of a folder, which is made with its parents if it does not exist.
 
     Raises
     ------
     FileError
-        Where it cannot be made or is a file.
+        If it cannot be made or is a file.
     """
     folder = Path(path)
     try:
@@ -40,18 +40,18 @@ def output_folder(path: str | Path) -> Path:
 def write_documents(
     folder: Path, stem: str, table: Table, rows: Sequence[Mapping[str, Any]], data: Mapping[str, Any]
 ) -> list[Path]:
-    """Write the table to read, its rows for spreadsheets, and everything for programs.
+    """Write a table as CSV, Markdown, LaTeX and JSON.
 
     Parameters
     ----------
     folder : Path
     stem : str
-        Of the four files' names.
+        Name of the four files without suffix.
     table : Table
     rows : sequence of mapping
-        The CSV's; its columns are the keys of all of them, without those that hold lists.
+        Rows of the CSV; its columns are the keys of all rows, without those of lists.
     data : mapping
-        The JSON.
+        Content of the JSON.
 
     Returns
     -------
@@ -65,12 +65,12 @@ def write_documents(
 
 
 def write_document(path: Path, table: Table, rows: Sequence[Mapping[str, Any]], data: Mapping[str, Any]) -> None:
-    """Write one of the four, by the path's suffix; see `write_documents`.
+    """Write one of the four files, by the path's suffix; see `write_documents`.
 
     Raises
     ------
     FileError
-        For another suffix, or where the file cannot be written; the one that was there stays.
+        For another suffix, or if the file cannot be written.
     """
     suffix = suffix_for(path, "a table", SUFFIXES)
     if suffix == ".csv":
@@ -84,13 +84,13 @@ def write_document(path: Path, table: Table, rows: Sequence[Mapping[str, Any]], 
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file as a whole or not at all; names of files that are no text keep their bytes."""
+    """Write a text file as a whole or not at all; names of files that are not Unicode keep their bytes."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8", errors="surrogateescape")
 
 
 def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows; an empty field is a figure that there is not, and a mapping becomes `key=value` words."""
+    """Write rows as CSV; missing values are empty fields, and a mapping becomes `key=value` words."""
     flat = [{key: _cell(value) for key, value in row.items() if not isinstance(value, list)} for row in rows]
     columns = list(dict.fromkeys(key for row in flat for key in row))
     with (

@@ -1,4 +1,4 @@
-"""A figure of distributions: how many hexes have what quality."""
+"""Chart of distributions: numbers of hexes by quality."""
 
 from __future__ import annotations
 
@@ -13,24 +13,27 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Height of the figure by its width, and where a broken bar ends, of the height of the tallest bin.
-_SHAPE, _BROKEN = 0.6, 1.08
+#: Height of the figure over its width.
+_SHAPE = 0.6
+
+#: Height of a broken bar over that of the tallest bin.
+_BROKEN = 1.08
 
 
 @dataclass(frozen=True)
 class Outline:
-    """A distribution as it is drawn.
+    """One distribution.
 
     Parameters
     ----------
     label, colour : str
     heights : sequence of float
-        Of the bins, which share the places from 0 to 1.
+        Heights of the bins, which divide the interval from 0 to 1.
     bars : sequence of (left, right, height)
-        What stands beside the bins; one that is taller than all bins is broken, and carries its number.
+        Bars outside the bins; one that is taller than all bins is broken, with its number above.
     filled : bool
     note : str
-        What follows the name, in brackets.
+        Text after the label, in brackets.
     """
 
     label: str
@@ -43,7 +46,7 @@ class Outline:
 
 @dataclass(frozen=True)
 class Histogram:
-    """Distributions over one axis.
+    """Distributions with a common axis.
 
     Parameters
     ----------
@@ -51,11 +54,11 @@ class Histogram:
         The first is drawn at the bottom.
     title, xlabel, ylabel : str
     ticks : sequence of (place, text)
-        Below the bins, which lie from 0 to 1, and below the bars beside them.
+        Labels below the bins, which lie from 0 to 1, and below the bars.
     extent : (left, right)
-        Of the figure, in the same places.
+        Range of the axis.
     log : bool
-        Heights by powers of ten.
+        Logarithmic heights.
     """
 
     outlines: Sequence[Outline]
@@ -68,16 +71,16 @@ class Histogram:
 
     @property
     def names(self) -> list[str]:
-        """What distributions call themselves, each once."""
+        """Labels of the distributions, each once."""
         return list(dict.fromkeys(one.label for one in self.outlines))
 
     def draw(self, style: ChartStyle) -> Figure:
-        """The figure.
+        """Draw the figure.
 
         Raises
         ------
         HexmendError
-            Where matplotlib is missing.
+            If matplotlib is not installed.
         """
         figure = style.figure(_SHAPE)
         axes = figure.subplots()
@@ -94,7 +97,7 @@ class Histogram:
 
 
 def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> tuple[Artist, str]:
-    """Draw one, and say what it is called."""
+    """Draw one distribution; return its line and its name for the legend."""
     edges = [bin / len(outline.heights) for bin in range(len(outline.heights) + 1)]
     width = 1.0 if outline.filled else 1.6
     name = style.name(outline.label) + (f" ({outline.note})" if outline.note else "")
@@ -111,7 +114,7 @@ def _draw(axes: Axes, outline: Outline, top: float, style: ChartStyle) -> tuple[
 
 
 def _break(axes: Axes, left: float, right: float, top: float, number: str, colour: str) -> None:
-    """Break a bar that is too tall for the axis by a band of teeth, and write its number on it."""
+    """Draw a zigzag across a bar that is too tall for the axis, and its number above it."""
     places = [left + (right - left) * k / 8 for k in range(9)]
     for wide, of in ((5.0, colour), (3.4, "white")):
         axes.plot(

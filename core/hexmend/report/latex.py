@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hexmend.report.tables import Table
 
-#: What LaTeX reads as commands, and letters that it does not have without packages.
+#: Characters that are commands in LaTeX, or that it does not have without packages.
 _ESCAPES = {
     "\\": r"\textbackslash{}",
     "{": r"\{",
@@ -30,7 +30,7 @@ _ESCAPES = {
 
 
 def latex(table: Table) -> str:
-    """The table as a floating `table` with caption; `\\input` it into a document.
+    """Write a table as a LaTeX `table` with caption, for `\\input`.
 
     >>> print(latex(Table("Cube", ["", "local-sd"], [["q min", "1.0000"]])), end="")
     \\begin{table}[htbp]
@@ -61,7 +61,7 @@ def latex(table: Table) -> str:
 
 
 def escape(text: str) -> str:
-    """Text in which LaTeX finds no command.
+    """Escape a text, so that LaTeX finds no command in it.
 
     >>> escape("50 % of mesh_1 & more")
     '50 \\\\% of mesh\\\\_1 \\\\& more'

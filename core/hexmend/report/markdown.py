@@ -8,7 +8,7 @@ from hexmend.report.tables import Table
 
 
 def markdown(table: Table) -> str:
-    """The table in pipes, labels to the left and figures to the right, its title bold above it.
+    """Write a table as Markdown, the labels aligned left and the figures right, with the title above.
 
     >>> print(markdown(Table("Cube", ["", "a|b"], [["q min", "1.0000"]])), end="")
     **Cube**
@@ -26,5 +26,5 @@ def markdown(table: Table) -> str:
 
 
 def escape(text: str) -> str:
-    """Text in which nothing is markup: file names and messages may hold anything."""
+    """Escape a text, so that Markdown finds no markup in it."""
     return re.sub(r"([\\`*_{}\[\]<>#|])", r"\\\1", " ".join(text.split()))

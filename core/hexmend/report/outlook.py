@@ -1,4 +1,4 @@
-"""The report of an outlook: how fast a method arrives at the optimum, by the values that are varied."""
+"""The report of an outlook: speed of convergence to the optimum for varied parameters."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def _three(value: float) -> str:
     return format_significant(value, 3)
 
 
-#: What is told of a run: until it arrives near the optimum, and in all.
+#: Columns of the table: until the run is near the optimum, and in all.
 COLUMNS: tuple[Quantity, ...] = (
     Quantity("near_iterations", "sweeps", "Iterations until the objective is near the optimum.", format_count, -1),
-    Quantity("near_evaluations", "evaluations", "How often a hex was asked until then, on average.", _three, -1),
+    Quantity("near_evaluations", "evaluations", "Evaluations of a hex until then, on average.", _three, -1),
     Quantity("near_seconds", "s", "Seconds in the method until then.", _three, -1),
     Quantity("iterations", "sweeps in all", "Iterations until the run ended.", format_count, -1),
     Quantity("seconds", "s in all", "Seconds in the method until then.", _three, -1),
@@ -28,7 +28,7 @@ COLUMNS: tuple[Quantity, ...] = (
 
 
 def write_outlook(folder: Path, outlook: Mapping[str, Any]) -> list[Path]:
-    """An outlook as four files.
+    """Write an outlook as CSV, Markdown, LaTeX and JSON.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def write_outlook(folder: Path, outlook: Mapping[str, Any]) -> list[Path]:
 
 
 def outlook_table(outlook: Mapping[str, Any]) -> Table:
-    """A line a run: its method, the values that are varied, and how fast it arrived."""
+    """Make the table with a row for each run: method, varied parameters, speed of convergence."""
     vary = outlook["vary"]
     rows = [
         [run["method"], *(str(run.get(name, "–")) for name in vary), *(column.of(run) for column in COLUMNS)]
@@ -52,14 +52,14 @@ def outlook_table(outlook: Mapping[str, Any]) -> Table:
     )
     notes = [
         f"Sweeps, evaluations and seconds until the objective is within {100 * outlook['near']:g} % of the least that "
-        "any run ended with, and in all. An evaluation is one of a hex's energy or of its derivatives; told is how "
-        "many there were for each hex."
+        "any run ended with, and in all. An evaluation is one of a hex's energy or of its derivatives; "
+        "given is their number per hex."
     ]
     return Table(title, ["method", *vary, *(column.label for column in COLUMNS)], rows, notes)
 
 
 def outlook_stem(outlook: Mapping[str, Any]) -> str:
-    """The name of an outlook's files.
+    """Return the name of an outlook's files.
 
     >>> outlook_stem({"section": "5.2.5", "mesh": "five-side"})
     'section-5.2.5-five-side'

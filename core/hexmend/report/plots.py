@@ -1,4 +1,4 @@
-"""Figures of a study, drawn by matplotlib: SVG for print, PNG for the screen."""
+"""Figures of a study by matplotlib: SVG for print, PNG for the screen."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Okabe and Ito's colours, which colour-blind readers can tell apart too.
+#: The colours of Okabe and Ito, which colour-blind readers can distinguish.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 _MARKERS = "osD^vPX"
 
-#: Inches that a figure is wide, and its height by its width.
+#: Width of a figure in inches, and its height over its width.
 _WIDTH, _HEIGHT = 7.5, 0.6
 
-#: Those that the plots of a study are written as, where nobody says.
-_BOTH = ("svg", "png")
+#: Formats of figures by default.
+_FORMATS = ("svg", "png")
 
 
 def scaling(
     stem: Path,
     ours: Mapping[str, Sequence[tuple[int, float]]],
     thesis: Mapping[str, Sequence[tuple[int, float]]],
-    formats: Sequence[str] = _BOTH,
+    formats: Sequence[str] = _FORMATS,
 ) -> list[Path]:
-    """Figure 4.4: seconds per iteration against free nodes.
+    """Draw Figure 4.4: seconds per iteration against free nodes.
 
     Parameters
     ----------
     stem : Path
-        Of the files, without suffix.
+        Path of the files without suffix.
     ours, thesis : mapping
-        (free nodes, seconds) by method; the thesis's are drawn pale and dashed.
+        (free nodes, seconds) by method; those of the thesis are drawn pale and dashed.
     formats : sequence of str
-        Suffixes without the dot, of one file each.
+        Suffixes without the dot; one file is written for each.
 
     Raises
     ------
     HexmendError
-        Where matplotlib is missing.
+        If matplotlib is not installed.
     """
     figure, axes = _figure()
     for k, (method, points) in enumerate(ours.items()):
@@ -60,24 +60,24 @@ def scaling(
 
 
 def distributions(
-    stem: Path, counts: Mapping[str, Sequence[int]], title: str, formats: Sequence[str] = _BOTH
+    stem: Path, counts: Mapping[str, Sequence[int]], title: str, formats: Sequence[str] = _FORMATS
 ) -> list[Path]:
-    """Figure 4.9: how q(H) is distributed.
+    """Draw Figure 4.9: distributions of q(H).
 
     Parameters
     ----------
     stem : Path
-        Of the files, without suffix.
+        Path of the files without suffix.
     counts : mapping
-        Numbers of hexes in bins of equal width from 0 to 1, by what the curve is called.
+        Numbers of hexes in bins of equal width from 0 to 1, by the name of the curve.
     title : str
     formats : sequence of str
-        Suffixes without the dot, of one file each.
+        Suffixes without the dot; one file is written for each.
 
     Raises
     ------
     HexmendError
-        Where matplotlib is missing.
+        If matplotlib is not installed.
     """
     figure, axes = _figure()
     for k, (label, numbers) in enumerate(counts.items()):

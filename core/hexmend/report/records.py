@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def record(result: Result) -> dict[str, Any]:
-    """The report of `hexmend smooth --json`; `stages` is there for a recipe alone, `surface` if the boundary slid."""
+    """Return the report of `hexmend smooth --json`; only recipes have `stages`, only sliding boundaries `surface`."""
     from hexmend.iteration.figures import HISTORY
     from hexmend.run.recipe import Recipe
 
@@ -38,18 +38,18 @@ def record(result: Result) -> dict[str, Any]:
 
 
 def to_json(data: Any) -> str:
-    """JSON text; a number that JSON cannot hold is a programming error, not written as NaN."""
+    """Return JSON text; raises ValueError for NaN and infinity, which JSON does not have."""
     return json.dumps(data, indent=2, allow_nan=False)
 
 
 def write_json(path: str | Path, data: Any) -> None:
-    """Write JSON beside the target and rename it."""
+    """Write JSON to a file, as a whole or not at all."""
     with atomic_write(path) as temporary:
         temporary.write_text(to_json(data) + "\n", encoding="utf-8")
 
 
 def write_history(path: str | Path, result: Result) -> None:
-    """Write the history as CSV, an empty field where the objective is infinite."""
+    """Write the history as CSV, with an empty field for an infinite objective."""
     from hexmend.iteration.figures import HISTORY
 
     with atomic_write(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:

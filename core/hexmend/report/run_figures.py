@@ -1,4 +1,4 @@
-"""Figures of what methods made of a mesh, for a page of a given width: distributions of quality, convergence."""
+"""Figures of runs on a mesh for a page of a given width: distributions of quality, convergence."""
 
 from __future__ import annotations
 
@@ -13,34 +13,37 @@ from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.histogram import Histogram, Outline
 from hexmend.report.plots import COLOURS
 
-#: The colour of the mesh as it was given, and dots per inch of PNG.
-_FIRST, _DPI = "#5b6573", 160.0
+#: Colour of the initial mesh.
+_INITIAL_COLOUR = "#5b6573"
 
-#: Letters of a name in a legend.
-_LONGEST = 24
+#: Pixels per inch of a PNG.
+_DPI = 160.0
 
-#: What is followed over the iterations.
-_FOLLOWED = ("q_min", "objective", "inverted")
+#: Characters of the longest name in a legend.
+_MAX_LABEL = 24
+
+#: Figures that are drawn over the iterations.
+_DRAWN = ("q_min", "objective", "inverted")
 
 
 def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, title: str, width_mm: float) -> None:
-    """Write how q(H) is distributed, as SVG, PDF or PNG by the path's suffix.
+    """Write the distributions of q(H) as SVG, PDF or PNG, by the path's suffix.
 
     Parameters
     ----------
     path : Path
     counts : mapping
-        Numbers of hexes in bins of equal width from 0 to 1, by what the curve is called; the first is filled.
+        Numbers of hexes in bins of equal width from 0 to 1, by the name of the curve; the first is filled.
     title : str
     width_mm : float
 
     Raises
     ------
     HexmendError
-        For another suffix, and where matplotlib is missing or the file cannot be written.
+        For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
     outlines = [
-        Outline(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _FIRST, numbers, filled=k == 0)
+        Outline(_label(name), COLOURS[(k - 1) % len(COLOURS)] if k else _INITIAL_COLOUR, numbers, filled=k == 0)
         for k, (name, numbers) in enumerate(counts.items())
     ]
     ticks = [(k / 5, f"{k / 5:g}") for k in range(6)]
@@ -51,29 +54,32 @@ def write_distributions(path: Path, counts: Mapping[str, Sequence[int]], *, titl
 def write_convergence(
     path: Path, histories: Mapping[str, Sequence[Mapping[str, Any]]], *, title: str, width_mm: float
 ) -> None:
-    """Write how runs went, as SVG, PDF or PNG by the path's suffix.
+    """Write the convergence of runs as SVG, PDF or PNG, by the path's suffix.
 
     Parameters
     ----------
     path : Path
     histories : mapping
-        Rows of iterations (`hexmend.iteration.Result.history`), by what the curve is called.
+        Rows of iterations (`hexmend.iteration.Result.history`), by the name of the curve.
     title : str
     width_mm : float
 
     Raises
     ------
     HexmendError
-        For another suffix, and where matplotlib is missing or the file cannot be written.
+        For another suffix, and if matplotlib is not installed or the file cannot be written.
     """
-    charts = [DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key == "inverted")
-              for key in _FOLLOWED if _has(histories, key)]  # fmt: skip
+    charts = [
+        DrawnChart(HISTORY[key].label, _curves(histories, key), key == "objective", key == "inverted")
+        for key in _DRAWN
+        if _has(histories, key)
+    ]
     write_chart(path, Convergence(charts, title, "iteration").draw, ChartStyle(width=width_mm, resolution=_DPI))
 
 
 def _label(name: str) -> str:
-    """A name that leaves room for what it names: a longer one has its beginning and its end."""
-    return name if len(name) <= _LONGEST else f"{name[: _LONGEST // 2]}…{name[-(_LONGEST // 2) :]}"
+    """Shorten a long name to its beginning and its end."""
+    return name if len(name) <= _MAX_LABEL else f"{name[: _MAX_LABEL // 2]}…{name[-(_MAX_LABEL // 2) :]}"
 
 
 def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> list[DrawnCurve]:
@@ -89,6 +95,6 @@ def _curves(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> l
 
 
 def _has(histories: Mapping[str, Sequence[Mapping[str, Any]]], key: str) -> bool:
-    """Whether a figure tells something: an objective that is always infinite does not, nor does a count that is 0."""
+    """Return False for a figure without information: an objective that is always infinite, a count always 0."""
     values = [row[key] for rows in histories.values() for row in rows]
     return any(values) if key == "inverted" else any(value is not None for value in values)

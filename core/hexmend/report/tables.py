@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 
 @dataclass(frozen=True)
 class Table:
-    """A table to be read; `hexmend.report.markdown` and `hexmend.report.latex` draw it.
+    """A table of text; `hexmend.report.markdown` and `hexmend.report.latex` write it.
 
     Parameters
     ----------
     title : str
     head : sequence of str
-        Of the columns, the first being that of the labels.
+        Heads of the columns; the first column has the labels.
     rows : sequence of sequence of str
-        As long as `head` each.
+        Each as long as `head`.
     notes : sequence of str
         Sentences below the table.
     """
@@ -28,18 +28,18 @@ class Table:
 
     @property
     def transposed(self) -> Table:
-        """The same with rows and columns exchanged."""
+        """The table with rows and columns exchanged."""
         head, *rows = (list(column) for column in zip(self.head, *self.rows, strict=True))
         return replace(self, head=head, rows=rows)
 
     def parts(self, width: int, gap: int) -> Iterator[Table]:
-        """The table in parts of so many columns as go into `width` letters, each with the labels.
+        """Split the table into parts that fit into `width` characters, each with the column of labels.
 
         Parameters
         ----------
         width : int
         gap : int
-            Letters that a column takes beside its text.
+            Characters of a column in addition to its text.
         """
         columns = list(zip(self.head, *self.rows, strict=True))
         labels, *others = ((gap + max(map(len, column)), column) for column in columns)

@@ -1,4 +1,4 @@
-"""The report of `hexmend study thesis`: our figures beside the published ones, and the claims judged."""
+"""The report of `hexmend study thesis`: our figures and the published ones, and the claims."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from hexmend.report.outlook import outlook_stem, outlook_table
 from hexmend.report.records import write_json
 from hexmend.report.tables import Table
 
-#: What is said of a claim, by whether it was reproduced.
-VERDICTS = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
+#: Words for a claim that was reproduced, not reproduced, or not judged.
+REPRODUCTION = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
 
-#: Said below every table.
+#: Note below every table.
 OURS = "The mesh is ours, of the structure of the thesis's, whose file is not published."
 
 
 def write_experiment(folder: Path, experiment: Mapping[str, Any]) -> list[Path]:
-    """One table of the thesis, ours beside the published, as four files.
+    """Write one table of the thesis with our figures as CSV, Markdown, LaTeX and JSON.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ def write_experiment(folder: Path, experiment: Mapping[str, Any]) -> list[Path]:
 
 
 def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
-    """The index `study.md` of all tables, figures and claims, and `study.json`.
+    """Write `study.md`, the index of all tables, figures and claims, and `study.json`.
 
     Parameters
     ----------
     folder : Path
-        Where the tables were written.
+        Folder of the tables.
     study : mapping
         `hexmend.study.thesis.runner.Study.record`; where meshes were drawn, with "figures" and
         "missing".
@@ -55,7 +55,7 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
     Raises
     ------
     HexmendError
-        Where figures cannot be drawn; all else is written before.
+        If figures cannot be drawn; everything else is written before.
     """
     problem = None
     try:
@@ -70,7 +70,7 @@ def write_study(folder: Path, study: Mapping[str, Any]) -> list[Path]:
 
 
 def experiment_table(experiment: Mapping[str, Any]) -> Table:
-    """A table of the thesis with a line of the published figures below each line of ours."""
+    """Make a table of the thesis with the published figures below ours."""
     thesis, notes = experiment["thesis"], [OURS]
     if not same_counts(experiment):
         notes.append(f"The thesis's has {thesis['hexes']:,} hexes and {thesis['free_nodes']:,} free nodes.")
@@ -84,7 +84,7 @@ def experiment_table(experiment: Mapping[str, Any]) -> Table:
 
 
 def stem(experiment: Mapping[str, Any]) -> str:
-    """The name of an experiment's files.
+    """Return the name of an experiment's files.
 
     >>> stem({"table": "4.15", "thesis_mesh": "Plane, GETMe smoothed"})
     'table-4.15-plane-getme-smoothed'
@@ -94,7 +94,7 @@ def stem(experiment: Mapping[str, Any]) -> str:
 
 
 def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str:
-    """`study.md`; of each figure its number, caption and file."""
+    """Return the text of `study.md`; `figures` have number, caption and file."""
     parts = ["# The thesis's Chapter 4, measured again", _preface(study), "## Claims", _claims(study["claims"])]
     differences = differences_table(study["experiments"])
     parts += ["## Beside the thesis, cell by cell", markdown(differences)] if differences else []
@@ -133,7 +133,7 @@ def _preface(study: Mapping[str, Any]) -> str:
 
 def _claims(claims: Sequence[Mapping[str, Any]]) -> str:
     return "\n".join(
-        f"- {escape(one['claim'])} ({one['section']}) **{VERDICTS[one['reproduced']]}** {escape(one['figures'])}"
+        f"- {escape(one['claim'])} ({one['section']}) **{REPRODUCTION[one['reproduced']]}** {escape(one['figures'])}"
         for one in claims
     )
 
@@ -158,14 +158,14 @@ def write_plots(
     study : mapping
         `hexmend.study.thesis.runner.Study.record`.
     formats : sequence of str
-        Suffixes without the dot, of one file each.
+        Suffixes without the dot; one file is written for each.
 
     Returns
     -------
     figures : list of dict
-        Number, caption and file of each, which is the last of its formats.
+        Number, caption and file of each figure; the file is that of the last format.
     paths : list of Path
-        All files, of which each figure has one to be shown.
+        All files.
     """
     figures, paths = [], []
     ours: dict[str, list[tuple[int, float]]] = {}

@@ -12,7 +12,7 @@ from hexmend.cli.output.progress import Progress
 from hexmend.cli.process.interrupts import FinishesWriting
 from hexmend.parameters import from_strings
 from hexmend.report import output_folder, write_experiment, write_outlook, write_study
-from hexmend.report.thesis import VERDICTS
+from hexmend.report.thesis import REPRODUCTION
 from hexmend.run import StoppingCriteria
 from hexmend.study.bench.sections import machine
 from hexmend.study.outlook.experiments import TrialResult
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
         record = {"machine": machine()} | study.record() | {"figures": figures, "missing": missing}
         write_study(folder, record)
         for claim in record["claims"]:
-            print(f"\n{claim['claim']} ({claim['section']}) {VERDICTS[claim['reproduced']]} {claim['figures']}")
+            print(f"\n{claim['claim']} ({claim['section']}) {REPRODUCTION[claim['reproduced']]} {claim['figures']}")
         if study.interrupted:
             print("Interrupted: the report holds what was done so far.", file=sys.stderr)
         if missing:
