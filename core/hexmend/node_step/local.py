@@ -34,8 +34,13 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
     )
     moved, searched, direction = status == local.MOVED, len(trials) > 0, np.array(way)
     return NodeStep(
-        smoother.name, node, patch.hexes, before, np.array(place) if moved else before, _STATUS[status], patch.unit,
-        smoother.power, delta, patch.energy, patch.gradient, patch.hessian,
+        method=smoother.name,
+        node=node,
+        before=before,
+        after=np.array(place) if moved else before,
+        status=_STATUS[status],
+        delta=delta,
+        **patch.energy_fields(),
         energy_after=float(trials[-1, 1]) if moved else patch.energy,
         direction=direction * patch.unit,
         slope=slope,
@@ -44,4 +49,4 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         shift=shift,
         trials=tuple(Trial(*row) for row in trials.tolist()),
         curve=patch.curve(direction, curve_length(smoother.initial_step, alpha)) if searched else np.empty((0, 2)),
-    )  # fmt: skip
+    )

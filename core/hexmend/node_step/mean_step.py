@@ -59,8 +59,13 @@ def step_to_target(
         )
     scaled = direction / patch.unit if patch.unit else direction
     return NodeStep(
-        smoother.name, node, hexes, before, after, status, patch.unit, power, delta, patch.energy, patch.gradient,
-        patch.hessian,
+        method=smoother.name,
+        node=node,
+        before=before,
+        after=after,
+        status=status,
+        delta=delta,
+        **patch.energy_fields(),
         energy_after=patch.value(scaled, alpha),
         direction=direction,
         slope=float(patch.gradient @ scaled),
@@ -68,4 +73,4 @@ def step_to_target(
         curve=patch.curve(scaled, 1.2 * MARGIN) if squared > 0 else np.empty((0, 2)),
         pulls=pulls,
         notes=notes or {},
-    )  # fmt: skip
+    )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from hexmend.energy import ObjectiveNorm
@@ -56,10 +58,15 @@ class Patch:
         xx, xy, xz, yy, yz, zz = second
         self.hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
-    def curve(self, direction: np.ndarray, reach: float) -> np.ndarray:
-        """Return pairs of alpha and energy along a direction (3,) in `unit`, alpha from 0 to `reach`, (SAMPLES, 2)."""
+    def energy_fields(self) -> dict[str, Any]:
+        """Return the fields of `NodeStep` that describe the patch and its energy."""
+        names = ("hexes", "unit", "power", "energy", "gradient", "hessian")
+        return {name: getattr(self, name) for name in names}
+
+    def curve(self, direction: np.ndarray, length: float) -> np.ndarray:
+        """Return alpha and energy, (SAMPLES, 2), along a direction (3,) in `unit`, from alpha = 0 to `length`."""
         answer = np.empty((SAMPLES, 2))
-        answer[:, 0] = np.linspace(0, reach, SAMPLES)
+        answer[:, 0] = np.linspace(0, length, SAMPLES)
         local.energy_along(*self._patch, direction, self.delta, self.power, answer)
         return answer
 
