@@ -10,8 +10,8 @@ from typing import NoReturn
 
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
-from hexmend.io.base.content import INTERPOLATE_MISSING
 from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
 from hexmend.io.base.plugins import plugin_formats
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.mesh.mesh import Mesh

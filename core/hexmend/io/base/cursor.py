@@ -1,4 +1,4 @@
-"""A file's content with a place in it: takes words, lines and numbers off its front and knows where it stands."""
+"""Cursor over a file's bytes, and checks of the words and numbers in a text file."""
 
 from __future__ import annotations
 
@@ -16,25 +16,30 @@ _SPACE = re.compile(rb"\s*")
 _KEYWORD = re.compile(rb"[A-Za-z_]{2,}\Z")
 
 _NEWLINE = b"\n"
-#: More than a line of words has; a file without line ends is not one line.
-_LINE = 1 << 16
-#: How much is parsed at a time where a word that is no number is looked for.
-_PIECE = 1 << 20
+#: Longest line in bytes: a file without line ends is not taken for a single line.
+_LONGEST_LINE = 1 << 16
+#: Bytes that are parsed at a time in the search for a word that is not a number.
+_CHUNK = 1 << 20
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 class ByteCursor:
-    """The bytes of a file and the place that was reached.
+    """Cursor over a file's bytes; errors report line or offset.
 
     Parameters
     ----------
     path : Path
-        The file; errors name it.
+        Named in errors.
     data : bytes
-        Its content.
+        Content of the file.
     is_text : bool
-        Whether the numbers are written in decimals, so that errors name lines; else they name bytes.
+        Numbers are decimals, and errors report the line; else errors report the offset in bytes.
+
+    Attributes
+    ----------
+    pos : int
+        Offset of the next byte to read.
     """
 
     def __init__(self, path: Path, data: bytes, is_text: bool = True):
@@ -44,62 +49,79 @@ class ByteCursor:
         self.pos = 0
 
     def error(self, problem: str, remedy: str = _DAMAGED) -> FileError:
-        """The error to raise."""
+        """Make the error to raise; `problem` and `remedy` are as of `FileError`."""
         return FileError(self.path, problem, remedy)
 
     def location_of(self, pos: int) -> str:
-        """A byte's place in words."""
+        """Describe the location of a byte, such as "line 12"."""
         if not self.is_text:
             return f"byte {pos}"
         return f"line {self.data.count(_NEWLINE, 0, pos) + 1}"
 
     @property
     def location(self) -> str:
-        """The place that was reached, in words."""
+        """Location of the next byte, such as "line 12"."""
         return self.location_of(self.pos)
 
     @property
     def at_end(self) -> bool:
-        """Whether nothing but white space is left."""
+        """True if only white space is left."""
         return _SPACE.match(self.data, self.pos).end() == len(self.data)
 
     def rest_of_line(self) -> str:
-        """The rest of the line, without white space at its ends; empty for a blank one."""
+        """Read the rest of the line, without white space at its ends; empty for a blank line."""
         end = self.data.find(b"\n", self.pos)
         end = len(self.data) if end < 0 else end
-        line, self.pos = self.data[self.pos : min(end, self.pos + _LINE)], min(end + 1, len(self.data))
+        line, self.pos = self.data[self.pos : min(end, self.pos + _LONGEST_LINE)], min(end + 1, len(self.data))
         return line.decode("utf-8", errors="replace").strip()
 
     def next_line(self) -> str:
-        """The next line that is not blank; empty at the end."""
+        """Read the next line that is not blank; empty at the end of the file."""
         self.pos = _SPACE.match(self.data, self.pos).end()
         return self.rest_of_line()
 
     def next_word(self) -> str:
-        """The next word; empty at the end."""
+        """Read the next word; empty at the end of the file."""
         found = _WORD.search(self.data, self.pos)
         self.pos = found.end() if found else len(self.data)
         return found.group().decode("utf-8", errors="replace") if found else ""
 
     def parse_count(self, word: str, what: str) -> int:
-        """The natural number that a word of a heading stands for."""
+        """Convert a word that has been read to a count.
+
+        Parameters
+        ----------
+        word : str
+        what : str
+            Meaning of the number, for errors.
+
+        Raises
+        ------
+        FileError
+            Where the word is not a natural number.
+        """
         if not (word.isascii() and word.isdigit() and len(word) < 19):
             raise self.error(f"{what} is {quoted(word)} before {self.location}: expected a natural number")
         return int(word)
 
     def read_numbers(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
-        """Take rows * width numbers written in decimals.
+        """Read rows * width decimal numbers.
 
         Parameters
         ----------
         section : str
-            What the numbers are, for errors.
+            Name of the array, for errors.
         rows, width : int
         dtype : float64, int64 or uint64
 
         Returns
         -------
         (rows, width) array
+
+        Raises
+        ------
+        FileError
+            For missing numbers, words that are no numbers, and integers of more than 64 bits.
         """
         count = rows * width
         if count == 0:
@@ -120,15 +142,19 @@ class ByteCursor:
         return values.reshape(rows, width)
 
     def read_numbers_until(self, section: str, mark: bytes, dtype: np.dtype | type) -> np.ndarray:
-        """Take all numbers written in decimals up to a word, and the word; (k,) array.
+        """Read all decimal numbers before a word, and the word.
 
         Parameters
         ----------
         section : str
-            What the numbers are, for errors.
+            Name of the array, for errors.
         mark : bytes
             The word.
         dtype : float64 or int64
+
+        Returns
+        -------
+        (k,) array
         """
         end = self.data.find(mark, self.pos)
         if end < 0:
@@ -140,12 +166,12 @@ class ByteCursor:
         return values
 
     def read_numbers_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
-        """Take all numbers written in decimals before a byte, (k,) array; see `read_numbers_until`."""
+        """Read all decimal numbers before the offset `end`, (k,) array; see `read_numbers_until`."""
         count = count_words(self.data[self.pos : end])
         return self.read_numbers(section, count, 1, dtype)[:, 0]
 
     def read_binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
-        """Take rows * width numbers as they lie in the file: a (rows, width) view of the file's byte order."""
+        """Read rows * width binary numbers; returns a (rows, width) view in the byte order of the file."""
         dtype = np.dtype(dtype)
         size = rows * width * dtype.itemsize
         left = len(self.data) - self.pos
@@ -157,14 +183,14 @@ class ByteCursor:
         return values.reshape(rows, width)
 
     def read_bytes(self, size: int, what: str) -> bytes:
-        """Take bytes as they are."""
+        """Read `size` bytes; `what` names them in errors."""
         if size > len(self.data) - self.pos:
             raise self.error(f"{what} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
         self.pos += size
         return self.data[self.pos - size : self.pos]
 
     def _numeric_end(self) -> int:
-        """Where the numbers from here on end: before the next word that holds a letter."""
+        """Offset at which the numbers end: before the next word with a letter."""
         end = self.pos
         while True:
             end = _NUMERIC.match(self.data, end).end()
@@ -174,11 +200,11 @@ class ByteCursor:
             end = special.end()
         if end < len(self.data):
             while end > self.pos and not self.data[end - 1 : end].isspace():
-                end -= 1  # a word such as 2nd has begun as a number
+                end -= 1  # a word such as 2nd begins like a number
         return end
 
     def _checked_end(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> int:
-        """Walk number by number: the end of the last one, or an error that names the first that is none."""
+        """Parse number by number; returns the offset behind the last one, and raises at the first other word."""
         kind = float if np.dtype(dtype).kind == "f" else int
         end, k = self._numbers_until(dtype, rows * width)
         for found in _WORD.finditer(self.data, end):
@@ -186,7 +212,7 @@ class ByteCursor:
                 return end
             word = found.group()
             try:
-                if b"_" in word or (np.dtype(dtype).kind == "u" and word[:1] == b"-"):  # which Python admits
+                if b"_" in word or (np.dtype(dtype).kind == "u" and word[:1] == b"-"):  # accepted by Python
                     raise ValueError
                 kind(word)
             except ValueError:
@@ -207,12 +233,12 @@ class ByteCursor:
         )
 
     def _numbers_until(self, dtype: np.dtype | type, count: int) -> tuple[int, int]:
-        """A place before which all words are numbers, and how many these are, fewer than `count`."""
+        """Skip chunks that hold numbers only; returns an offset and the count of numbers before it, below `count`."""
         at, k = self.pos, 0
         while at < len(self.data):
-            piece = self.data[at : at + _PIECE]
-            end = max(piece.rfind(b" "), piece.rfind(b"\n")) + 1
-            values, found = _parsed(piece[:end], dtype), count_words(piece[:end])
+            chunk = self.data[at : at + _CHUNK]
+            end = max(chunk.rfind(b" "), chunk.rfind(b"\n")) + 1
+            values, found = _parsed(chunk[:end], dtype), count_words(chunk[:end])
             if not end or values is None or values.size != found or k + found >= count:
                 break
             at, k = at + end, k + found
@@ -220,7 +246,7 @@ class ByteCursor:
 
 
 def read_text_bytes(path: Path) -> bytes:
-    """The content of a file of text, once its beginning is known to be that."""
+    """Read a text file as bytes; raises `FileError` if its first 4,096 bytes hold a zero."""
     with open(path, "rb") as file:
         if b"\0" in file.read(4096):
             raise FileError(path, "holds bytes that are no text", "Check its suffix, or write the file again.")
@@ -229,13 +255,13 @@ def read_text_bytes(path: Path) -> bytes:
 
 
 def quoted(word: str) -> str:
-    """A word of the file for a message: quoted, printable and short."""
+    """Quote a word of the file for a message, printable and of 20 characters at most."""
     word = "".join(c if c.isprintable() else "?" for c in word[:25])
     return repr(word[:20] + "..." if len(word) > 20 else word) if word else "missing"
 
 
 def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
-    """The numbers of a text, or None where it holds something else."""
+    """Parse the numbers of a text; None if it holds something else."""
     try:
         return np.fromstring(text, dtype=dtype, sep=" ")
     except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns and gives fewer numbers than words
@@ -243,15 +269,15 @@ def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
 
 
 def exceeds_dtype(values: np.ndarray, text: bytes) -> bool:
-    """Whether words among whole numbers are beyond what 64 bits hold: they were read as the last that these do."""
-    ends = np.iinfo(values.dtype)
-    if not values.size or (values.max() < ends.max and (ends.min == 0 or values.min() > ends.min)):
+    """Return True if a word of the text exceeds the integer type of `values`, to whose limits NumPy clips it."""
+    limits = np.iinfo(values.dtype)
+    if not values.size or (values.max() < limits.max and (limits.min == 0 or values.min() > limits.min)):
         return False
-    return not all(ends.min <= int(word) <= ends.max for word in text.split()[: values.size])
+    return not all(limits.min <= int(word) <= limits.max for word in text.split()[: values.size])
 
 
 def count_words(text: bytes) -> int:
-    """Number of words; a loop over 16 MB at a time keeps the memory small."""
+    """Count the words of a text, 16 MB at a time to limit the memory."""
     total, before = 0, True
     for start in range(0, len(text), 1 << 24):
         space = np.frombuffer(text, np.uint8, min(1 << 24, len(text) - start), start) <= 32

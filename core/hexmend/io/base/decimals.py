@@ -1,4 +1,4 @@
-"""Numbers as text, a line a row: what takes longest in writing a mesh for people."""
+"""Numbers as decimal text, the slowest part of writing text files."""
 
 from __future__ import annotations
 
@@ -6,19 +6,24 @@ import numpy as np
 
 from hexmend.kernels import decimals
 
-#: Rows that are turned into text at a time, so that the text of a large mesh need not lie in memory at once.
-ROWS = 65536
+#: Rows that are formatted at a time, which limits the memory for the text of a large mesh.
+CHUNK_ROWS = 65536
 
 
 def format_rows(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
-    """Rows of numbers; floats as the shortest text that gives the same number back.
+    """Format rows of numbers, one a line; floats as the shortest text that gives the same number back.
 
     Parameters
     ----------
-    values : (n, ...) array of whole numbers or floats
-        A row is what belongs to one entry of the first axis.
-    last : (n,) array of whole numbers, optional
-        Behind each row of floats.
+    values : (n, ...) array of int or float
+        All but the first axis belong to a row.
+    last : (n,) array of int, optional
+        Appended to each row of floats.
+
+    Returns
+    -------
+    bytes
+        n lines.
 
     Examples
     --------
@@ -29,7 +34,7 @@ def format_rows(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
     """
     rows = values.reshape(len(values), -1)
     if rows.dtype == np.uint64 and rows.size and rows.max() > np.iinfo(np.int64).max:
-        return b"".join(b" ".join(b"%d" % one for one in row) + b"\n" for row in rows.tolist())
+        return b"".join(b" ".join(b"%d" % value for value in row) + b"\n" for row in rows.tolist())
     if rows.dtype.kind in "iu":
         return decimals.whole_lines(np.ascontiguousarray(rows, np.int64).ravel(), rows.shape[1])
     behind = np.ascontiguousarray([] if last is None else last, np.int64)
@@ -37,5 +42,5 @@ def format_rows(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
 
 
 def row_chunks(count: int) -> list[slice]:
-    """Rows to be written at a time."""
-    return [slice(begin, begin + ROWS) for begin in range(0, count, ROWS)]
+    """Split `count` rows into slices that are formatted and written at a time."""
+    return [slice(begin, begin + CHUNK_ROWS) for begin in range(0, count, CHUNK_ROWS)]

@@ -1,4 +1,4 @@
-"""Pins as data of the nodes named "fixed", for formats that have nothing else to mark fixed nodes with."""
+"""Fixed nodes as point data named "fixed", for formats that have no other way to mark them."""
 
 from __future__ import annotations
 
@@ -13,9 +13,17 @@ FIXED = "fixed"
 
 
 def find_marks(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndarray | None]:
-    """Name of the data that mark fixed nodes, and which those are, (n,) bool; None where no data do.
+    """Find point data that mark fixed nodes: the first one called "fixed", in any case, with one number a node.
 
-    They are the first called "fixed", in whatever capitals, with one number a node. One of 0, or NaN, is not fixed.
+    Parameters
+    ----------
+    node_data : mapping of str to (n, ...) array
+
+    Returns
+    -------
+    name : str or None
+    fixed : (n,) bool or None
+        False where the number is 0 or NaN. Both are None if there are no such data.
     """
     for name, values in node_data.items():
         marks = np.asarray(values)
@@ -25,36 +33,36 @@ def find_marks(node_data: Mapping[str, np.ndarray]) -> tuple[str | None, np.ndar
 
 
 def needs_marks(mesh: Mesh, marks: np.ndarray | None = None) -> bool:
-    """Whether a file of the mesh has to mark fixed nodes so that its reader pins the same ones.
+    """Return True if a file must mark fixed nodes so that its reader pins the same nodes.
 
     Parameters
     ----------
     mesh : Mesh
     marks : (n,) bool, optional
-        Nodes that the file marks anyway. Those of tetrahedra, pyramids and wedges every reader pins unmarked.
+        Nodes that the file marks in any case. Readers pin nodes of tetrahedra, pyramids and wedges without a mark.
     """
     if mesh.pinned is None:
         return False
-    known = np.zeros(mesh.n_nodes, bool) if marks is None else np.array(marks, bool)
-    free_of_cells = np.ones(mesh.n_nodes, bool)
+    marked = np.zeros(mesh.n_nodes, bool) if marks is None else np.array(marks, bool)
+    unpinned_by_cells = np.ones(mesh.n_nodes, bool)
     for cells in mesh.cells:
         if cells.dimension == 3:
-            free_of_cells[cells.nodes] = False
-    return not np.array_equal(known[free_of_cells], mesh.pinned[free_of_cells])
+            unpinned_by_cells[cells.nodes] = False
+    return not np.array_equal(marked[unpinned_by_cells], mesh.pinned[unpinned_by_cells])
 
 
 def redundant_marks(mesh: Mesh) -> str | None:
-    """Name of the data that say no more than the pins do, and need not be written beside them; None for none."""
+    """Return the name of point data that repeat the fixed nodes and need not be written; None if there are none."""
     name, marks = find_marks(mesh.node_data) if needs_marks(mesh) else (None, None)
     return name if name is not None and (np.asarray(mesh.node_data[name])[marks] == 1).all() else None
 
 
 def with_marks(mesh: Mesh) -> dict[str, np.ndarray]:
-    """Data of the nodes, the pins among them as data named "fixed" unless the file said just that."""
+    """Copy the point data of a mesh and add the marks of fixed nodes, where a file needs them."""
     data = dict(mesh.node_data)
     name, marks = find_marks(data)
     if needs_marks(mesh, marks):
-        if name is None:  # which other data may be called
-            name = next((one for one in (FIXED, FIXED.title()) if one not in data), FIXED.upper())
-        data[name] = mesh.pinned.astype(np.int32)  # what the file said, unless the pins have changed since
+        if name is None:  # other data, such as vectors, may have the name
+            name = next((title for title in (FIXED, FIXED.title()) if title not in data), FIXED.upper())
+        data[name] = mesh.pinned.astype(np.int32)
     return data

@@ -1,4 +1,4 @@
-"""HDF5 files as others lay their formats in them: what is read of one is bounded by its size."""
+"""Access to HDF5 files: readers run in a subprocess, links to other files are refused, and sizes are bounded."""
 
 from __future__ import annotations
 
@@ -14,29 +14,33 @@ MAGIC = b"\x89HDF\r\n\x1a\n"
 
 _ONE_FILE = "Write all data into one file with the program that made it (links: HDF5's h5copy -f ext)."
 
-#: Compressed arrays may be that many times the size of the file, and that many bytes whatever its size.
-_GROWTH, _ALWAYS = 100, 1 << 28
+#: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
+_LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
 
 
 def read_content(reader: str, path: Path) -> Content:
-    """What a reader makes of a file, in a process of its own, which the HDF5 library may end on a damaged one.
+    """Read a file in a subprocess, which the HDF5 library may crash on a damaged file.
 
     Parameters
     ----------
     reader : str
-        "module:function", as `hexmend.io.storage.subprocess_reader.in_child` has it.
+        "module:function", see `hexmend.io.storage.subprocess_reader.run_reader`.
     path : Path
+
+    Returns
+    -------
+    Content
 
     Raises
     ------
     FileError
-        At once where the file is plainly none of HDF5; else as the reader does, or where it has no answer.
+        At once where the signature of HDF5 is missing; else from the reader, or where it crashes.
     """
     from hexmend.io.storage.subprocess_reader import run_reader
 
     size, at = os.path.getsize(path), 0
     with open(path, "rb") as file:
-        while file.read(len(MAGIC)) != MAGIC:  # before which a block of the program's own may stand
+        while file.read(len(MAGIC)) != MAGIC:  # a user block may precede it
             at = 2 * at or 512
             if at >= size:
                 raise FileError(path, "is no HDF5 file", "Check its suffix, or write it again: it may be damaged.")
@@ -45,12 +49,16 @@ def read_content(reader: str, path: Path) -> Content:
 
 
 def open_file(path: Path) -> object:
-    """The `h5py.File`, to be used with `with`; every reader of a format on HDF5 opens its file here.
+    """Open a file for a `with` statement; every reader of a format on HDF5 does it by this function.
+
+    Returns
+    -------
+    h5py.File
 
     Raises
     ------
     FileError
-        Where the library cannot open it, or where a part of it would be read from another file.
+        Where the library cannot open the file, or a part of it lies in another file.
     """
     import h5py
 
@@ -67,28 +75,29 @@ def open_file(path: Path) -> object:
 
 
 def _check_self_contained(path: Path, file: object) -> None:
-    """Raise a `FileError` where a link or a dataset leads out of the file, be it read or not.
+    """Raise a `FileError` where a link or a dataset refers to another file, even if it is not read.
 
-    The library would open whatever file is named there, even a pipe, and its bytes would become values of the mesh.
-    Soft links stay inside the file. A virtual dataset is refused even where its sources lie in the same file: no
-    writer of these formats makes one, and one that names itself ends the library.
+    The library would open any file that is named there, even a pipe, and its bytes would become values of the mesh.
+    Soft links stay inside the file. A virtual dataset is refused even if its sources lie in the same file: no writer
+    of these formats makes one, and a dataset that refers to itself crashes the library.
     """
     links: list[tuple[bytes, int]] = []
 
-    def visit(name: bytes, link: object) -> None:  # calls nothing of the library, whose errors would be lost in here
+    def visit(name: bytes, link: object) -> None:  # without calls of the library, whose errors would be lost here
         links.append((name, link.type))
 
     try:
         file.id.links.visit(visit, info=True)
-        said = next((f"{_title(name)} {way}" for name, kind in links if (way := _leads_out(file, name, kind))), "")
+        problems = (f"{_title(name)} {problem}" for name, kind in links if (problem := _external(file, name, kind)))
+        problem = next(problems, "")
     except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
         raise damaged_file(path, error) from None
-    if said:
-        raise FileError(path, f"its {said}: no other file is opened", _ONE_FILE)
+    if problem:
+        raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
 
 
-def _leads_out(file: object, name: bytes, kind: int) -> str:
-    """How a link, or the dataset that it names, leads out of the file, in words; empty where it does not."""
+def _external(file: object, name: bytes, kind: int) -> str:
+    """Describe how a link or its dataset refers to another file; empty if it does not."""
     import h5py
 
     if kind == h5py.h5l.TYPE_SOFT:
@@ -110,15 +119,31 @@ def _leads_out(file: object, name: bytes, kind: int) -> str:
 
 
 def _title(name: bytes | str) -> str:
-    """The name of a file, or of what is in one, for a message: quoted, printable and not too long."""
+    """Quote the name of a file or an object for a message, printable and of 80 characters at most."""
     name = name.decode("utf-8", "replace") if isinstance(name, bytes) else name
     name = "".join(letter if letter.isprintable() else "?" for letter in name)
     return repr(f"{name[:80]}..." if len(name) > 80 else name)
 
 
 def read_dataset(path: Path, dataset: object) -> np.ndarray:
-    """The values of a dataset, once it is known that they are not larger than a file of this size can hold."""
-    bound = max(_ALWAYS, _GROWTH * os.path.getsize(path))
+    """Read a dataset after a check that it is not larger than a file of this size can hold.
+
+    Parameters
+    ----------
+    path : Path
+        Of the file.
+    dataset : h5py.Dataset
+
+    Returns
+    -------
+    array
+
+    Raises
+    ------
+    FileError
+        For a dataset that is too large or damaged.
+    """
+    bound = max(_ALWAYS_READ, _LARGEST_RATIO * os.path.getsize(path))
     try:
         size, width = dataset.size, dataset.dtype.itemsize
         if size is not None and size * width <= bound:
@@ -133,7 +158,7 @@ def read_dataset(path: Path, dataset: object) -> np.ndarray:
 
 
 def damaged_file(path: Path, error: Exception) -> FileError:
-    """The error to raise where the library has failed."""
+    """Make the error to raise after an error of the library."""
     detail = " ".join(str(error).split())[:160]
     return FileError(
         path,

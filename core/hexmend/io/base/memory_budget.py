@@ -1,4 +1,4 @@
-"""How much memory the arrays of a file may take: so that a small file cannot fill it, whatever it claims."""
+"""Limit on the memory for the arrays of a file, so that a small damaged file cannot exhaust it."""
 
 from __future__ import annotations
 
@@ -6,34 +6,42 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 
-#: Bytes that any file may have, and how many more for each of its own: constants are packed up to 1 : 650.
-_FLOOR, _RATIO = 1 << 26, 100
+#: Bytes that the arrays of any file may have, and further bytes for each byte of the file. Compression reaches 650
+#: for constant arrays only.
+_BASE, _BYTES_PER_BYTE = 1 << 26, 100
 
 
 class MemoryBudget:
-    """What is left of the bytes that a file's arrays may have.
+    """Budget of bytes for the arrays of one file.
 
     Parameters
     ----------
     path : Path
-        Errors name it.
+        Named in errors.
     size : int
-        Of the file, in bytes.
+        Size of the file in bytes.
     """
 
     def __init__(self, path: Path, size: int):
         self.path, self.size, self.announced = path, size, 0
 
     def charge(self, size: int, what: str) -> None:
-        """Count the bytes that an array is announced to have, before it is read.
+        """Add the announced size of an array, before it is read.
+
+        Parameters
+        ----------
+        size : int
+            Bytes.
+        what : str
+            The array, for errors.
 
         Raises
         ------
         FileError
-            Where all arrays together are more than the file can have.
+            Where all arrays together exceed the budget.
         """
         self.announced += size
-        if self.announced > _FLOOR + _RATIO * self.size:
+        if self.announced > _BASE + _BYTES_PER_BYTE * self.size:
             raise FileError(
                 self.path,
                 f"{what} and the arrays before it are announced to have {self.announced >> 20:,} MB: too many for a "

@@ -1,4 +1,4 @@
-"""The file's own numbers of nodes and elements: found on reading, kept on writing."""
+"""Ids of nodes and elements: lookup on reading, choice on writing."""
 
 from __future__ import annotations
 
@@ -14,27 +14,28 @@ from hexmend.mesh.mesh import Mesh
 
 
 def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.ndarray:
-    """Where numbers stand among those of the file.
+    """Look up the indices of ids.
 
     Parameters
     ----------
     path : Path
-        The file; errors name it.
+        Named in errors.
     ids : (n,) int
-        The file's numbers, in any order.
+        Ids of the file, in any order.
     wanted : (...) int
+        Ids to look up.
     what : str
-        What is numbered, for errors: "node" or "element".
+        "node" or "element", for errors.
 
     Returns
     -------
     (...) int64
-        `ids[places] == wanted`.
+        Indices with `ids[indices] == wanted`.
 
     Raises
     ------
     FileError
-        For a number that the file has not, or has twice.
+        For an id that is missing or given twice.
 
     Examples
     --------
@@ -64,36 +65,46 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.n
     return found
 
 
-#: Numbers of nodes and elements are below this in most formats.
+#: Ids are smaller than this in limit formats.
 ID_LIMIT = 2**31
 
 
-def node_ids(data: dict[str, np.ndarray], count: int, most: int = ID_LIMIT) -> np.ndarray:
-    """Numbers under which nodes are written, (count,) int64: their ids where these are usable, else from 1.
+def node_ids(data: dict[str, np.ndarray], count: int, limit: int = ID_LIMIT) -> np.ndarray:
+    """Choose the ids under which nodes are written: those of the mesh if the format supports them, else from 1.
 
     Parameters
     ----------
-    data : mapping of name to (count, ...) array
+    data : mapping of str to (count, ...) array
+        Node data, of which "id" holds the ids of the mesh.
     count : int
-    most : int
-        Ids from this on are none that the format can have.
+    limit : int
+        Ids of the format are smaller than this.
+
+    Returns
+    -------
+    (count,) int64
     """
-    ids = _usable(data.get(ID), count, most)
+    ids = _usable(data.get(ID), count, limit)
     return np.arange(1, count + 1) if ids is None or len(np.unique(ids)) < count else ids
 
 
-def element_ids(blocks: Sequence[Block], most: int = ID_LIMIT) -> list[np.ndarray]:
-    """Numbers under which the elements of blocks are written: their ids where these are usable, others after them.
+def element_ids(blocks: Sequence[Block], limit: int = ID_LIMIT) -> list[np.ndarray]:
+    """Choose the ids under which elements are written: those of the mesh if the format supports them.
 
-    No two elements have the same one.
+    Blocks without usable ids get the following numbers; ids are unique.
 
     Parameters
     ----------
     blocks : sequence of Block
-    most : int
-        Ids from this on are none that the format can have.
+    limit : int
+        Ids of the format are smaller than this.
+
+    Returns
+    -------
+    list of (k,) int64
+        Ids of each block.
     """
-    ids = [_usable(block.data.get(ID), len(block), most) for block in blocks]
+    ids = [_usable(block.data.get(ID), len(block), limit) for block in blocks]
     known = [one for one in ids if one is not None]
     taken = np.concatenate([*known, np.zeros(0, np.int64)])
     if len(np.unique(taken)) < taken.size:
@@ -108,8 +119,23 @@ def element_ids(blocks: Sequence[Block], most: int = ID_LIMIT) -> list[np.ndarra
     return answer
 
 
+def first_out_of_range(values: np.ndarray, count: int) -> int | None:
+    """Return the first value that is not from 0 to count - 1; None if there is none."""
+    if not values.size or (values.min() >= 0 and values.max() < count):
+        return None
+    return int(values[(values < 0) | (values >= count)].flat[0])
+
+
 def runs(*keys: np.ndarray) -> list[slice]:
-    """Stretches over which every one of some (n,) arrays stays the same, in order.
+    """Split n entries into runs over which several arrays are constant.
+
+    Parameters
+    ----------
+    *keys : (n,) array
+
+    Returns
+    -------
+    list of slice
 
     Examples
     --------
@@ -127,7 +153,20 @@ def runs(*keys: np.ndarray) -> list[slice]:
 
 
 def set_combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[list[str]], np.ndarray]:
-    """The combinations of sets that things are in, and which of them each of `count` things is in, (count,) int.
+    """Find the combinations of sets that occur, and the combination of each member.
+
+    Parameters
+    ----------
+    sets : mapping of str to (k,) int array
+        Members, from 0 to count - 1.
+    count : int
+
+    Returns
+    -------
+    combinations : list of list of str
+        Names of the sets.
+    which : (count,) int
+        Index of the combination of each member.
 
     Examples
     --------
@@ -137,7 +176,7 @@ def set_combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[l
     """
     names = list(sets)
     members = [np.unique(np.asarray(sets[name], np.int64)) for name in names]
-    marks = np.zeros(count, np.uint64)  # sums of random numbers, one a set, tell the combinations apart
+    marks = np.zeros(count, np.uint64)  # sum of a random number for each set: unique for each combination
     weights = np.random.default_rng(0).integers(1, 2**63, len(names)).astype(np.uint64)
     for rows, weight in zip(members, weights, strict=True):
         marks[rows] += weight
@@ -149,39 +188,44 @@ def set_combinations(sets: Mapping[str, np.ndarray], count: int) -> tuple[list[l
     return found, which
 
 
-def unsupported_ids(mesh: Mesh, most: int = ID_LIMIT) -> list[str]:
-    """Ids of a mesh that a file numbered from 1 cannot have, in words; its nodes or elements are numbered anew.
+def unsupported_ids(mesh: Mesh, limit: int = ID_LIMIT) -> list[str]:
+    """Describe the ids that a file numbered from 1 cannot store, so that nodes or elements are renumbered.
 
     Parameters
     ----------
     mesh : Mesh
-    most : int
-        Ids from this on are none that the format can have.
+    limit : int
+        Ids of the format are smaller than this.
+
+    Returns
+    -------
+    list of str
+        Phrases for a message; empty if all ids can be stored.
     """
-    content, answer = from_mesh(mesh), []
+    content, phrases = from_mesh(mesh), []
     ids = content.node_data.get(ID)
-    if ids is not None and (why := _unfit(ids, len(content.points), most) or _repeated([ids])):
-        answer.append(f"ids of nodes ({why})")
+    if ids is not None and (reason := _reason(ids, len(content.points), limit) or _repeated([ids])):
+        phrases.append(f"ids of nodes ({reason})")
     known = [(block.data[ID], len(block)) for block in content.blocks if ID in block.data and len(block)]
-    reasons = [why for ids, count in known if (why := _unfit(ids, count, most))]
+    reasons = [reason for ids, count in known if (reason := _reason(ids, count, limit))]
     if reasons or (reasons := [why for why in [_repeated([ids for ids, _ in known])] if why]):
-        answer.append(f"ids of elements ({', '.join(dict.fromkeys(reasons))})")
-    return answer
+        phrases.append(f"ids of elements ({', '.join(dict.fromkeys(reasons))})")
+    return phrases
 
 
-def _usable(ids: np.ndarray | None, count: int, most: int) -> np.ndarray | None:
-    """Ids that a file can have, (count,) int64, else None."""
-    return None if ids is None or count == 0 or _unfit(ids, count, most) else np.asarray(ids).astype(np.int64)
+def _usable(ids: np.ndarray | None, count: int, limit: int) -> np.ndarray | None:
+    """Ids as (count,) int64; None if the format cannot store them."""
+    return None if ids is None or count == 0 or _reason(ids, count, limit) else np.asarray(ids).astype(np.int64)
 
 
-def _unfit(ids: np.ndarray, count: int, most: int) -> str:
-    """Why ids are none that a file can have, which are whole numbers from 1 and below `most`; empty where they are."""
+def _reason(ids: np.ndarray, count: int, limit: int) -> str:
+    """Reason why ids are not whole numbers from 1 to limit - 1; empty if they are."""
     ids = np.asarray(ids)
     if ids.shape != (count,) or ids.dtype.kind not in "iu":
         return "no whole numbers"
     if count and ids.min() < 1:
         return "some below 1"
-    return f"some of {'2^31' if most == ID_LIMIT else f'{most:,}'} and above" if count and ids.max() >= most else ""
+    return f"some of {'2^31' if limit == ID_LIMIT else f'{limit:,}'} and above" if count and ids.max() >= limit else ""
 
 
 def _repeated(ids: Sequence[np.ndarray]) -> str:

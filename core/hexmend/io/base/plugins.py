@@ -1,4 +1,4 @@
-"""Formats of other distributions, such as those that need VTK, by the entry-point group `hexmend.formats`."""
+"""Formats of other distributions, such as those that need VTK, from the entry-point group `hexmend.formats`."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from functools import cache
 from hexmend.io.base.format import Format
 from hexmend.registry import load_entry_points
 
-#: Entries name a `Format`.
+#: Entry-point group whose entries name a `Format`.
 GROUP = "hexmend.formats"
 
 
 @cache
 def plugin_formats() -> tuple[Format, ...]:
-    """Those formats, looked for once; one that cannot be loaded is told of, and the others go on."""
+    """Load the formats of other distributions, once; for one that cannot be loaded a warning is logged."""
     found: list[Format] = []
 
     def take(name: str, format: object) -> None:

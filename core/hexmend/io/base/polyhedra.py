@@ -1,7 +1,8 @@
-"""Cells given by their faces, as OpenVolumeMesh and CGNS have them: hexes, wedges, pyramids and tetrahedra.
+"""Cells given by their faces, as in OpenVolumeMesh and CGNS: hexes, wedges, pyramids and tetrahedra.
 
-A face is a loop of nodes, and a cell a list of faces, each of which it sees from inside as the loop says, or turned.
-The first face of the right width is a cell's base, whose corners come first; from each of them one edge rises::
+A face is a loop of nodes. A cell is a list of faces, each with its orientation: the loop as seen from inside the cell,
+or reversed. The first face of the right width is the base of a cell. Its corners come first, and an edge rises from
+each of them::
 
     kind     faces             base   corner 0 lies in the base and in the faces
     hex      6 quads           quad   2 and 4
@@ -9,7 +10,8 @@ The first face of the right width is a cell's base, whose corners come first; fr
     pyramid  1 quad, ...       quad   1 and 2
     tetra    4 triangles       3      1 and 2
 
-Faces are counted from 0. Where no or several corners lie in these, corner 0 is that with which the base's loop begins.
+Faces are counted from 0. Where no corner or several corners lie in these faces, the loop of the base begins with
+corner 0.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
 
-#: Of each kind the faces' loops as they are seen from inside, the base first, in OpenVolumeMesh's order for hexes.
+#: Loops of the faces of each kind as seen from inside, base first, in OpenVolumeMesh's order for hexes.
 LOOPS = {
     "hex": tuple(map(tuple, FACES[[4, 5, 0, 1, 2, 3], ::-1].tolist())),
     "wedge": ((0, 1, 2), (0, 3, 4, 1), (0, 2, 5, 3), (1, 4, 5, 2), (3, 5, 4)),
@@ -28,7 +30,7 @@ LOOPS = {
     "tetra": ((0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)),
 }
 #: Faces that meet the base in corner 0.
-_FIRST = {"hex": (2, 4), "wedge": (1, 2), "pyramid": (1, 2), "tetra": (1, 2)}
+_CORNER_FACES = {"hex": (2, 4), "wedge": (1, 2), "pyramid": (1, 2), "tetra": (1, 2)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,14 +52,14 @@ class RaggedArray:
 
     @property
     def lengths(self) -> np.ndarray:
-        """How many numbers each row has, (k,) int64."""
+        """Length of each row, (k,) int64."""
         return np.diff(self.start)
 
 
 def cells_from_faces(
     faces: RaggedArray, cells: RaggedArray, turned: np.ndarray
 ) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """The cells of each kind that there is.
+    """Find the nodes of cells that are given by faces.
 
     Parameters
     ----------
@@ -66,12 +68,13 @@ def cells_from_faces(
     cells : RaggedArray
         Faces of each cell.
     turned : (cells.start[-1],) bool
-        Whether a cell sees the face from inside as the other way round.
+        True where the cell sees the face from inside in reverse.
 
     Returns
     -------
     dict of kind to (which, nodes)
-        Which cells are of the kind, (k,) int64, and their nodes in VTK's order, (k, width) int64.
+        Indices of the cells of the kind, (k,) int64, and their nodes in VTK's order, (k, width) int64. Other
+        polyhedra are left out.
     """
     found = {kind: _of_kind(kind, faces, cells, turned) for kind in LOOPS}
     return {kind: (which, nodes) for kind, (which, nodes) in found.items() if len(which)}
@@ -89,7 +92,7 @@ def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarr
         return which, np.empty((0, 0), np.int64)
 
     def corner(k: np.ndarray) -> np.ndarray:
-        """Corner k of each face from inside, 0 behind the last, (cells, faces, 4)."""
+        """Corner k of each face as seen from inside, (cells, faces, 4); the first one again beyond the last."""
         k = np.where(k < widths[:, :, None], k, 0)
         k = np.where(turned[at][:, :, None], widths[:, :, None] - 1 - k, k)
         return faces.values[faces.start[cells.values[at]][:, :, None] + k]
@@ -98,7 +101,7 @@ def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarr
     rows = np.arange(len(which))
     lower = begin[rows, (widths == base).argmax(axis=1), :base]
     first = np.ones(lower.shape, bool)
-    for face in _FIRST[kind]:
+    for face in _CORNER_FACES[kind]:
         first &= (lower[:, :, None] == begin[:, face, None, :]).any(axis=2)
     shift = np.where(first.sum(axis=1) == 1, first.argmax(axis=1), 0)
     lower = np.take_along_axis(lower, (np.arange(base) + shift[:, None]) % base, axis=1)
@@ -120,19 +123,19 @@ def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarr
 
 
 def faces_from_cells(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, np.ndarray, RaggedArray]:
-    """The faces of cells, each once, and the half-faces of each cell.
+    """Find the faces of cells, each once, and the half-faces of each cell.
 
     Parameters
     ----------
     blocks : list of (kind, (k, width) int array)
-        Cells and their nodes, no node twice in a cell.
+        Nodes of the cells, which differ within a cell.
 
     Returns
     -------
     loops : (f, 4) int64
-        The nodes of each face as the first cell that has it sees it from inside; -1 behind those of a triangle.
+        Nodes of each face as seen from inside its first cell; -1 in the fourth column of a triangle.
     halves : RaggedArray
-        Of each cell 2 k for face k, or 2 k + 1 where the cell sees it the other way round.
+        For each cell 2 k for face k, or 2 k + 1 if the cell sees the loop in reverse.
     """
     loops, start = [], [np.zeros(1, np.int64)]
     for kind, nodes in blocks:
@@ -143,11 +146,11 @@ def faces_from_cells(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, 
     given = np.concatenate(loops)
     widths = (given >= 0).sum(axis=1)
     low = np.where(given < 0, np.iinfo(np.int64).max, given).argmin(axis=1)[:, None]
-    forth = np.take_along_axis(given, _places(widths, low + np.arange(4)), axis=1)
-    back = np.take_along_axis(given, _places(widths, low - np.arange(4)), axis=1)
-    turned = back[:, 1] < forth[:, 1]  # of the two ways round, that whose second node is the lower
+    forth = np.take_along_axis(given, _wrap(widths, low + np.arange(4)), axis=1)
+    back = np.take_along_axis(given, _wrap(widths, low - np.arange(4)), axis=1)
+    turned = back[:, 1] < forth[:, 1]  # of the two directions, take the one with the lower second node
     alike = np.where(turned[:, None], back, forth)
-    order = np.lexsort(alike.T)  # which is stable: of faces that are one, the first comes first
+    order = np.lexsort(alike.T)  # stable: the first of equal faces comes first
     new = np.concatenate([[True], (np.diff(alike[order], axis=0) != 0).any(axis=1)])
     group = np.empty(len(given), np.int64)
     group[order] = np.cumsum(new) - 1
@@ -157,8 +160,8 @@ def faces_from_cells(blocks: list[tuple[str, np.ndarray]]) -> tuple[np.ndarray, 
     return given[np.sort(first)], RaggedArray(np.concatenate(start), halves)
 
 
-def _places(widths: np.ndarray, k: np.ndarray) -> np.ndarray:
-    """Places round loops of 3 or 4 nodes; those of triangles end with the place that is empty."""
+def _wrap(widths: np.ndarray, k: np.ndarray) -> np.ndarray:
+    """Indices modulo the lengths of loops of 3 or 4 nodes; the fourth index of a triangle is 3, its empty column."""
     k = k % widths[:, None]
     k[widths == 3, 3] = 3
     return k

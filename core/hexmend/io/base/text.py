@@ -1,4 +1,4 @@
-"""Texts from files that people write."""
+"""Reading of text files that users write."""
 
 from __future__ import annotations
 
@@ -10,26 +10,30 @@ from hexmend.io.files import check_readable
 
 
 def read_text(path: str | os.PathLike[str], what: str, largest: int) -> str:
-    """The text of a file.
+    """Read a text file in UTF-8.
 
     Parameters
     ----------
     path : path-like
     what : str
-        What the file is to hold, such as "a recipe".
+        Expected content for errors, such as "a recipe".
     largest : int
-        Letters that such a text may have.
+        Largest number of characters.
+
+    Returns
+    -------
+    str
 
     Raises
     ------
     FileError
-        Where the file cannot be read, is larger, or is no UTF-8: it names the line.
+        Where the file cannot be read, is larger, or is not UTF-8: it names the line.
     """
     path = Path(path)
     check_readable(path, what)
     try:
         with open(path, "rb") as file:
-            data = file.read(4 * largest + 4)  # bytes of so many letters
+            data = file.read(4 * largest + 4)  # bytes of `largest` characters
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1

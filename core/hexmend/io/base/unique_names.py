@@ -1,4 +1,4 @@
-"""Names of sets as a file can have them, no two of them alike."""
+"""Names of sets and data in the form that a file allows, without duplicates."""
 
 from __future__ import annotations
 
@@ -7,37 +7,46 @@ from itertools import count
 
 
 def make_unique(names: Iterable[str], form: Callable[[str, str], str]) -> dict[str, str]:
-    """Each name as it is written.
+    """Choose the names under which sets or data are written.
 
     Parameters
     ----------
     names : iterable of str
     form : callable
-        From a name and an end to the name, as a file can have it, with that end.
+        form(name, suffix) returns the name in the form that the file allows, with the suffix at its end.
 
     Returns
     -------
-    dict of name to str
-        Names that a file can have are kept; others that become the same as an earlier one end in " 2", " 3"...
+    dict of str to str
+        The written name of each name. Valid names are kept; if two names become the same, the later one gets the
+        suffix " 2", " 3"...
 
     Examples
     --------
-    >>> make_unique(["a\'b", 'a"b'], lambda name, end: name.replace('"', "'") + end)
+    >>> make_unique(["a\'b", 'a"b'], lambda name, suffix: name.replace('"', "'") + suffix)
     {"a'b": "a'b", 'a"b': "a'b 2"}
     """
     names = list(dict.fromkeys(names))
-    answer = {name: name for name in names if form(name, "") == name}
-    taken = set(answer)
+    written = {name: name for name in names if form(name, "") == name}
+    taken = set(written)
     for name in names:
-        if name not in answer:
-            answer[name] = next(
+        if name not in written:
+            written[name] = next(
                 title for k in count(1) if (title := form(name, "" if k == 1 else f" {k}")) not in taken
             )
-            taken.add(answer[name])
-    return {name: answer[name] for name in names}
+            taken.add(written[name])
+    return {name: written[name] for name in names}
 
 
 def altered_names(titles: dict[str, str], of: str = "sets") -> list[str]:
-    """That some names (of sets, or of what is said) are not written as they are, in words; nothing where all are."""
-    other = sorted(name for name, title in titles.items() if name != title)
-    return [f"names of {of} as they are ({', '.join(other)})"] if other else []
+    """Describe the names that are not written unchanged; empty if there are none.
+
+    Parameters
+    ----------
+    titles : dict of str to str
+        Written names, as from `make_unique`.
+    of : str
+        The things that have the names, in the message.
+    """
+    altered = sorted(name for name, title in titles.items() if name != title)
+    return [f"names of {of} as they are ({', '.join(altered)})"] if altered else []
