@@ -7,7 +7,7 @@ Each table maps an old name to the name that took its place:
 - `PARAMETERS`: parameters by the name of their owner (a method, or "stop"), in recipes, sessions, studies, records,
   on the command line, and as keywords and attributes in Python.
 - `ATTRIBUTES`: attributes by the name of their class, as keywords of its constructor too.
-- `KEYS`: keys of JSON records, by the kind of record.
+- `KEYWORDS`: keyword arguments of functions, by the function.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "Step": {"detour": "infeasible", "figures": "quality", "more": "intermediate", "notes": "diagnostics"},
 }
 
-KEYS: dict[str, dict[str, str]] = {}
+KEYWORDS: dict[str, dict[str, str]] = {"read": {"nodes_without_place": "interpolate_missing"}}
 
 
 def exports(module: str) -> Callable[[str], object]:
@@ -187,6 +187,25 @@ def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> typ
 
     cls.__init__, cls.__getattr__ = __init__, __getattr__
     return cls
+
+
+def old_keywords(owner: str) -> Callable[[Callable[..., T]], Callable[..., T]]:
+    """Make a decorator of a function, which then also takes keywords under their names of earlier versions.
+
+    Parameters
+    ----------
+    owner : str
+        Key in `KEYWORDS`.
+    """
+
+    def decorate(function: Callable[..., T]) -> Callable[..., T]:
+        @wraps(function)
+        def call(*args: object, **keywords: object) -> T:
+            return function(*args, **renamed(keywords, KEYWORDS[owner]))
+
+        return call
+
+    return decorate
 
 
 class _OldModules:

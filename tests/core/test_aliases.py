@@ -108,6 +108,12 @@ def test_the_energy_of_a_mesh_has_the_methods_of_version_0_1():
     assert energy.scaled(mesh.points).tolist() == energy.to_edge_units(mesh.points).tolist()
 
 
+def test_read_takes_its_keyword_of_version_0_1(tmp_path):
+    path = tmp_path / "a.vtk"
+    hx.write(path, hx.gallery.make("cube", size=8))
+    assert hx.read(path, nodes_without_place=True).n_hexes == 8
+
+
 def test_a_format_of_a_plugin_may_have_its_keywords_of_version_0_1():
     from hexmend.io.base.format import Capability, Format
 

@@ -1,6 +1,6 @@
-"""Meshes from and to files.
+"""Reading and writing of mesh files and surfaces.
 
-Every module of `hexmend.io.formats` is imported here and registers its format in FORMATS.
+Every module of `hexmend.io.formats` is imported here and registers its formats in FORMATS.
 
 >>> sorted(FORMATS)[:4]
 ['abaqus', 'cgns', 'exodus', 'gmsh']

@@ -1,4 +1,4 @@
-"""Reading and writing by suffix and content: the one door through which every format is used."""
+"""Reading and writing of mesh files; the format follows from suffix and content."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NoReturn
 
+from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
 from hexmend.io.base.format import FORMATS, Format
@@ -18,38 +19,39 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
 
-def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_place: bool = False) -> Mesh:
+@old_keywords("read")
+def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missing: bool = False) -> Mesh:
     """Read a hexahedral mesh.
 
     Parameters
     ----------
     path : path-like
-        A file of one of the formats, which its content tells where its suffix does not.
+        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading.
     as_is : bool
-        Keep parts whose hexes are all wound the other way as they are; else they are turned.
-    nodes_without_place : bool
-        Put nodes whose coordinates are no finite numbers between their neighbours; else they are an error.
+        Keep parts whose hexes are all mirrored; else their node order is reversed.
+    interpolate_missing : bool
+        Place nodes without finite coordinates between their neighbours; else they are an error.
 
     Returns
     -------
     Mesh
-        Named after the file's stem. Node and hex order, data, sets, pins and other cells are kept. Its `notes`
-        say what was done to it.
+        Named after the file's stem. The order of nodes and hexes, data, sets, fixed nodes and other cells are kept.
+        Its `notes` list the changes made on reading.
 
     Raises
     ------
     FileError
-        For every reason why the file gives no mesh: it names the place in the file and what to do.
+        Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
     check_readable(path, "a mesh file")
     format = _format_of(path)
     try:
-        placing = INTERPOLATE_MISSING.set(nodes_without_place)
+        token = INTERPOLATE_MISSING.set(interpolate_missing)
         try:
             mesh = format.read(path).replace(name=path.stem)
         finally:
-            INTERPOLATE_MISSING.reset(placing)
+            INTERPOLATE_MISSING.reset(token)
         return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -62,20 +64,21 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, nodes_without_pla
 
 
 def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = None) -> None:
-    """Write a mesh as a whole or, where that fails, leave what was there.
+    """Write a mesh; if that fails, an earlier file stays unchanged.
 
     Parameters
     ----------
     path : path-like
-        Its suffix chooses the format: one of `writable_suffixes()`.
+        Its suffix chooses the format; one of `writable_suffixes()`.
     mesh : Mesh
+        Data that the format cannot store are left out; see `unsupported_data`.
     encoding : str, optional
-        One of the format's `encodings`; the first of them if None.
+        One of the format's `encodings`; the first one if None.
 
     Raises
     ------
     FileError
-        Where the place cannot be written to, or the format cannot hold the mesh.
+        For an unknown suffix or encoding, and where the file cannot be written.
     """
     path = Path(path)
     format = _writer(path)
@@ -87,17 +90,26 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
     with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
-        except FileError as error:  # which names the temporary file
+        except FileError as error:  # it names the temporary file
             raise FileError(path, error.problem, error.remedy) from None
 
 
 def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str], Mesh], None]:
-    """`write`, once it is known that the path's suffix can be written; so that a long run does not end in an error.
+    """Return `write` after a check of suffix and folder, so that errors are found before a long run.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    callable
+        `write`
 
     Raises
     ------
     FileError
-        For an unknown suffix, or a place that cannot be written to.
+        For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
     _writer(path)
@@ -131,12 +143,12 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
 
 
 def readable_suffixes() -> tuple[str, ...]:
-    """Suffixes of the files that `read` understands, with the dot."""
+    """Return the suffixes that `read` knows, with the dot."""
     return _suffixes(_every_format())
 
 
 def writable_suffixes() -> tuple[str, ...]:
-    """Suffixes of the files that `write` makes, with the dot."""
+    """Return the suffixes that `write` knows, with the dot."""
     return _suffixes(format for format in _every_format() if format.write)
 
 
@@ -148,18 +160,18 @@ def _suffixes(formats: Iterable[Format]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
 
 
-#: What to do about a mesh that is none, and about one of which coordinates are no numbers.
+#: Remedies for an invalid mesh: False in general, True for coordinates that are not finite.
 _REMEDY = {
     False: "Correct the file, or write it again with the program that made it.",
     True: "Correct the file, or let hexmend repair put such nodes between their neighbours.",
 }
 
-#: How much of a file is looked at to recognise its format.
+#: Bytes from which the format of a file is recognised.
 _HEAD = 4096
 
 
 def _format_of(path: Path) -> Format:
-    """The format of a file: that of its suffix, unless the content is plainly that of another."""
+    """Find the format of a file: by the suffix, unless the content is of another format."""
     named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
     with open(path, "rb") as file:
         head = file.read(_HEAD)
@@ -169,7 +181,7 @@ def _format_of(path: Path) -> Format:
     for format in FORMATS.values():
         if format.matches is not None and format.matches(head):
             return format
-    for format in plugin_formats():  # which are looked for only where none of these knows the file
+    for format in plugin_formats():  # loaded only if none of ours matches
         if format.matches is not None and format.matches(head):
             return format
         if not named and path.suffix.lower() in format.suffixes:
@@ -178,7 +190,7 @@ def _format_of(path: Path) -> Format:
 
 
 def _writer(path: Path) -> Format:
-    for formats in (FORMATS.values, plugin_formats):  # other distributions' are looked for where none of ours writes it
+    for formats in (FORMATS.values, plugin_formats):  # plug-ins are loaded only if none of ours writes it
         for format in formats():
             if format.write and path.suffix.lower() in format.suffixes:
                 return format
@@ -193,13 +205,13 @@ def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
 
 
 def check_readable(path: Path, expected: str) -> None:
-    """Raise a `FileError` where there is no regular file that may be read and holds something.
+    """Raise a `FileError` unless the path is a readable regular file that is not empty.
 
     Parameters
     ----------
     path : Path
     expected : str
-        What the file should be, such as "a mesh file".
+        Expected content for errors, such as "a mesh file".
     """
     try:
         if path.is_dir():
@@ -210,16 +222,16 @@ def check_readable(path: Path, expected: str) -> None:
             raise FileError(path, "is no regular file", "Save it to a file first.")
         if path.stat().st_size == 0:
             raise FileError(path, "is empty", "Write it again with the program that made it.")
-    except (OSError, ValueError) as error:  # a folder that may not be entered, a name that no file can have
+    except (OSError, ValueError) as error:  # a folder without permission, an invalid name
         raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if not os.access(path, os.R_OK):
         raise FileError(path, "cannot be read: permission denied", "Ask for permission to read it, or copy it.")
 
 
 def _nearest(path: Path) -> str:
-    """A hint at a file of a similar name, as a sentence."""
+    """Suggest a file of a similar name, as a sentence."""
     try:
-        near = difflib.get_close_matches(path.name, (one.name for one in path.absolute().parent.iterdir()), n=1)
+        near = difflib.get_close_matches(path.name, (entry.name for entry in path.absolute().parent.iterdir()), n=1)
     except OSError:
         near = []
     return f"Did you mean {near[0]}?" if near else "Check the spelling."

@@ -1,7 +1,7 @@
-"""A tree of plain data and arrays as one file: a zip with a description in JSON and an .npy of every array.
+"""Trees of plain data and arrays as a zip file: a description in JSON and an .npy file for each array.
 
-Nothing in it is ever run, and nothing is compressed, so that no file takes more memory than its own size and that of
-its text. An array that is in several places of the tree is written once, and is one array again when it is read.
+Reading never executes code, and nothing is compressed, so that a file needs no more memory than its own size and that
+of its text. An array that occurs several times in the tree is written once, and read as one array.
 """
 
 from __future__ import annotations
@@ -18,21 +18,30 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.archive.members import ARRAYS, DESCRIPTION, NOT_OURS, REMEDY, ArrayReader, open_members
 
-#: What stands for an array in the description. Names that begin with its first letter get another one before them.
+#: Key of an array's number in the description. A further "$" precedes keys of the tree that begin with "$".
 _ARRAY = "$array"
-#: Kinds of numpy's types that are only data.
+#: Kinds of NumPy types that are plain data.
 _KINDS = "biufcSU"
-#: Bytes that are written at once.
-_AT_ONCE = 1 << 24
+#: Bytes that are written at a time.
+_CHUNK = 1 << 24
 
 
 def write_archive(path: str | os.PathLike[str], format: str, version: int, data: Any) -> None:
-    """Write a tree of None, bool, int, float, str, list, dict by str, and arrays.
+    """Write a tree of None, bool, int, float, str, list, dict with str keys, and arrays.
+
+    Parameters
+    ----------
+    path : path-like
+    format : str
+        Name of the kind of file, such as "Hexmend session".
+    version : int
+    data : object
+        The tree.
 
     Raises
     ------
     FileError
-        For a value of another kind.
+        For a value of another type.
     """
     arrays: dict[int, tuple[int, np.ndarray]] = {}  # by id: the number and the array
 
@@ -48,76 +57,85 @@ def write_archive(path: str | os.PathLike[str], format: str, version: int, data:
 
 
 def encode_description(path: Path, format: str, version: int, data: Any, number: Callable[[np.ndarray], int]) -> str:
-    """The description of a tree as JSON; `number` is called with each array, and says by which number it is known.
+    """Encode the description of a tree as JSON.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    format, version, data
+        As of `write_archive`.
+    number : callable
+        number(array) returns the number under which an array is stored.
 
     Raises
     ------
     FileError
-        For a value that is no plain data.
+        For a value of another type.
     """
     try:
-        return json.dumps({"format": format, "version": version, "data": _encoded(data, number)})
+        return json.dumps({"format": format, "version": version, "data": _encode(data, number)})
     except TypeError as error:
         raise FileError(path, f"cannot hold {error}") from None
 
 
 def write_array(member: IO[bytes], array: np.ndarray) -> None:
-    """Write an array as .npy, large ones without a copy, so that other threads go on meanwhile."""
+    """Write an array as .npy, without a copy and without blocking other threads for long."""
     if not array.flags.c_contiguous or not array.nbytes:
         np.lib.format.write_array(member, array, version=(1, 0), allow_pickle=False)
         return
     np.lib.format.write_array_header_1_0(member, np.lib.format.header_data_from_array_1_0(array))
     data = memoryview(array.reshape(-1).view(np.uint8))
-    for at in range(0, len(data), _AT_ONCE):
-        member.write(data[at : at + _AT_ONCE])
+    for at in range(0, len(data), _CHUNK):
+        member.write(data[at : at + _CHUNK])
 
 
 def read_archive(path: str | os.PathLike[str], format: str, version: int) -> tuple[int, Any]:
-    """The version and the tree that `write_archive` wrote, or `hexmend.io.archive.folder`.
+    """Read a zip file from `write_archive`, or a folder from `hexmend.io.archive.folder`.
 
     Parameters
     ----------
     path : path-like
     format : str
-        What the file has to be.
+        Expected kind of file.
     version : int
-        The newest that is read.
+        Newest version that is supported.
+
+    Returns
+    -------
+    version : int
+    data : object
+        The tree.
 
     Raises
     ------
     FileError
-        For whatever is no such file, is damaged, is newer, or holds anything but data.
+        For a file of another kind, of a newer version, or damaged.
     """
     path = Path(path)
     try:
         with open_members(path) as members:
             with members.open(DESCRIPTION) as file:
                 description = json.loads(file.read())
-            number, tree = _checked(path, description, format, version)
-            return number, _decoded(tree, ArrayReader(path, members))
+            found, tree = _check(path, description, format, version)
+            return found, _decode(tree, ArrayReader(path, members))
     except (zipfile.BadZipFile, EOFError) as error:
-        raise FileError(path, f"is damaged or not whole: {_small(error)}", REMEDY) from None
+        raise FileError(path, f"is damaged or not whole: {_decapitalise(error)}", REMEDY) from None
     except RecursionError:
         raise FileError(path, f"{DESCRIPTION} is nested too deeply", REMEDY) from None
     except MemoryError:
         raise FileError(path, "does not fit into memory", "Close other programs.") from None
-    except (
-        ValueError,
-        TypeError,
-        OverflowError,
-        NotImplementedError,
-        RuntimeError,
-    ) as error:  # of json, numpy, zipfile
-        raise FileError(path, f"is damaged: {_small(error)}", REMEDY) from None
+    except (ValueError, TypeError, OverflowError, RuntimeError) as error:  # of json, numpy, zipfile
+        raise FileError(path, f"is damaged: {_decapitalise(error)}", REMEDY) from None
 
 
-def _small(error: Exception) -> str:
-    words = str(error) or type(error).__name__
-    return words[:1].lower() + words[1:200]
+def _decapitalise(error: Exception) -> str:
+    message = str(error) or type(error).__name__
+    return message[:1].lower() + message[1:200]
 
 
-def _checked(path: Path, description: Any, format: str, version: int) -> tuple[int, Any]:
-    """The version, which is known, and the tree of a description of the format."""
+def _check(path: Path, description: Any, format: str, version: int) -> tuple[int, Any]:
+    """Check the format and version of a description; returns the version and the tree."""
     if not isinstance(description, dict) or description.get("format") != format:
         raise FileError(path, f"is no {format}", NOT_OURS)
     number = description.get("version")
@@ -132,9 +150,9 @@ def _checked(path: Path, description: Any, format: str, version: int) -> tuple[i
     return number, description["data"]
 
 
-def _encoded(value: Any, number: Callable[[np.ndarray], int]) -> Any:
+def _encode(value: Any, number: Callable[[np.ndarray], int]) -> Any:
     if isinstance(value, np.ndarray):
-        if value.dtype.kind == "O" and all(isinstance(one, str) for one in value.flat):
+        if value.dtype.kind == "O" and all(isinstance(text, str) for text in value.flat):
             value = value.astype(str)
         if value.dtype.kind not in _KINDS:
             raise TypeError(f"an array of {value.dtype}")
@@ -142,9 +160,9 @@ def _encoded(value: Any, number: Callable[[np.ndarray], int]) -> Any:
     if isinstance(value, Mapping):
         if not all(isinstance(name, str) for name in value):
             raise TypeError("a table whose keys are not names")
-        return {"$" + name if name.startswith("$") else name: _encoded(one, number) for name, one in value.items()}
+        return {"$" + name if name.startswith("$") else name: _encode(item, number) for name, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_encoded(one, number) for one in value]
+        return [_encode(item, number) for item in value]
     if isinstance(value, np.generic):
         return value.item()
     if value is None or isinstance(value, bool | int | float | str):
@@ -152,11 +170,11 @@ def _encoded(value: Any, number: Callable[[np.ndarray], int]) -> Any:
     raise TypeError(f"a {type(value).__name__}")
 
 
-def _decoded(value: Any, array: Callable[[Any], np.ndarray]) -> Any:
+def _decode(value: Any, array: Callable[[Any], np.ndarray]) -> Any:
     if isinstance(value, list):
-        return [_decoded(one, array) for one in value]
+        return [_decode(item, array) for item in value]
     if not isinstance(value, dict):
         return value
     if value.keys() == {_ARRAY}:
         return array(value[_ARRAY])
-    return {name[1:] if name.startswith("$") else name: _decoded(one, array) for name, one in value.items()}
+    return {name[1:] if name.startswith("$") else name: _decode(item, array) for name, item in value.items()}

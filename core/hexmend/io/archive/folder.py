@@ -1,8 +1,8 @@
-"""A tree of plain data and arrays as a folder, written again and again: of arrays that are there only once.
+"""Trees of plain data and arrays as a folder that is updated again and again; unchanged arrays are not rewritten.
 
-Arrays come first, in files of their own; then the description, as a whole or not at all; then arrays that it does not
-name go. So the folder is at any moment the tree that was written last, whenever the writer is killed or the power is
-cut: new arrays are on the disk before the description names them.
+An update first writes new arrays to files of their own, then replaces the description atomically, then removes arrays
+that are not used any more. New arrays are on the disk before the description refers to them, so that the folder holds a
+complete tree at any moment, even if the process is killed or the power fails.
 """
 
 from __future__ import annotations
@@ -24,48 +24,48 @@ from hexmend.io.storage.temporary_files import flush_file, flush_folder, make_fo
 
 
 class ArchiveFolder:
-    """A folder that holds a tree; arrays in it are never changed, and those that were removed are written again.
+    """Folder that holds a tree; files of arrays are created and removed, never changed.
 
     Parameters
     ----------
     path : Path
-        It is made when something is written, below a folder that is there.
+        Created by the first `write`.
     """
 
     def __init__(self, path: Path):
         self.path = path
-        self._there: dict[int, tuple[weakref.ref, int]] = {}  # by id, while the array lives: its number
+        self._written: dict[int, tuple[weakref.ref, int]] = {}  # by id of a living array: its number
         self._next = 0
 
     def write(self, format: str, version: int, data: Any) -> None:
-        """Write a tree, as `hexmend.io.archive.archive.write_archive` takes it: what is new of it, and its description.
+        """Update the folder to a tree; parameters as of `hexmend.io.archive.archive.write_archive`.
 
         Raises
         ------
         FileError
-            For a value that is no data, and where the folder cannot be written to; what was there stays.
+            For a value of another type, and where the folder is not writable; the earlier tree stays.
         """
-        named: dict[int, tuple[np.ndarray, int]] = {}
+        used: dict[int, tuple[np.ndarray, int]] = {}
         fresh: list[tuple[np.ndarray, int]] = []
-        there = self._begin()
+        present = self._prepare()
 
         def number(array: np.ndarray) -> int:
-            if id(array) not in named:
-                before = self._there.get(id(array))
-                if before is not None and before[0]() is array and before[1] in there:
-                    named[id(array)] = array, before[1]
+            if id(array) not in used:
+                before = self._written.get(id(array))
+                if before is not None and before[0]() is array and before[1] in present:
+                    used[id(array)] = array, before[1]
                 else:
                     fresh.append((array, self._next))
-                    named[id(array)] = fresh[-1]
+                    used[id(array)] = fresh[-1]
                     self._next += 1
-            return named[id(array)][1]
+            return used[id(array)][1]
 
         description = encode_description(self.path, format, version, data, number)
         try:
             for array, at in fresh:
                 with open(self._file(at), "wb") as file:
                     write_array(file, array)
-            for _, at in fresh:  # after all of them are written, which lets the system write them together
+            for _, at in fresh:  # in a second loop, which lets the system write them together
                 flush_file(self._file(at))
             if fresh:
                 flush_folder(self.path / ARRAYS)
@@ -76,19 +76,19 @@ class ArchiveFolder:
             if isinstance(error, FileError):
                 raise
             raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None
-        self._there = {key: (weakref.ref(array), at) for key, (array, at) in named.items()}
-        self._remove(set(self._numbers()) - {at for _, at in named.values()})
+        self._written = {key: (weakref.ref(array), at) for key, (array, at) in used.items()}
+        self._remove(set(self._numbers()) - {at for _, at in used.values()})
 
-    def _begin(self) -> frozenset[int]:
-        """Make the folder: the numbers there; of what another writer has left there, none is given again."""
+    def _prepare(self) -> frozenset[int]:
+        """Make the folder; returns the numbers of its arrays, and does not reuse those of another writer."""
         try:
             make_folder(self.path / ARRAYS)
-            there = frozenset(self._numbers())
+            present = frozenset(self._numbers())
         except OSError as error:
             raise FileError(self.path, f"cannot be written: {error.strerror or error}", "Free the place.") from None
-        if not self._there:
-            self._next = max([self._next, *(at + 1 for at in there)])
-        return there
+        if not self._written:
+            self._next = max([self._next, *(at + 1 for at in present)])
+        return present
 
     def _file(self, number: int) -> Path:
         return self.path / ARRAYS / f"{number}.npy"

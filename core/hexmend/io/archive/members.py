@@ -1,4 +1,4 @@
-"""The members of an archive, of a zip or of a folder, and the arrays in them: untrusted, and never more than data."""
+"""Members of an archive (a zip file or a folder) and their arrays; the input is not trusted."""
 
 from __future__ import annotations
 
@@ -18,46 +18,47 @@ import numpy as np
 from hexmend.arrays import as_immutable
 from hexmend.errors import FileError
 
-#: The member that describes the others; in a zip it comes first. It is no larger than this many bytes.
+#: Member that describes the tree; in a zip file it comes first.
 DESCRIPTION = "description.json"
+#: Largest size of the description in bytes.
 LARGEST = 256 << 20
 
-#: What to do about a file that is damaged, and about one that is another's.
+#: Remedies for a damaged file, and for a file of another program.
 REMEDY = "Use an earlier copy, or open the mesh that it was made from."
 NOT_OURS = "Name a file that Hexmend wrote."
 
-#: What the folder of arrays is called, in a zip too.
+#: Folder of the arrays, in zip files too.
 ARRAYS = "arrays"
 MEMBER = re.compile(rf"{ARRAYS}/(0|[1-9]\d{{0,8}})\.npy")
-#: The head of an .npy as it is written here: numpy's own reader of heads takes more, and fails in more ways.
-_HEAD = re.compile(
+#: Header of an .npy file from `write_archive`; NumPy's own parser accepts more and fails in more ways.
+_HEADER = re.compile(
     rb"\{'descr': '(?P<type>[<>|][biufcSU]\d{1,9})', 'fortran_order': (?P<columns>True|False), "
     rb"'shape': \((?P<shape>(\d{1,18}, ?){0,32}(\d{1,18})?)\), \} *\n"
 )
 _MAGIC = b"\x93NUMPY\x01\x00"
-#: Bytes of the longest head that is written here, of 32 axes, and some more.
-_LONGEST = 1024
-#: Bytes that are read at once.
-_AT_ONCE = 1 << 24
+#: Longest header in bytes, for 32 axes.
+_LONGEST_HEADER = 1024
+#: Bytes that are read at a time.
+_CHUNK = 1 << 24
 
 
 class ArchiveMembers(ABC):
-    """Files by name.
+    """Members by name.
 
     Attributes
     ----------
     sizes : mapping of str to int
-        In bytes.
+        Sizes in bytes.
     """
 
     sizes: Mapping[str, int]
 
     @abstractmethod
     def open(self, name: str) -> IO[bytes]:
-        """One of them, to be read."""
+        """Open a member for reading."""
 
 
-class _OfZip(ArchiveMembers):
+class _ZipMembers(ArchiveMembers):
     def __init__(self, path: Path, archive: zipfile.ZipFile):
         self._archive, self._infos = archive, _checked(path, archive)
         self.sizes = {name: info.file_size for name, info in self._infos.items()}
@@ -66,8 +67,8 @@ class _OfZip(ArchiveMembers):
         return self._archive.open(self._infos[name])
 
 
-class _OfFolder(ArchiveMembers):
-    """What stands in a folder besides is passed over: what was being written when its writer was killed."""
+class _FolderMembers(ArchiveMembers):
+    """Members of a folder; other files, such as those of a killed writer, are ignored."""
 
     def __init__(self, path: Path):
         self._path, self.sizes = path, {}
@@ -83,21 +84,27 @@ class _OfFolder(ArchiveMembers):
 
 @contextmanager
 def open_members(path: Path) -> Iterator[ArchiveMembers]:
-    """The members of a zip or of a folder, one of which is the description.
+    """Open the members of a zip file or a folder for a `with` statement.
+
+    Yields
+    ------
+    ArchiveMembers
+        One of them is the description.
 
     Raises
     ------
     FileError
-        Where that is missing or too large, or a zip holds what does not belong there.
+        Where the description is missing or too large, or a zip file holds unknown members.
     zipfile.BadZipFile
+        Where the file is not a zip file.
     """
     if path.is_dir():
-        members = _OfFolder(path)
+        members = _FolderMembers(path)
         _check(path, members)
         yield members
         return
     with zipfile.ZipFile(path) as archive:
-        members = _OfZip(path, archive)
+        members = _ZipMembers(path, archive)
         _check(path, members)
         yield members
 
@@ -110,8 +117,8 @@ def _check(path: Path, members: ArchiveMembers) -> None:
 
 
 def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
-    """A zip's members by name, once it is known that together they are no larger than the file."""
-    members, room = {}, path.stat().st_size
+    """Members of a zip file by name, after a check that together they are not larger than the file."""
+    members, left = {}, path.stat().st_size
     for info in archive.infolist():
         name = info.filename
         if name != DESCRIPTION and not MEMBER.fullmatch(name):
@@ -120,14 +127,14 @@ def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
             raise FileError(path, f"holds {name} twice", REMEDY)
         if info.compress_type != zipfile.ZIP_STORED or info.file_size != info.compress_size:
             raise FileError(path, f"{name} is compressed: expected what Hexmend wrote, which is not", REMEDY)
-        members[name], room = info, room - info.file_size
-    if room < 0:
-        raise FileError(path, f"says that it holds {-room:,} bytes more than it has", REMEDY)
+        members[name], left = info, left - info.file_size
+    if left < 0:
+        raise FileError(path, f"says that it holds {-left:,} bytes more than it has", REMEDY)
     return members
 
 
 class ArrayReader:
-    """Arrays by their numbers, each read once."""
+    """Arrays by number, each read once; call it with the number."""
 
     def __init__(self, path: Path, members: ArchiveMembers):
         self._path, self._members = path, members
@@ -143,21 +150,21 @@ class ArrayReader:
 
     def _array(self, name: str) -> np.ndarray:
         with self._members.open(name) as member:
-            begin = member.read(len(_MAGIC) + 2)
-            length = int.from_bytes(begin[-2:], "little")
-            head = _HEAD.fullmatch(member.read(length)) if length <= _LONGEST else None
-            if begin[:-2] != _MAGIC or head is None:
+            start = member.read(len(_MAGIC) + 2)
+            length = int.from_bytes(start[-2:], "little")
+            header = _HEADER.fullmatch(member.read(length)) if length <= _LONGEST_HEADER else None
+            if start[:-2] != _MAGIC or header is None:
                 raise FileError(self._path, f"{name} is no array of numbers or text", REMEDY)
-            dtype, columns = np.dtype(head["type"].decode()), head["columns"] == b"True"
-            shape = tuple(int(length) for length in head["shape"].split(b",") if length.strip())
+            dtype, columns = np.dtype(header["type"].decode()), header["columns"] == b"True"
+            shape = tuple(int(length) for length in header["shape"].split(b",") if length.strip())
             left = self._members.sizes[name] - member.tell()
             count = math.prod(shape)
-            if not dtype.itemsize or count * dtype.itemsize != left:  # numpy makes room for text of no letters too
+            if not dtype.itemsize or count * dtype.itemsize != left:  # NumPy would allocate strings of length 0
                 problem = f"{name} has the shape {shape} of {dtype}, and {left:,} bytes"
                 raise FileError(self._path, problem, REMEDY)
             array = np.empty(count, dtype)
-            into = array.view(np.uint8) if left else array
-            for at in range(0, left, _AT_ONCE):
-                part = member.read(min(_AT_ONCE, left - at))
-                into[at : at + len(part)] = np.frombuffer(part, np.uint8)
-            return as_immutable(array.reshape(shape, order="F" if columns else "C"))  # meshes share it
+            buffer = array.view(np.uint8) if left else array
+            for at in range(0, left, _CHUNK):
+                part = member.read(min(_CHUNK, left - at))
+                buffer[at : at + len(part)] = np.frombuffer(part, np.uint8)
+            return as_immutable(array.reshape(shape, order="F" if columns else "C"))  # several meshes may share it

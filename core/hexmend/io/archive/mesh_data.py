@@ -1,4 +1,4 @@
-"""Meshes as plain data with arrays for an archive, and back; arrays that several meshes share stay shared."""
+"""Conversion of meshes to plain data with arrays for an archive, and back; shared arrays stay shared."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
-#: The fields of a mesh, by the version of sessions that they are in from then on.
+#: Fields of a mesh, and the version of sessions that introduced each.
 _SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
     "target": 2
 }
-#: What is set mesh by mesh; all else is shared by those that have the same.
-_OWN = {"points", "surface", "mid_nodes"}
+#: Fields that are set for each mesh; meshes with the same other fields share them.
+_UNSHARED = {"points", "surface", "mid_nodes"}
 
 
 def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
-    """Everything that a mesh is and carries; `surface` and `target` are where its boundary slides."""
+    """Convert a mesh to plain data; "surface" and "target" hold the surface on which its boundary slides."""
     target = mesh.target
     return {
         "points": mesh.points,
@@ -40,33 +40,33 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
 
 
 class MeshDecoder:
-    """Makes meshes of plain data; those with the same arrays of hexes share one topology.
+    """Converter of plain data to meshes; those with the same array of hexes share one topology.
 
     Parameters
     ----------
     version : int
-        Of the session that they are from.
+        Version of the session that holds the data.
     """
 
     def __init__(self, version: int):
         self._fields = {name for name, since in _SINCE.items() if since <= version}
-        self._bare: dict[int, Mesh] = {}  # by their array of hexes
-        self._carriers: dict[tuple, Mesh] = {}  # with all but what is of each mesh alone
+        self._bare: dict[int, Mesh] = {}  # by id of the array of hexes
+        self._carriers: dict[tuple, Mesh] = {}  # with all shared fields, by these
         self._targets: dict[tuple, TargetSurface] = {}
 
-    def mesh(self, data: Any) -> Mesh:
-        """The mesh that `mesh_to_data` describes.
+    def decode(self, data: Any) -> Mesh:
+        """Make a mesh of the data from `mesh_to_data`.
 
         Raises
         ------
         MeshError
-            For unknown or missing fields, and for values that cannot be a mesh's.
+            For unknown or missing fields, and for invalid values.
         """
         check_fields("a mesh", data, self._fields)
         points, surface = (_array(data, name, "f", (-1, 3)) for name in ("points", "surface"))
         carrier, mid_nodes = self._carrier(data, points), data["mid_nodes"]
         mesh = carrier.with_points(surface).keeping_surface().with_points(points)
-        if mid_nodes is not None:  # last: with them, points would not stay to the bit what they are
+        if mid_nodes is not None:  # last, because with_points would move the mid-nodes and round points
             mesh = mesh.replace(mid_nodes=_array(data, "mid_nodes", "i", (len(mesh.hexes), 19)))
         return mesh
 
@@ -75,25 +75,25 @@ class MeshDecoder:
         bare = self._bare.get(id(hexes))
         if bare is None or bare.n_nodes != len(points):
             bare = self._bare[id(hexes)] = Mesh(points, hexes)
-        key = (id(bare), _key({name: data[name] for name in sorted(self._fields - _OWN)}))
+        key = (id(bare), _key({name: data[name] for name in sorted(self._fields - _UNSHARED)}))
         if key not in self._carriers:
-            carrier = bare.replace(**_carried(data, bare))
+            carrier = bare.replace(**_decode_fields(data, bare))
             target = self._target(data.get("target"))
             self._carriers[key] = carrier if target is None else carrier.sliding_on(target, check=False)
         return self._carriers[key]
 
     def _target(self, data: Any) -> TargetSurface | None:
-        """The surface that the boundary slides on where that is not the boundary itself."""
+        """Surface on which the boundary slides; None if it is the boundary of the mesh itself."""
         if data is None:
             return None
         key = _key(data)
         if key not in self._targets:
-            self._targets[key] = _skin(data)
+            self._targets[key] = _decode_surface(data)
         return self._targets[key]
 
 
 def check_fields(what: str, data: Any, known: set[str]) -> None:
-    """Raise `MeshError` unless data is a table with exactly these fields."""
+    """Raise `MeshError` unless `data` is a dict with exactly the fields `known`; `what` names it in the error."""
     if not isinstance(data, dict):
         raise MeshError(f"{what} is no table: expected the fields {', '.join(sorted(known))}")
     for name in sorted(data.keys() ^ known):
@@ -101,15 +101,15 @@ def check_fields(what: str, data: Any, known: set[str]) -> None:
 
 
 def _key(value: Any) -> Any:
-    """What is the same for the same data; arrays are the same where they are one."""
+    """Hashable key of plain data, in which arrays count by identity."""
     if isinstance(value, dict):
-        return tuple((name, _key(one)) for name, one in value.items())
+        return tuple((name, _key(item)) for name, item in value.items())
     if isinstance(value, list):
         return tuple(map(_key, value))
     return ("array", id(value)) if isinstance(value, np.ndarray) else value
 
 
-def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
+def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
     n, m = mesh.n_nodes, mesh.n_hexes
     for name in ("notes", "cells"):
         if not isinstance(data[name], list):
@@ -118,8 +118,8 @@ def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         raise MeshError("the mesh's name or notes are no text")
     field_data = _table(data, "field_data")
     for name, values in field_data.items():
-        words = isinstance(values, list) and all(isinstance(one, str) for one in values)
-        if not (words or isinstance(values, np.ndarray | str | int | float)):
+        texts = isinstance(values, list) and all(isinstance(text, str) for text in values)
+        if not (texts or isinstance(values, np.ndarray | str | int | float)):
             raise MeshError(f"field data {name!r} is neither an array nor text")
     return {
         "pinned": None if data["pinned"] is None else _array(data, "pinned", "b", (n,)),
@@ -129,14 +129,14 @@ def _carried(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "hex_sets": _sets(data, "hex_sets", m),
         "side_sets": _side_sets(data, m),
         "field_data": field_data,
-        "cells": tuple(_cells(one, n) for one in data["cells"]),
+        "cells": tuple(_cells(block, n) for block in data["cells"]),
         "name": data["name"],
         "notes": tuple(data["notes"]),
     }
 
 
-def _skin(data: Any) -> TargetSurface:
-    from hexmend.boundary import SkinSurface  # not before it is needed: commands start without it
+def _decode_surface(data: Any) -> TargetSurface:
+    from hexmend.boundary import SkinSurface  # late, for a quick start of commands
 
     check_fields("the surface that the boundary slides on", data, {"points", "faces", "name"})
     points, faces, name = data["points"], data["faces"], data["name"]
@@ -152,7 +152,7 @@ def _skin(data: Any) -> TargetSurface:
 
 
 def _array(data: Mapping[str, Any], name: str, kind: str, shape: tuple[int, ...]) -> np.ndarray:
-    """An array of whole numbers ("i"), numbers ("f") or switches ("b"); -1 stands for any length."""
+    """Check an array of int ("i"), float ("f") or bool ("b"); -1 in `shape` stands for any length."""
     array = data[name]
     if not isinstance(array, np.ndarray):
         raise MeshError(f"{name} is no array")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -207,7 +208,7 @@ def concatenate_data(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) 
 
 def unused_name(name: str, taken: Collection[str]) -> str:
     """Append a number from 2 to a name so that it is not taken."""
-    return next(title for k in format_count(2) if (title := f"{name}_{k}") not in taken)
+    return next(title for k in count(2) if (title := f"{name}_{k}") not in taken)
 
 
 def _layout(values: np.ndarray) -> tuple[tuple[int, ...], bool]:

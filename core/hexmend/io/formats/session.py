@@ -1,7 +1,7 @@
-"""Sessions (.hexmend): the meshes of a window, which of them is shown, and all that the window keeps beside them.
+"""Sessions (.hexmend): the meshes of a window, the index of the mesh that is shown, and the state of the window.
 
-A zip, see `hexmend.io.archive`. To the core a session is the mesh as it was shown when it was saved: `read` gives
-that one, with the surface that its boundary slides on. What stands under "window" is the viewer's.
+The file is an archive, see `hexmend.io.archive`. `hexmend.read` gives the mesh that was shown, with the surface on
+which its boundary slides. The viewer defines the data under the key "window".
 """
 
 from __future__ import annotations
@@ -17,28 +17,30 @@ from hexmend.errors import FileError, MeshError
 from hexmend.io.base.format import Format, register
 from hexmend.mesh.mesh import Mesh
 
-#: The suffix of sessions, and the number of what is written; lower ones can be read.
-SUFFIX, VERSION = ".hexmend", 4
-#: Meshes of one session: changes, runs and what they are compared with.
-MOST = 10_000
+SUFFIX = ".hexmend"
+#: Version that is written; earlier ones can be read.
+VERSION = 4
+#: Largest number of meshes in a session.
+MAX_MESHES = 10_000
 
 _FORMAT = "Hexmend session"
-_HEAD = b"PK\x03\x04", b"description.json"
+#: Signature of a zip file, and the name of its first member.
+_SIGNATURE, _FIRST_MEMBER = b"PK\x03\x04", b"description.json"
 
 
 @dataclass(frozen=True, eq=False)
 class SessionContent:
-    """What a session file holds.
+    """Content of a session file.
 
     Parameters
     ----------
     meshes : tuple of Mesh
     now : int
-        Which of them was shown.
+        Index of the mesh that was shown.
     window : object
-        Plain data with arrays, as `write_archive` takes it.
+        State of the window: plain data with arrays, see `write_archive`.
     version : int
-        Of the file: fields that are newer are not in it.
+        Version of the file; newer fields are missing.
     """
 
     meshes: tuple[Mesh, ...]
@@ -48,16 +50,17 @@ class SessionContent:
 
 
 def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int, window: Any) -> None:
-    """Write a session; who calls it sees to it that a file is replaced as a whole.
+    """Write a session. For an atomic replacement call it in `atomic_write`.
 
     Parameters
     ----------
     path : path-like
     meshes : sequence of Mesh
-        What they share is written once.
+        Arrays that they share are written once.
     now : int
-        Which of them is shown.
+        Index of the mesh that is shown.
     window : object
+        State of the window: plain data with arrays.
     """
     from hexmend.io.archive.archive import write_archive
 
@@ -65,14 +68,14 @@ def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int
 
 
 class SessionFolder:
-    """A session that is written again and again as a folder, of which only what is new is written each time.
+    """Session in a folder that is updated again and again, of which only new arrays are written.
 
-    The folder can be read at any moment, whenever who writes it is killed; see `hexmend.io.archive.folder`.
+    The folder is readable at any moment, even if the process is killed; see `hexmend.io.archive.folder`.
 
     Parameters
     ----------
     path : Path
-        Of the folder.
+        The folder.
     """
 
     def __init__(self, path: Path):
@@ -81,12 +84,12 @@ class SessionFolder:
         self._folder = ArchiveFolder(path)
 
     def write(self, meshes: Sequence[Mesh], now: int, window: Any) -> None:
-        """Write the session as it is now; parameters as of `write_session`.
+        """Update the folder; parameters as of `write_session`.
 
         Raises
         ------
         FileError
-            Where the folder cannot be written to; what was there stays.
+            Where the folder is not writable; the earlier session stays.
         """
         self._folder.write(_FORMAT, VERSION, _tree(meshes, now, window))
 
@@ -98,36 +101,45 @@ def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
 
 
 def read_session(path: str | os.PathLike[str]) -> SessionContent:
-    """Read a session, from a file or from the folder of a `SessionFolder`.
+    """Read a session from a file, or from the folder of a `SessionFolder`.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    SessionContent
 
     Raises
     ------
     FileError
-        Where it is none, is damaged, or is of a newer version.
+        For another file, a damaged one, and a newer version.
     """
     from hexmend.io.archive.mesh_data import MeshDecoder
 
     version, data = _data(path)
     try:
-        make, now = MeshDecoder(version), _number(data)
-        return SessionContent(tuple(make.mesh(one) for one in data["meshes"]), now, data["window"], version)
+        decoder, now = MeshDecoder(version), _shown_index(data)
+        meshes = tuple(decoder.decode(mesh) for mesh in data["meshes"])
+        return SessionContent(meshes, now, data["window"], version)
     except MeshError as error:
-        raise _unfit(path, error) from None
+        raise _invalid_session(path, error) from None
 
 
 def _read(path: Path) -> Mesh:
-    """The mesh that was shown."""
+    """Read the mesh that was shown."""
     from hexmend.io.archive.mesh_data import MeshDecoder
 
     version, data = _data(path)
     try:
-        return MeshDecoder(version).mesh(data["meshes"][_number(data)])
+        return MeshDecoder(version).decode(data["meshes"][_shown_index(data)])
     except MeshError as error:
-        raise _unfit(path, error) from None
+        raise _invalid_session(path, error) from None
 
 
 def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
-    """The version of a session and what is in it."""
+    """Version and data of a session."""
     from hexmend.io.archive.archive import read_archive
     from hexmend.io.files import check_readable
 
@@ -139,27 +151,26 @@ def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
 
 
-def _number(data: Any) -> int:
-    """Which of its meshes a session shows, once it is known that it has the fields of one."""
+def _shown_index(data: Any) -> int:
+    """Check the fields of a session; returns the index of the mesh that was shown."""
     from hexmend.io.archive.mesh_data import check_fields
 
     check_fields("the session", data, {"meshes", "now", "window"})
     meshes, now = data["meshes"], data["now"]
     if not isinstance(meshes, list) or type(now) is not int or not 0 <= now < len(meshes):
         raise MeshError("it does not say which of its meshes was shown")
-    if len(meshes) > MOST:
-        raise MeshError(f"it has {len(meshes):,} meshes: expected {MOST:,} at most")
+    if len(meshes) > MAX_MESHES:
+        raise MeshError(f"it has {len(meshes):,} meshes: expected {MAX_MESHES:,} at most")
     return now
 
 
-def _unfit(path: str | os.PathLike[str], error: MeshError) -> FileError:
+def _invalid_session(path: str | os.PathLike[str], error: MeshError) -> FileError:
     return FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.")
 
 
 def is_session(head: bytes) -> bool:
-    """Whether a file that begins with these bytes is a session."""
-    begin, name = _HEAD
-    return head.startswith(begin) and head[30 : 30 + len(name)] == name
+    """Return True if a file that begins with these bytes is a session."""
+    return head.startswith(_SIGNATURE) and head[30 : 30 + len(_FIRST_MEMBER)] == _FIRST_MEMBER  # behind its header
 
 
 register(

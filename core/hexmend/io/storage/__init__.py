@@ -1,1 +1,1 @@
-"""Files on disk: atomic writing, temporary files, TOML files, and reading in a separate process."""
+"""Files on disk: atomic writing, temporary files, TOML files, and reading in a subprocess."""

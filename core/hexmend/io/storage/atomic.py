@@ -1,4 +1,4 @@
-"""Writing a file as a whole or not at all."""
+"""Atomic replacement of files."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from hexmend.io.storage.temporary_files import TemporaryFile, flush_file, flush_
 
 @contextmanager
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path beside `path`, of the same suffix, which takes the place of `path` when the block ends well.
+    """Context manager that gives a temporary file in the folder of `path`, and replaces `path` by it at the end.
 
-    Where the block raises, the temporary file is removed and the old file stays as it was. The content is on the disk
-    before the name changes, and the name before the block is left, so that a power cut leaves the old file or the new
-    one. A new file gets the permissions that the user's umask grants; a replaced one keeps its own. A link is followed.
-    What is no regular file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
+    If the block raises, the temporary file is removed and the old file stays unchanged. The content is flushed to the
+    disk before the file is renamed, and the folder before the block ends, so that a power cut leaves the old file or
+    the new one. A new file gets the permissions of the user's umask; a replaced file keeps its own. Links are followed.
+    A path that is not a regular file (a pipe, /dev/stdout) cannot be replaced and is written to directly.
 
     Parameters
     ----------
     path : path-like
-        What to write in the end.
+        The file to replace.
 
     Yields
     ------
     Path
-        Where to write meanwhile; the file is there and empty.
+        An empty file with the same suffix, to be written in the block.
 
     Raises
     ------
     FileError
-        Where the folder is missing or cannot be written to, `path` is a folder or read-only, or the disk is full.
+        Where the folder is missing or not writable, `path` is a folder or read-only, or the disk is full.
     """
     path = Path(path)
     temporary: TemporaryFile | None = None
@@ -50,9 +50,9 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         os.replace(temporary.path, target)
         flush_folder(target.parent)
     except OSError as error:
-        ours = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
-        if error.filename is not None and Path(error.filename) not in ours:
-            raise  # about another file, which the caller touched inside the block
+        own = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
+        if error.filename is not None and Path(error.filename) not in own:
+            raise  # of another file, which the block uses
         raise FileError(
             path, f"cannot be written: {error.strerror or error}", "Free the place or choose another."
         ) from None
@@ -62,14 +62,14 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def check_writable(path: str | os.PathLike[str]) -> None:
-    """Raise `FileError` where `atomic_write` would, as far as can be known before anything is written."""
+    """Raise the `FileError` that `atomic_write` would raise, as far as it is known before writing."""
     path = Path(path)
     if not path.exists() or path.is_file() or path.is_dir():
         _writable(path)
 
 
 def _writable(path: Path) -> tuple[Path, int | None]:
-    """The file that `path` stands for, links followed, and its permissions where it exists."""
+    """Resolve links; returns the file and its permissions, None where it does not exist."""
     if path.is_dir():
         raise FileError(path, "is a folder: expected the name of a file to write", "Add a file name.")
     target = Path(os.path.realpath(path))

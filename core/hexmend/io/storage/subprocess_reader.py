@@ -1,4 +1,4 @@
-"""Reading in a process of its own: a library that crashes or never ends on a damaged file takes none but that along."""
+"""Reading in a subprocess: a library that crashes or hangs on a damaged file does not take Hexmend with it."""
 
 from __future__ import annotations
 
@@ -16,36 +16,40 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, Content
 
-#: Seconds that a reader may take: some, and more for each megabyte of the file.
+#: Time limit of a reader in seconds, and further seconds for each megabyte of the file.
 SECONDS, SECONDS_PER_MB = 60.0, 0.5
-#: Bytes of memory that it may use: some, and many times the file's size.
-MEMORY, MEMORY_TIMES = 4 << 30, 64
+#: Memory limit of a reader in bytes, and further bytes for each byte of the file.
+MEMORY, MEMORY_PER_BYTE = 4 << 30, 64
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 def run_reader(reader: str, path: Path) -> Content:
-    """What a function makes of a file, in another process.
+    """Call the function that reads a file in a subprocess.
 
     Parameters
     ----------
     reader : str
-        "module:function"; it takes the path and gives a `Content`.
+        "module:function"; the function takes the path and returns a `Content`.
     path : Path
+
+    Returns
+    -------
+    Content
 
     Raises
     ------
     FileError
-        As the function does; or where the process ends before it has an answer, or takes too long.
+        From the function, and where the process crashes or takes too long.
     """
     size = os.path.getsize(path)
     with tempfile.TemporaryDirectory(prefix="hexmend-") as folder:
-        answer, said = Path(folder) / "answer.npz", Path(folder) / "said"
+        answer, log = Path(folder) / "answer.npz", Path(folder) / "stderr"
         program = f"import sys; sys.path[:] = sys.argv[4:]; from {__name__} import main; main(*sys.argv[1:4])"
         limit = SECONDS + SECONDS_PER_MB * size / 1e6
         try:
-            with open(said, "wb") as errors:
-                done = subprocess.run(
+            with open(log, "wb") as errors:
+                process = subprocess.run(
                     [sys.executable, "-c", program, reader, str(path.absolute()), str(answer), *sys.path],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
@@ -55,58 +59,58 @@ def run_reader(reader: str, path: Path) -> Content:
                 )
         except subprocess.TimeoutExpired:
             raise FileError(path, f"is not read within {limit:.0f} seconds", _DAMAGED) from None
-        if done.returncode == 1:  # an exception that its reader did not expect
-            raise FileError(path, f"its reader fails ({_last_line(said)})", "Write the file again, and report this.")
-        if done.returncode or not answer.exists():
+        if process.returncode == 1:  # an unexpected exception
+            raise FileError(path, f"its reader fails ({_last_line(log)})", "Write the file again, and report this.")
+        if process.returncode or not answer.exists():
             raise FileError(path, "ends the library that reads it", _DAMAGED)
         with np.load(answer, allow_pickle=False) as arrays:
-            said = json.loads(arrays["said"].tobytes())
-            if "problem" in said:
-                raise FileError(path, said["problem"], said["remedy"])
-            return decode(said["content"], arrays)
+            message = json.loads(arrays["message"].tobytes())
+            if "problem" in message:
+                raise FileError(path, message["problem"], message["remedy"])
+            return decode(message["content"], arrays)
 
 
 def main(reader: str, path: str, answer: str) -> None:
-    """What the child does: read, and leave the answer."""
+    """Entry point of the subprocess: read the file and write the answer, a file .npz."""
     _limit_memory(Path(path))
     module, _, function = reader.partition(":")
     arrays: dict[str, np.ndarray] = {}
     try:
-        said = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
+        message = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
     except MemoryError:
-        said = {"problem": "needs more memory than a file of its size should", "remedy": _DAMAGED}
+        message = {"problem": "needs more memory than a file of its size should", "remedy": _DAMAGED}
     except FileError as error:
-        said = {"problem": error.problem, "remedy": error.remedy}
-    np.savez(answer, said=np.frombuffer(json.dumps(said).encode(), np.uint8), **arrays)
+        message = {"problem": error.problem, "remedy": error.remedy}
+    np.savez(answer, message=np.frombuffer(json.dumps(message).encode(), np.uint8), **arrays)
 
 
 def encode(value: object, arrays: dict[str, np.ndarray]) -> object:
-    """A content as JSON can hold it; its arrays are put among `arrays` and named."""
+    """Convert a content to values for JSON; its arrays are added to `arrays` under names."""
     if isinstance(value, np.ndarray | np.generic):
         name = f"a{len(arrays)}"
         arrays[name] = np.asarray(value)
         return {"array": name}
     if isinstance(value, Content | Block):
         kind = type(value).__name__.lower()
-        return {kind: {one.name: encode(getattr(value, one.name), arrays) for one in fields(value)}}
+        return {kind: {field.name: encode(getattr(value, field.name), arrays) for field in fields(value)}}
     if isinstance(value, dict):
-        return {"items": [[name, encode(one, arrays)] for name, one in value.items()]}
+        return {"items": [[name, encode(item, arrays)] for name, item in value.items()]}
     if isinstance(value, list | tuple):
-        return [encode(one, arrays) for one in value]
+        return [encode(item, arrays) for item in value]
     return value
 
 
 def decode(value: object, arrays: object) -> object:
-    """What `encode` was given."""
+    """Reverse `encode`."""
     if isinstance(value, list):
-        return [decode(one, arrays) for one in value]
+        return [decode(item, arrays) for item in value]
     if not isinstance(value, dict):
         return value
     ((kind, inside),) = value.items()
     if kind == "array":
         return arrays[inside]
     if kind == "items":
-        return {name: decode(one, arrays) for name, one in inside}
+        return {name: decode(item, arrays) for name, item in inside}
     parts = {name: decode(one, arrays) for name, one in inside.items()}
     if kind == "block":
         return Block(**parts)
@@ -114,7 +118,7 @@ def decode(value: object, arrays: object) -> object:
 
 
 def _last_line(path: Path) -> str:
-    """The last line of what a process has said, short and printable."""
+    """Last line of a process's error output, printable and of 200 characters at most."""
     with open(path, "rb") as file:
         file.seek(max(0, os.path.getsize(path) - 2000))
         lines = file.read().decode(errors="replace").split("\n")
@@ -127,7 +131,7 @@ def _limit_memory(path: Path) -> None:
         import resource
     except ImportError:  # Windows has none
         return
-    limit = MEMORY + MEMORY_TIMES * os.path.getsize(path)
+    limit = MEMORY + MEMORY_PER_BYTE * os.path.getsize(path)
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
     resource.setrlimit(resource.RLIMIT_AS, (limit, hard))

@@ -1,4 +1,4 @@
-"""Which suffixes something is written under."""
+"""Check of the suffix of a file to be written."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from hexmend.errors import FileError
 
 
 def suffix_for(path: str | os.PathLike[str], what: str, known: Collection[str]) -> str:
-    """The suffix of a path, in small letters, once it is known that `what` can be written under it.
+    """Return the suffix of a path in lower case after a check that it is supported.
 
     Parameters
     ----------
     path : path-like
     what : str
-        What is written, such as "a picture".
+        The thing to be written, for errors, such as "a picture".
     known : collection of str
-        The suffixes that there are, with the dot; "" among them admits a name without one.
+        Supported suffixes, with the dot; "" allows a name without one.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def suffix_for(path: str | os.PathLike[str], what: str, known: Collection[str]) 
     Raises
     ------
     FileError
-        For another suffix: it names those that there are.
+        For another suffix: it lists the supported ones.
 
     Examples
     --------
@@ -42,6 +42,6 @@ def suffix_for(path: str | os.PathLike[str], what: str, known: Collection[str]) 
     suffix = path.suffix.lower()
     if suffix in known:
         return suffix
-    *others, last = [one for one in known if one]
+    *others, last = [name for name in known if name]
     listed = f"{', '.join(others)} or {last}" if others else last
     raise FileError(path, f"{what} cannot be written as {suffix or 'a file without a suffix'}", f"Use {listed}.")

@@ -1,10 +1,10 @@
-"""Temporary files beside the file that they will replace: their names, their locks, and removing abandoned ones.
+"""Temporary files in the folder of the file that they will replace, with locks, and removal of abandoned ones.
 
-A name holds the host, a random number and the target: `.hexmend-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`. Beside it stands an
-empty file, `.hexmend-lock-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`, which is there before it and goes after it. The process that
-writes holds a lock (`flock`) on this one, which the system releases when the process ends, however it ends; so
-libraries that lock what they write, as HDF5 does, can write the temporary file. Temporary files of this host whose lock
-is free are therefore abandoned. Where locks do not exist (Windows, some network file systems), abandoned files stay.
+The name consists of the host, a random number and the target: `.hexmend-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`. An empty file,
+`.hexmend-lock-3f0c9a1b2c3d4e5f6a7b-mesh.vtu`, is created before it and removed after it. The writing process holds a
+lock (`flock`) on this empty file, which the system releases however the process ends. (The lock is not on the temporary
+file itself because libraries such as HDF5 lock the files that they write.) Temporary files of this host whose lock is
+free are therefore abandoned. On Windows and some network file systems, which have no locks, abandoned files stay.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ _PREFIX = ".hexmend-"
 _LOCK_PREFIX = ".hexmend-lock-"
 #: Random bytes in a name.
 _RANDOM = 8
-#: The longest name of a file, in bytes, where the system does not say it.
+#: Longest name of a file in bytes, where the system does not tell it.
 _LONGEST = 255
 
 
 class TemporaryFile:
-    """A file beside `target` that only this writer uses.
+    """Temporary file in the folder of `target` that only this writer uses.
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ class TemporaryFile:
     Attributes
     ----------
     path : Path
-        It ends with the suffix of the target.
+        Ends with the suffix of the target.
     lock_path : Path
-        The empty file beside it that is locked.
+        The empty file that is locked.
     """
 
     def __init__(self, target: Path):
@@ -52,17 +52,17 @@ class TemporaryFile:
         self._choose_name()
 
     def create(self, mode: int | None) -> None:
-        """Create the empty file and the lock; remove abandoned temporary files of the same target.
+        """Create the empty file and the lock, and remove abandoned temporary files of the same target.
 
         Parameters
         ----------
         mode : int or None
-            The permissions from the first byte on; those that the umask leaves if None.
+            Permissions; those of the umask if None.
 
         Raises
         ------
         OSError
-            Where the folder cannot be written to.
+            Where the folder is not writable.
         """
         if fcntl is not None:
             remove_abandoned(self._target)
@@ -140,13 +140,13 @@ def _remove_unlocked(lock: Path, data: Path) -> None:
 
 
 def _host() -> str:
-    """This host in four letters: a lock may be seen on its own host only."""
+    """Checksum of the host's name in four characters; a lock may be visible on its own host only."""
     name = os.uname().nodename if hasattr(os, "uname") else os.environ.get("COMPUTERNAME", "")
     return f"{zlib.crc32(name.encode()) & 0xFFFF:04x}"
 
 
 def _name_end(target: Path) -> str:
-    """What follows the random number in the names of temporary files.
+    """End of the names of temporary files, behind the random number.
 
     A long name of the target is replaced by its checksum and its suffix.
     """
@@ -176,7 +176,7 @@ def flush_file(path: Path) -> None:
     Raises
     ------
     OSError
-        Where it cannot be written, for example because the disk is full.
+        Where the file cannot be written, for example because the disk is full.
     """
     handle = os.open(path, os.O_WRONLY)
     try:
@@ -189,7 +189,7 @@ def flush_file(path: Path) -> None:
 
 
 def flush_folder(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk, where the system can do that.
+    """Wait until the names in a folder are on the disk, where the system supports it.
 
     Parameters
     ----------
@@ -204,7 +204,7 @@ def flush_folder(folder: Path) -> None:
 
 
 def _flush(handle: int) -> None:
-    """Flush an open file; on macOS the cache of the drive too, which `os.fsync` leaves alone there."""
+    """Flush an open file; on macOS also the cache of the drive, which `os.fsync` does not flush there."""
     full = getattr(fcntl, "F_FULLFSYNC", None)
     if full is not None:
         try:
@@ -217,7 +217,7 @@ def _flush(handle: int) -> None:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder and those above it where they are missing, on the disk too.
+    """Make a folder and its missing parents, and wait until they are on the disk.
 
     Parameters
     ----------
@@ -226,9 +226,9 @@ def make_folder(folder: Path) -> None:
     Raises
     ------
     OSError
-        Where it cannot be made or is a file.
+        Where the folder cannot be made or is a file.
     """
-    missing = [one for one in (folder, *folder.parents) if not one.exists()]
+    missing = [parent for parent in (folder, *folder.parents) if not parent.exists()]
     folder.mkdir(parents=True, exist_ok=True)
-    for one in missing:
-        flush_folder(one.parent)
+    for made in missing:
+        flush_folder(made.parent)

@@ -1,4 +1,4 @@
-"""What people write as TOML (recipes, studies, scenes) from and to files."""
+"""TOML files: recipes, studies, scenes."""
 
 from __future__ import annotations
 
@@ -16,44 +16,49 @@ from hexmend.toml_text import MAX_CHARACTERS
 T = TypeVar("T")
 
 
-def read_toml(path: str | os.PathLike[str], what: str, made: Callable[[str], T], largest: int = MAX_CHARACTERS) -> T:
-    """What a function makes of the text of a file.
+def read_toml(path: str | os.PathLike[str], what: str, parse: Callable[[str], T], largest: int = MAX_CHARACTERS) -> T:
+    """Read and parse a TOML file.
 
     Parameters
     ----------
     path : path-like
     what : str
-        What the file is to hold, such as "a recipe".
-    made : callable
-        Takes the text; raises `ParameterError`.
+        Expected content for errors, such as "a recipe".
+    parse : callable
+        parse(text) returns the result; raises `ParameterError`.
     largest : int
-        Letters that such a text may have.
+        Largest number of characters.
+
+    Returns
+    -------
+    object
+        Result of `parse`.
 
     Raises
     ------
     FileError
-        Where the file cannot be read, is larger, or is not what it is to be: it names the line, or the table and key.
+        Where the file cannot be read, is larger, or is invalid: it names the line, or the table and key.
     """
     try:
-        return made(read_text(path, what, largest))
+        return parse(read_text(path, what, largest))
     except ParameterError as error:
         raise FileError(Path(path), str(error), "Correct the file.") from None
 
 
 def write_toml(path: str | os.PathLike[str], what: str, text: str) -> None:
-    """Write a text as a whole or, where that fails, leave what was there.
+    """Write a TOML file; if that fails, an earlier file stays unchanged.
 
     Parameters
     ----------
     path : path-like
     what : str
-        What it is, such as "a recipe".
+        The content for errors, such as "a recipe".
     text : str
 
     Raises
     ------
     FileError
-        For a suffix other than .toml, or where the place cannot be written to.
+        For a suffix other than .toml, and where the file cannot be written.
     """
     suffix_for(path, what, (".toml", ""))
     with atomic_write(path) as temporary:
