@@ -1,6 +1,6 @@
-"""Meshes to and from the objects of other Python libraries: PyVista's grids and meshio's meshes.
+"""Conversion of meshes to and from the objects of other Python libraries: PyVista and meshio.
 
-The libraries are imported when a function is called, and none of them is needed by the rest of Hexmend.
+The libraries are imported when a function is called, and the rest of Hexmend does not need them.
 """
 
 from __future__ import annotations

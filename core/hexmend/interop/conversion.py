@@ -1,4 +1,4 @@
-"""The steps that all conversions share: importing the library, and turning what was read into a mesh."""
+"""Steps that all conversions share: import of the library, and conversion of its object to a mesh."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend.mesh.orientation import with_consistent_orientation
 
 @contextmanager
 def require_library(library: str) -> Iterator[None]:
-    """Raise `InstallationError`, which says how to install a library, where an import of it in the block fails."""
+    """Context manager that turns a failed import of `library` into an `InstallationError`."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -24,16 +24,20 @@ def require_library(library: str) -> Iterator[None]:
 
 
 def convert_to_mesh(title: str, read: Callable[[Path], Mesh], as_is: bool) -> Mesh:
-    """Mesh of an object of another library, with its side sets and, unless `as_is`, its hexes turned the right way.
+    """Convert an object of another library to a mesh with side sets, and correct mirrored hexes unless `as_is`.
 
     Parameters
     ----------
     title : str
         Name of the object in messages, such as "PyVista grid".
     read : callable
-        Function of the title, in the place of a file's path, that gives the mesh as the readers of files do.
+        read(title) returns the mesh; it takes the title in place of a file's path, as readers of files do.
     as_is : bool
-        Keep parts whose hexes are all wound the other way.
+        Keep parts whose hexes are all mirrored.
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Meshes to and from meshio's."""
+"""Conversion of meshes to and from meshio."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import meshio
 
-#: The kinds of cells by meshio's names.
+#: Kinds of cells by meshio's names.
 KINDS = {"hexahedron": "hex", "hexahedron20": "hex20", "hexahedron27": "hex27", **{kind: kind for kind in CELL_KINDS}}
 NAMES = {kind: name for name, kind in KINDS.items()}
 
-#: VTK's order of nodes, which Hexmend has, from and to meshio's where the two differ.
+#: Permutation of nodes between Hexmend's order, which is VTK's, and meshio's, where they differ; its own inverse.
 _ORDER = {"wedge": [0, 2, 1, 3, 5, 4]}
 
-#: Entries that meshio's reader of Gmsh puts among the cell sets and that hold no cells.
-_NO_SETS = {"gmsh:bounding_entities"}
+#: Entries of cell sets from meshio's reader of Gmsh that hold no cells.
+_NOT_SETS = {"gmsh:bounding_entities"}
 
 #: Cell data of Gmsh that hold the number of a cell's physical group; its name and dimension are field data.
 _PHYSICAL = "gmsh:physical"
 
 
 def to_meshio(mesh: Mesh) -> meshio.Mesh:
-    """meshio mesh of a mesh: its hexes, its cells of other kinds, and all data and sets that came with it.
+    """Convert a mesh to meshio: hexes, cells of other kinds, data and sets.
 
     Node sets are point sets; element sets are cell sets. meshio has no sets of faces: bit k of the cell data
     "sides:inlet" marks face k of a cell as one of the side set "inlet". Point data "fixed" are 1 for nodes that are
@@ -79,7 +79,7 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
 
 
 def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
-    """Mesh of the hexahedra of a meshio mesh, with its data, its sets and its cells of other kinds.
+    """Convert a meshio mesh with hexahedra: its hexes, cells of other kinds, data and sets.
 
     Arrays named as `to_meshio` names them become side sets and marks of fixed nodes again; physical groups of Gmsh
     become sets. Cells of other kinds are handled as in a file: see `hexmend.read`.
@@ -88,12 +88,12 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
     ----------
     meshio_mesh : meshio.Mesh
     as_is : bool
-        Keep parts whose hexes are all wound the other way as they are; else they are turned.
+        Keep parts whose hexes are all mirrored; else their node order is reversed.
 
     Returns
     -------
     Mesh
-        A copy: changing the meshio mesh does not change it. Its `notes` say what was done to it.
+        A copy: changing the meshio mesh does not change it. Its `notes` list the changes.
 
     Raises
     ------
@@ -117,19 +117,19 @@ def _library() -> ModuleType:
 
 
 def _content(mesh: meshio.Mesh) -> Content:
-    """Content of a meshio mesh: one block of cells for each kind."""
-    sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NO_SETS}
+    """Make the content of a meshio mesh: one block of cells for each kind."""
+    sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NOT_SETS}
     blocks: dict[str, list[Block]] = {}
     unread: dict[str, int] = {}
-    for place, cells in enumerate(mesh.cells):
+    for index, cells in enumerate(mesh.cells):
         kind = KINDS.get(cells.type)
         if kind is None:
             unread[f"type {cells.type}"] = unread.get(f"type {cells.type}", 0) + len(cells)
             continue
-        data = {name: np.array(parts[place]) for name, parts in mesh.cell_data.items()}
-        members = {name: _members(parts, place) for name, parts in sets.items()}
+        data = {name: np.array(parts[index]) for name, parts in mesh.cell_data.items()}
+        members = {name: _members(parts, index) for name, parts in sets.items()}
         blocks.setdefault(kind, []).append(Block(kind, _reordered(kind, cells.data), data, members))
-    merged = [_merged(some) for some in blocks.values()]
+    merged = [_merge(group) for group in blocks.values()]
     merged.sort(key=lambda block: block.kind not in HEX_KINDS)
     notes = []
     if unread:
@@ -147,7 +147,7 @@ def _content(mesh: meshio.Mesh) -> Content:
 
 
 def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:
-    """Physical groups of Gmsh as cell sets, as meshio gives them for files of version 2: numbers of a dimension."""
+    """Convert Gmsh's physical groups (field data with number and dimension, for files of version 2) to cell sets."""
     groups = {}
     for name, entry in mesh.field_data.items():
         numbers = np.asarray(entry)
@@ -159,36 +159,30 @@ def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:
     return groups
 
 
-def _members(parts: Sequence[object], place: int) -> np.ndarray:
-    """Members of a cell set in one block; meshio's readers give None, or nothing, where there are none."""
-    part = parts[place] if place < len(parts) else None
+def _members(parts: Sequence[object], index: int) -> np.ndarray:
+    """Members of a cell set in one block; meshio's readers may give None, or too few parts, for empty ones."""
+    part = parts[index] if index < len(parts) else None
     return np.array(() if part is None else part, np.int64)
 
 
-def _merged(blocks: Sequence[Block]) -> Block:
-    """Blocks of one kind as one."""
+def _merge(blocks: Sequence[Block]) -> Block:
+    """Concatenate blocks of one kind."""
     lengths = [len(block) for block in blocks]
-    data, sets = (
-        concatenate_data([block.data for block in blocks], lengths),
-        concatenate_sets([block.sets for block in blocks], lengths),
-    )
+    data = concatenate_data([block.data for block in blocks], lengths)
+    sets = concatenate_sets([block.sets for block in blocks], lengths)
     return Block(blocks[0].kind, np.concatenate([block.nodes for block in blocks]), data, sets)
 
 
 def _without_empty_sets(blocks: Sequence[Block]) -> list[Block]:
-    """Blocks without the sets that only other blocks have members of; sets without any member stay with the first."""
+    """Drop empty sets of blocks where another block has members; sets without any member stay in the first block."""
     filled = {name for block in blocks for name, members in block.sets.items() if len(members)}
-    return [
-        replace(
-            block,
-            sets={
-                name: members
-                for name, members in block.sets.items()
-                if len(members) or (place == 0 and name not in filled)
-            },
-        )
-        for place, block in enumerate(blocks)
-    ]
+    kept = []
+    for k, block in enumerate(blocks):
+        sets = {
+            name: members for name, members in block.sets.items() if len(members) or (k == 0 and name not in filled)
+        }
+        kept.append(replace(block, sets=sets))
+    return kept
 
 
 def _reordered(kind: str, nodes: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Meshes to and from PyVista's unstructured grids. This is the one module of the core that names PyVista."""
+"""Conversion of meshes to and from PyVista's unstructured grids; no other module of the core names PyVista."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     import pyvista
 
-#: Kinds of NumPy types that PyVista's grids hold: booleans, whole, real and complex numbers, and texts.
+#: Kinds of NumPy types that PyVista's grids can hold: bool, int, float, complex and str.
 _KINDS = "biufcU"
-#: Kinds that they do not hold: bytes, dates, durations, Python's objects and records.
-_OTHER_KINDS = "SMmOV"
+#: Kinds that they cannot hold: bytes, dates, durations, Python objects and records.
+_UNSUPPORTED_KINDS = "SMmOV"
 
 
 def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
-    """PyVista grid of a mesh: its hexes, its cells of other kinds, and all data and sets that came with it.
+    """Convert a mesh to a PyVista grid: hexes, cells of other kinds, data and sets.
 
     Point data and cell data are those of the nodes and the cells. A node set, element set or side set "inlet" is an
     array too: "set:inlet" of the points or of the cells is 1 for its members, and bit k of "sides:inlet" of a cell
@@ -60,28 +60,28 @@ def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
     27
     """
     pyvista = _library()
-    carried = from_mesh(with_side_marks(mesh), _KINDS + _OTHER_KINDS)
+    converted = from_mesh(with_side_marks(mesh), _KINDS + _UNSUPPORTED_KINDS)
     grid = pyvista.UnstructuredGrid()
-    grid.points = np.array(carried.points)
-    cells = pyvista.CellArray.from_arrays(carried.start, carried.nodes, deep=True)
-    grid.SetCells(pyvista.convert_array(carried.types, deep=True), cells)
-    refused = [
+    grid.points = np.array(converted.points)
+    cells = pyvista.CellArray.from_arrays(converted.start, converted.nodes, deep=True)
+    grid.SetCells(pyvista.convert_array(converted.types, deep=True), cells)
+    unsupported = [
         name
         for attributes, data in (
-            (grid.point_data, carried.node_data),
-            (grid.cell_data, carried.cell_data),
-            (grid.field_data, carried.field_data),
+            (grid.point_data, converted.node_data),
+            (grid.cell_data, converted.cell_data),
+            (grid.field_data, converted.field_data),
         )
         for name, values in data.items()
         if not _set_array(attributes, name, values)
     ]
-    if refused:
-        warnings.warn(f"arrays that PyVista cannot hold are left out: {', '.join(refused)}", stacklevel=2)
+    if unsupported:
+        warnings.warn(f"arrays that PyVista cannot hold are left out: {', '.join(unsupported)}", stacklevel=2)
     return grid
 
 
 def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
-    """Mesh of the hexahedra of a PyVista grid, with its data, its sets and its cells of other kinds.
+    """Convert a PyVista data set with hexahedra: its hexes, cells of other kinds, data and sets.
 
     Arrays named as `to_pyvista` names them become sets and marks of fixed nodes again. Cells of other kinds are handled
     as in a file: see `hexmend.read`.
@@ -92,12 +92,12 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
         Any data set with hexahedra or voxels: an unstructured grid, a structured grid, an image... VTK's own objects
         are taken too.
     as_is : bool
-        Keep parts whose hexes are all wound the other way as they are; else they are turned.
+        Keep parts whose hexes are all mirrored; else their node order is reversed.
 
     Returns
     -------
     Mesh
-        A copy: changing the grid does not change it. Its `notes` say what was done to it.
+        A copy: changing the grid does not change it. Its `notes` list the changes.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def _library() -> ModuleType:
 
 
 def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object) -> bool:
-    """Add a copy of an array to a grid; False where PyVista cannot hold it."""
+    """Add a copy of an array to a grid; returns False if PyVista cannot hold it."""
     array = np.asarray(values)
     if array.dtype.kind == "U":
         return _set_texts(attributes, name, array)
@@ -151,14 +151,14 @@ def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object)
 
 
 def _set_texts(attributes: pyvista.DataSetAttributes, name: str, texts: np.ndarray) -> bool:
-    """Add texts to a grid through VTK, as PyVista itself refuses letters beyond ASCII."""
+    """Add texts to a grid through VTK, because PyVista itself accepts ASCII only."""
     if texts.ndim > 1:
         return False
     texts = np.atleast_1d(texts)
     array = _library().convert_string_array(np.array([""]))
     array.SetNumberOfValues(len(texts))
-    for place, text in enumerate(texts.tolist()):
-        array.SetValue(place, text)
+    for index, text in enumerate(texts.tolist()):
+        array.SetValue(index, text)
     array.SetName(name)
     attributes.VTKObject.AddArray(array)
     return True
@@ -169,6 +169,6 @@ def _arrays(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 
 def _field(values: object) -> np.ndarray | list[str]:
-    """Field data as the readers of files give them: numbers as an array, texts as a list."""
+    """Convert field data to the form of the file readers: numbers as an array, texts as a list."""
     array = np.atleast_1d(np.array(values, subok=False))
     return [str(text) for text in array.ravel()] if array.dtype.kind == "U" else array

@@ -1,8 +1,8 @@
-"""Side sets as data of the hexes, for grids that have no sets of faces.
+"""Side sets as data of hexes, for grids that have no sets of faces.
 
 The data of a side set "inlet" are named "sides:inlet": bit k of a hex's number (1, 2, 4, 8, 16, 32) marks its face k of
-`hexmend.mesh.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay right where cells are left
-out or put in another order.
+`hexmend.mesh.hexahedron.FACES`, which is also face k of VTK's hexahedron. Such data stay valid if cells are left out
+or reordered.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _BITS = 1 << np.arange(len(FACES))
 
 
 def with_side_marks(mesh: Mesh) -> Mesh:
-    """Copy of a mesh with its side sets as data of its hexes."""
+    """Copy a mesh and convert its side sets to data of its hexes."""
     marks = {}
     for name, rows in mesh.side_sets.items():
         marks[PREFIX + name] = mark = np.zeros(mesh.n_hexes, np.uint8)
@@ -29,9 +29,9 @@ def with_side_marks(mesh: Mesh) -> Mesh:
 
 
 def with_side_sets(mesh: Mesh) -> Mesh:
-    """Copy of a mesh with side sets in place of the data that `with_side_marks` makes of them.
+    """Copy a mesh and convert data from `with_side_marks` back to side sets.
 
-    The faces of a set are in the order of the hexes. Data of such a name with other numbers stay data.
+    The faces of a set are in the order of the hexes. Data with the prefix that are no such marks stay data.
     """
     marks = {name: np.asarray(values) for name, values in mesh.hex_data.items() if name.startswith(PREFIX)}
     marks = {name: values for name, values in marks.items() if _are_marks(values)}

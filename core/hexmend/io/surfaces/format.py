@@ -1,4 +1,4 @@
-"""What a file format of surfaces is, and the registry in which these formats announce themselves."""
+"""File formats of surfaces and their registry, and helpers of their readers."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from hexmend.registry import Registry
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """What a file of a surface holds.
+    """Content of a surface file.
 
     Parameters
     ----------
     points : (n, 3) float64
     faces : list of (k, width) int64
-        Nodes of the faces, from 0, those of one width together.
+        Nodes of the faces, from 0, grouped by width.
     """
 
     points: np.ndarray
@@ -29,18 +29,18 @@ class Polygons:
 
 @dataclass(frozen=True)
 class SurfaceFormat:
-    """A file format of surfaces, as its module declares it.
+    """File format of surfaces.
 
     Parameters
     ----------
     name : str
-        The key in SURFACE_FORMATS.
+        Key in SURFACE_FORMATS.
     title : str
-        What people call it.
+        Name in messages.
     suffixes : tuple of str
         Lower case, with the dot.
     read : callable
-        From path to Polygons; raises FileError, and OSError where the file system fails.
+        read(path) returns Polygons; raises FileError, and OSError where the file system fails.
     """
 
     name: str
@@ -49,14 +49,30 @@ class SurfaceFormat:
     read: Callable[[Path], Polygons]
 
 
-#: Every format by name.
+#: All formats by name.
 SURFACE_FORMATS: Registry[SurfaceFormat] = Registry("surface format")
+
+
+def register(format: SurfaceFormat) -> SurfaceFormat:
+    """Add a format to SURFACE_FORMATS under its name."""
+    return SURFACE_FORMATS.add(format.name, format)
+
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 def parse_surface(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:
-    """What a parser makes of a file; whatever it raises becomes a `FileError`: each of its failures is another one."""
+    """Call a parser whose exceptions of any type become a `FileError`.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    title : str
+        Name of the format, for errors.
+    parse : callable
+        parse() returns Polygons.
+    """
     try:
         return parse()
     except (FileError, MemoryError, OSError):
@@ -66,14 +82,25 @@ def parse_surface(path: Path, title: str, parse: Callable[[], Polygons]) -> Poly
         raise FileError(path, f"cannot be read as {title} ({detail[:120]})", DAMAGED) from None
 
 
-def polygons_from_meshlane(found) -> Polygons:
-    """The faces of a mesh of meshlane's; its other cells are left out."""
+def polygons_from_meshlane(mesh: object) -> Polygons:
+    """Take the points and faces of a mesh from meshlane; other cells are left out."""
     kinds = ("triangle", "quad", "polygon")
-    faces = [np.asarray(block.data, dtype=np.int64) for block in found.cells if block.type in kinds]
-    return Polygons(np.asarray(found.points, dtype=np.float64).reshape(-1, 3), faces)
+    faces = [np.asarray(block.data, dtype=np.int64) for block in mesh.cells if block.type in kinds]
+    return Polygons(np.asarray(mesh.points, dtype=np.float64).reshape(-1, 3), faces)
 
 
 def group_by_width(start: np.ndarray, nodes: np.ndarray) -> list[np.ndarray]:
-    """Faces as compressed rows, start (k + 1,) and nodes, put together by their number of nodes."""
+    """Group faces by their number of nodes.
+
+    Parameters
+    ----------
+    start : (k + 1,) int
+        Face i has the nodes nodes[start[i]:start[i + 1]].
+    nodes : (start[-1],) int
+
+    Returns
+    -------
+    list of (j, width) int array
+    """
     widths = np.diff(start)
     return [nodes[start[:-1][widths == width, None] + np.arange(width)] for width in np.unique(widths)]

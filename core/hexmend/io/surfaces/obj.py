@@ -10,7 +10,7 @@ import io
 import re
 from pathlib import Path
 
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane
+from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane, register
 
 
 def read(path: Path) -> Polygons:
@@ -18,11 +18,11 @@ def read(path: Path) -> Polygons:
     from meshlane import obj
 
     text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
-    return parse_surface(path, "OBJ", lambda: polygons_from_meshlane(obj.read(io.StringIO(_in_form(text)))))
+    return parse_surface(path, "OBJ", lambda: polygons_from_meshlane(obj.read(io.StringIO(_normalised(text)))))
 
 
-def _in_form(text: str) -> str:
-    """Places of vertices, and faces that count them from the first: a negative number counts from the last so far."""
+def _normalised(text: str) -> str:
+    """Keep vertices and faces only, and make negative (relative) vertex numbers of faces positive."""
     lines, count = [], 0
     for line in text.splitlines():
         word, *rest = line.partition("#")[0].split() or [""]
@@ -35,4 +35,4 @@ def _in_form(text: str) -> str:
     return "\n".join(lines)
 
 
-SURFACE_FORMATS.add("obj", SurfaceFormat("obj", "OBJ", (".obj",), read))
+register(SurfaceFormat(name="obj", title="OBJ", suffixes=(".obj",), read=read))

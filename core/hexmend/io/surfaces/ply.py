@@ -11,7 +11,7 @@ import re
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane
+from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, polygons_from_meshlane, register
 
 _END = b"end_header"
 
@@ -30,10 +30,10 @@ def read(path: Path) -> Polygons:
             "holds no surface: expected vertices and faces, its head counts no vertex",
             "Name a file of a surface.",
         )
-    # The list has two names, and other programs read both.
+    # The list of vertices has two names in use; meshlane knows one of them.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]
     return parse_surface(path, "PLY", lambda: polygons_from_meshlane(ply.read(io.BytesIO(head + end + rest))))
 
 
-SURFACE_FORMATS.add("ply", SurfaceFormat("ply", "PLY", (".ply",), read))
+register(SurfaceFormat(name="ply", title="PLY", suffixes=(".ply",), read=read))

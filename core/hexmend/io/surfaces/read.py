@@ -1,4 +1,4 @@
-"""Reading a surface by suffix, and making one of the polygons of a file."""
+"""Reading of a surface file by its suffix."""
 
 from __future__ import annotations
 
@@ -9,32 +9,34 @@ import numpy as np
 
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
+from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.files import check_readable
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 from hexmend.mesh.components import components
 
-#: Corners nearer to each other than this, as a share of the diagonal, are one; and a surface whose area is no larger a
-#: share of the square of its extent has none.
-_ONE = 1e-9
+#: Corners at a smaller distance, relative to the diagonal of the bounding box, are merged.
+_MERGE_TOLERANCE = 1e-9
+#: Smallest area, relative to the square of the extent.
+_MIN_AREA = 1e-9
 
 
 def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
-    """Read a surface of triangles, quads or polygons: what the boundary of a mesh can slide on.
+    """Read a surface of triangles, quads or polygons, on which the boundary of a mesh can slide.
 
     Parameters
     ----------
     path : path-like
-        A file with the suffix of one of `SURFACE_FORMATS`.
+        A file of one of `SURFACE_FORMATS`, by its suffix.
 
     Returns
     -------
     SkinSurface
-        Named after the file. Corners at one place are one; faces of more than four nodes are cut into triangles.
+        Named after the file. Coincident corners are merged; faces of more than four nodes are split into triangles.
 
     Raises
     ------
     FileError
-        For every reason why the file gives no surface.
+        Where the file cannot be read as a surface.
     """
     path = Path(path)
     check_readable(path, "a file of a surface")
@@ -43,41 +45,41 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
         known = ", ".join(f"{suffix} ({one.title})" for one in SURFACE_FORMATS.values() for suffix in one.suffixes)
         raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", f"Hexmend reads {known}.")
     try:
-        found = format.read(path)
+        polygons = format.read(path)
     except MemoryError:
         raise FileError(path, "needs more memory than there is", "Name a coarser surface.") from None
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
-    return _skin(path, found)
+    return _to_surface(path, polygons)
 
 
-def _skin(path: Path, found: Polygons) -> SkinSurface:
-    wrong = np.flatnonzero(~np.isfinite(found.points).all(axis=1))
+def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
+    wrong = np.flatnonzero(~np.isfinite(polygons.points).all(axis=1))
     if wrong.size:
-        at = found.points[wrong[0]].tolist()
+        at = polygons.points[wrong[0]].tolist()
         raise FileError(path, f"point {wrong[0]} (counted from 0) is at {at}: expected finite numbers", "Correct it.")
-    for nodes in found.faces:
-        if nodes.size and (nodes.min() < 0 or nodes.max() >= len(found.points)):
-            wrong = int(nodes[(nodes < 0) | (nodes >= len(found.points))][0])
+    for nodes in polygons.faces:
+        outside = first_out_of_range(nodes, len(polygons.points))
+        if outside is not None:
             raise FileError(
                 path,
-                f"a face uses the point {wrong}: expected numbers from 0 to {len(found.points) - 1}",
+                f"a face uses the point {outside}: expected numbers from 0 to {len(polygons.points) - 1}",
                 "Correct it.",
             )
-    faces = _of_one_width([nodes for nodes in found.faces if nodes.size and nodes.shape[1] > 2])
-    points, faces = _merged(found.points, faces)
-    # Faces without an extent have none: two corners, or those of a triangle on top of each other.
+    faces = _with_equal_width([nodes for nodes in polygons.faces if nodes.size and nodes.shape[1] > 2])
+    points, faces = _merge_corners(polygons.points, faces)
+    # Drop faces with fewer than three different corners.
     distinct = np.sort(faces, axis=1)
     faces = faces[(distinct[:, 1:] != distinct[:, :-1]).sum(axis=1) >= 2]
-    if not _area(points, faces) > _ONE:
+    if not _relative_area(points, faces) > _MIN_AREA:
         raise FileError(
             path, "holds no surface: it has no triangle or quad with an area", "Name a file of the surface of the body."
         )
     return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
 
 
-def _area(points: np.ndarray, faces: np.ndarray) -> float:
-    """Twice the area of all faces, by the square of the longest side of their box; 0 where there are none."""
+def _relative_area(points: np.ndarray, faces: np.ndarray) -> float:
+    """Twice the area of all faces, divided by the square of the longest side of their bounding box."""
     if not len(faces):
         return 0.0
     x = points[faces]
@@ -86,8 +88,8 @@ def _area(points: np.ndarray, faces: np.ndarray) -> float:
     return float(np.linalg.norm(np.cross(sides[:, :-1], sides[:, 1:]), axis=2).sum())
 
 
-def _of_one_width(faces: list[np.ndarray]) -> np.ndarray:
-    """Faces of any widths as triangles, or, if there are quads, as quads, a triangle with its last node twice."""
+def _with_equal_width(faces: list[np.ndarray]) -> np.ndarray:
+    """Convert faces to triangles or, if there are quads, to quads; a triangle then has its last node twice."""
     triangles = [nodes for nodes in faces if nodes.shape[1] == 3]
     for nodes in faces:
         if nodes.shape[1] > 4:
@@ -98,16 +100,18 @@ def _of_one_width(faces: list[np.ndarray]) -> np.ndarray:
     return np.concatenate([*quads, *(nodes[:, [0, 1, 2, 2]] for nodes in triangles)])
 
 
-def _merged(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The points that faces use, those at one place as one, and the faces with their numbers."""
+def _merge_corners(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Drop unused points and merge coincident ones; returns points (n, 3) and renumbered faces."""
     from scipy.spatial import cKDTree
 
     width = faces.shape[1]
     used, faces = np.unique(faces, return_inverse=True)
     if not used.size:
         return points[:0], faces.reshape(-1, width)
-    points, place = np.unique(points[used], axis=0, return_inverse=True)
-    near = cKDTree(points).query_pairs(_ONE * float(np.linalg.norm(np.ptp(points, axis=0))), output_type="ndarray")
-    one = components(len(points), near)
-    _, first = np.unique(one, return_index=True)
-    return points[first], one[place.ravel()][faces].reshape(-1, width)
+    points, index = np.unique(points[used], axis=0, return_inverse=True)
+    close_pairs = cKDTree(points).query_pairs(
+        _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0))), output_type="ndarray"
+    )
+    merged = components(len(points), close_pairs)
+    _, first = np.unique(merged, return_index=True)
+    return points[first], merged[index.ravel()][faces].reshape(-1, width)

@@ -1,4 +1,4 @@
-"""STL, in decimals and binary: triangles as nine numbers each, of which meshlane reads some files only."""
+"""STL, in decimals and binary; meshlane does not read all of its variants."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.surfaces.format import DAMAGED, SURFACE_FORMATS, Polygons, SurfaceFormat, parse_surface
+from hexmend.io.surfaces.format import DAMAGED, Polygons, SurfaceFormat, parse_surface, register
 
-#: Bytes before the triangles of a binary file, and what each of them has.
-_HEAD = 84
+#: Bytes before the triangles of a binary file.
+_HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
 def read(path: Path) -> Polygons:
-    """Read an STL file; each triangle has corners of its own."""
+    """Read an STL file; triangles do not share corners."""
     data = path.read_bytes()
-    if len(data) >= _HEAD:
-        count = int.from_bytes(data[_HEAD - 4 : _HEAD], "little")
-        if len(data) == _HEAD + _TRIANGLE.itemsize * count:
-            return _soup(np.frombuffer(data, _TRIANGLE, offset=_HEAD)["corners"])
+    if len(data) >= _HEADER:
+        count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
+        if len(data) == _HEADER + _TRIANGLE.itemsize * count:
+            return _polygons(np.frombuffer(data, _TRIANGLE, offset=_HEADER)["corners"])
     if data.lstrip()[:5].lower() != b"solid":
-        have = max(len(data) - _HEAD, 0) / _TRIANGLE.itemsize
+        have = max(len(data) - _HEADER, 0) / _TRIANGLE.itemsize
         raise FileError(
             path, f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles", DAMAGED
         )
-    return parse_surface(path, "STL", lambda: _soup(_corners(data.lower())))
+    return parse_surface(path, "STL", lambda: _polygons(_corners(data.lower())))
 
 
 def _corners(data: bytes) -> np.ndarray:
-    """The corners of all facets, (3 k, 3) float64; ValueError where a facet has not three of three numbers."""
+    """Parse the corners of all facets, (3 k, 3) float64; raises ValueError where a facet has not three of them."""
     lines = [
         line for line in map(bytes.split, re.split(rb"[\r\n]+", data)) if line and line[0] in (b"facet", b"vertex")
     ]
@@ -41,10 +41,10 @@ def _corners(data: bytes) -> np.ndarray:
     return np.array([line[1:4] for line in lines if line[0] == b"vertex"], np.float64).reshape(-1, 3)
 
 
-def _soup(corners: np.ndarray) -> Polygons:
-    """Triangles none of which shares a corner."""
+def _polygons(corners: np.ndarray) -> Polygons:
+    """Make separate triangles of corners, (3 k, 3) or (k, 3, 3)."""
     points = corners.reshape(-1, 3).astype(np.float64)
     return Polygons(points, [np.arange(len(points)).reshape(-1, 3)])
 
 
-SURFACE_FORMATS.add("stl", SurfaceFormat("stl", "STL", (".stl",), read))
+register(SurfaceFormat(name="stl", title="STL", suffixes=(".stl",), read=read))

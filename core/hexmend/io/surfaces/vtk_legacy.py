@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.formats.vtk.legacy_reader import read_polygons
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, group_by_width
+from hexmend.io.surfaces.format import Polygons, SurfaceFormat, group_by_width, register
 
 
 def read(path: Path) -> Polygons:
@@ -14,4 +14,4 @@ def read(path: Path) -> Polygons:
     return Polygons(points, group_by_width(start, nodes))
 
 
-SURFACE_FORMATS.add("vtk", SurfaceFormat("vtk", "VTK legacy", (".vtk",), read))
+register(SurfaceFormat(name="vtk", title="VTK legacy", suffixes=(".vtk",), read=read))

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import Document
-from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons, SurfaceFormat, group_by_width, parse_surface
+from hexmend.io.surfaces.format import Polygons, SurfaceFormat, group_by_width, parse_surface, register
 
 
 def read(path: Path) -> Polygons:
@@ -34,4 +34,4 @@ def _polygons(document: Document) -> Polygons:
     return Polygons(np.concatenate(points), faces)
 
 
-SURFACE_FORMATS.add("vtp", SurfaceFormat("vtp", "VTP", (".vtp",), read))
+register(SurfaceFormat(name="vtp", title="VTP", suffixes=(".vtp",), read=read))
