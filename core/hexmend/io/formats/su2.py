@@ -1,4 +1,4 @@
-"""SU2's format (.su2): zones of elements by VTK's numbers, and markers of boundary faces."""
+"""SU2's format (.su2): zones of elements with VTK's type numbers, and markers of boundary faces."""
 
 from __future__ import annotations
 
@@ -8,17 +8,18 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
+from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh, node_count
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, row_chunks
 from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
+from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.unique_names import altered_names, make_unique
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
-#: What the elements of a number are; these and no others has the format.
+#: Kinds of elements by type number; the format has no others.
 KINDS = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hex", 13: "wedge", 14: "pyramid"}
 NUMBERS = {kind: number for number, kind in KINDS.items()}
 _KEY = re.compile(rb"^[ \t]*([A-Za-z_]+)[ \t]*=[ \t]*([^\n]*)", re.MULTILINE)
@@ -33,40 +34,43 @@ class _Zone:
 
 
 def read(path: Path) -> Mesh:
-    """Read all zones as one mesh; markers are sets of the boundary's cells."""
+    """Read all zones as one mesh; markers are sets of boundary cells."""
     data = read_text_bytes(path)
-    source = ByteCursor(path, _COMMENT.sub(b"", data) if b"%" in data else data)
-    keys = list(_KEY.finditer(source.data))
+    cursor = ByteCursor(path, _COMMENT.sub(b"", data) if b"%" in data else data)
+    keys = list(_KEY.finditer(cursor.data))
     zones = [_Zone()]
     announced, tag = 1, ""
     for k, found in enumerate(keys):
         key, value = found[1].decode().upper(), found[2].decode("utf-8", errors="replace").strip()
-        source.pos = min(found.end() + 1, len(source.data))
-        end = keys[k + 1].start() if k + 1 < len(keys) else len(source.data)
+        cursor.pos = min(found.end() + 1, len(cursor.data))
+        end = keys[k + 1].start() if k + 1 < len(keys) else len(cursor.data)
         if key == "NZONE":
-            announced = source.parse_count(value, "NZONE")
+            announced = cursor.parse_count(value, "NZONE")
         elif key == "IZONE":
             if zones[-1].points is not None or zones[-1].cells is not None:
                 zones.append(_Zone())
         elif key == "NDIME":
             if value != "3":
-                raise source.error(f"NDIME is {quoted(value)}: expected 3", "Hexmend works in space.")
+                raise cursor.error(f"NDIME is {quoted(value)}: expected 3", "Hexmend works in space.")
         elif key == "NELEM":
-            zones[-1].cells = _cells(source, end, source.parse_count(value, "NELEM"), "NELEM")
+            zones[-1].cells = _read_cells(cursor, end, cursor.parse_count(value, "NELEM"), "NELEM")
         elif key == "NPOIN":
-            zones[-1].points = _points(source, end, source.parse_count((value.split() or [""])[0], "NPOIN"))
+            zones[-1].points = _read_points(cursor, end, cursor.parse_count((value.split() or [""])[0], "NPOIN"))
         elif key == "MARKER_TAG":
             tag = value
         elif key == "MARKER_ELEMS":
-            zones[-1].markers.append((tag, _cells(source, end, source.parse_count(value, "MARKER_ELEMS"), quoted(tag))))
+            zones[-1].markers.append(
+                (tag, _read_cells(cursor, end, cursor.parse_count(value, "MARKER_ELEMS"), quoted(tag)))
+            )
     if zones[0].points is None and zones[0].cells is None:
-        raise source.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
+        raise cursor.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
     if len(zones) != announced:
-        raise source.error(f"holds {len(zones)} zones: expected {announced} as NZONE says")
-    return mesh_of(path, _joined(source, zones))
+        raise cursor.error(f"holds {len(zones)} zones: expected {announced} as NZONE says")
+    return mesh_of(path, _merge_zones(cursor, zones))
 
 
-def _joined(source: ByteCursor, zones: list[_Zone]) -> Content:
+def _merge_zones(cursor: ByteCursor, zones: list[_Zone]) -> Content:
+    """Concatenate zones; their elements are sets if there are several."""
     rows: dict[str, list[np.ndarray]] = {}
     sets: dict[str, dict[str, list[np.ndarray]]] = {}
     count = 0
@@ -79,13 +83,13 @@ def _joined(source: ByteCursor, zones: list[_Zone]) -> Content:
 
     for k, zone in enumerate(zones):
         if zone.points is None or zone.cells is None:
-            raise source.error(f"zone {k + 1} has no {'NPOIN' if zone.points is None else 'NELEM'}=")
+            raise cursor.error(f"zone {k + 1} has no {'NPOIN' if zone.points is None else 'NELEM'}=")
         for cells in (zone.cells, *(cells for _, cells in zone.markers)):
             for nodes in cells.values():
-                if nodes.size and (nodes.min() < 0 or nodes.max() >= len(zone.points)):
-                    wrong = int(nodes[(nodes < 0) | (nodes >= len(zone.points))][0])
-                    raise source.error(
-                        f"an element of zone {k + 1} names the node {wrong}: "
+                outside = first_out_of_range(nodes, len(zone.points))
+                if outside is not None:
+                    raise cursor.error(
+                        f"an element of zone {k + 1} names the node {outside}: "
                         f"expected numbers from 0 to {len(zone.points) - 1}"
                     )
         for kind, nodes in zone.cells.items():
@@ -112,43 +116,39 @@ def _joined(source: ByteCursor, zones: list[_Zone]) -> Content:
     )
 
 
-def _points(source: ByteCursor, end: int, count: int) -> np.ndarray:
-    """Coordinates, (count, 3); behind them there may be a number."""
-    values = source.read_numbers_to("NPOIN", end, np.float64)
+def _read_points(cursor: ByteCursor, end: int, count: int) -> np.ndarray:
+    """Read coordinates, (count, 3) float64; an index may follow each node."""
+    values = cursor.read_numbers_to("NPOIN", end, np.float64)
     for width in (3, 4):
         if values.size == count * width:
             return np.ascontiguousarray(values.reshape(count, width)[:, :3])
-    raise source.error(f"NPOIN holds {values.size} numbers: expected 3 or 4 for each of {count} nodes")
+    raise cursor.error(f"NPOIN holds {values.size} numbers: expected 3 or 4 for each of {count} nodes")
 
 
-def _cells(source: ByteCursor, end: int, count: int, name: str) -> dict[str, np.ndarray]:
-    """Elements by kind, each its number, nodes and perhaps one number more."""
-    values = source.read_numbers_to(name, end, np.int64)
-    for behind in (0, 1):
+def _read_cells(cursor: ByteCursor, end: int, count: int, name: str) -> dict[str, np.ndarray]:
+    """Read elements, (k, width) nodes by kind; each is its type, its nodes and in some files an index."""
+    values = cursor.read_numbers_to(name, end, np.int64)
+    for indices in (0, 1):
         starts, at, view = [], 0, memoryview(values)
         while at < values.size and view[at] in KINDS and len(starts) < count:
             starts.append(at)
-            at += 1 + _width(KINDS[view[at]]) + behind
+            at += 1 + node_count(KINDS[view[at]]) + indices
         if len(starts) == count and at == values.size:
             begins = np.array(starts, np.int64)
             types = values[begins]
             return {
-                KINDS[number]: values[begins[types == number][:, None] + np.arange(1, 1 + _width(KINDS[number]))]
+                KINDS[number]: values[begins[types == number][:, None] + np.arange(1, 1 + node_count(KINDS[number]))]
                 for number in np.unique(types).tolist()
             }
-    raise source.error(
+    raise cursor.error(
         f"{name} holds {values.size} numbers, which are not {count} elements of the types {', '.join(map(str, KINDS))}",
     )
-
-
-def _width(kind: str) -> int:
-    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write one zone; sets of quads and triangles are its markers.
 
-    Other sets, other cells and nodes of second order are left out.
+    Other sets, other cells and mid-nodes are left out.
     """
     content = reduce_order(from_mesh(mesh), NUMBERS)
     titles = _titles(content)
@@ -174,15 +174,15 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Names that markers cannot have, and mid-nodes, in words."""
+    """Describe names of markers that are altered, and mid-nodes that are lost."""
     return altered_names(_titles(reduce_order(from_mesh(mesh), NUMBERS))) + lost_mid_nodes(mesh, NUMBERS)
 
 
 def _titles(content: Content) -> dict[str, str]:
-    """Names of markers: words of one piece without %, which begins a comment."""
+    """Names of markers as they are written: without white space and %, which begins a comment."""
 
-    def form(name: str, end: str) -> str:
-        return "_".join((name.replace("%", " ") + end).split()) or "unnamed"
+    def form(name: str, suffix: str) -> str:
+        return "_".join((name.replace("%", " ") + suffix).split()) or "unnamed"
 
     boundary = [block for block in content.blocks if block.kind in ("triangle", "quad")]
     return make_unique((name for block in boundary for name in block.sets), form)

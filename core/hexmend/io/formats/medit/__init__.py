@@ -1,4 +1,4 @@
-"""Medit's format: as text (.mesh) and in binary (.meshb)."""
+"""Medit's format, in decimals (.mesh) and binary (.meshb)."""
 
 from hexmend.io.formats.medit import ascii, binary
 

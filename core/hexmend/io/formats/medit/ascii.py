@@ -1,4 +1,4 @@
-"""Medit's format in decimals (.mesh), as libMeshb describes it."""
+"""Medit's format in decimals (.mesh), as documented by libMeshb."""
 
 from __future__ import annotations
 
@@ -16,70 +16,70 @@ _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexae
 
 
 def read(path: Path) -> Mesh:
-    """Read a Medit file; coordinates are taken in double precision whatever its version says."""
-    source = ByteCursor(path, _without_comments(path.read_bytes()))
-    if source.next_word() != "MeshVersionFormatted":
-        raise source.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
-    source.parse_count(source.next_word(), "the version")
+    """Read a Medit file; coordinates are read as float64 in every version of the format."""
+    cursor = ByteCursor(path, _without_comments(path.read_bytes()))
+    if cursor.next_word() != "MeshVersionFormatted":
+        raise cursor.error("does not begin with MeshVersionFormatted", "Is it a Medit file? Check its suffix.")
+    cursor.parse_count(cursor.next_word(), "the version")
     points = refs = None
     sections: dict[str, np.ndarray] = {}
     dimension = 0
-    while not source.at_end:
-        line, key = source.location, source.next_word()
+    while not cursor.at_end:
+        line, key = cursor.location, cursor.next_word()
         if key == "End":
             break
         if key == "Dimension":
-            dimension = source.parse_count(source.next_word(), "Dimension")
+            dimension = cursor.parse_count(cursor.next_word(), "Dimension")
             if dimension != 3:
-                raise source.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
+                raise cursor.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
         elif key == "Vertices":
-            rows = source.read_numbers(
-                "Vertices", source.parse_count(source.next_word(), "the number of Vertices"), 4, np.float64
+            rows = cursor.read_numbers(
+                "Vertices", cursor.parse_count(cursor.next_word(), "the number of Vertices"), 4, np.float64
             )
-            points, refs = np.ascontiguousarray(rows[:, :3]), _whole(source, rows[:, 3])
+            points, refs = np.ascontiguousarray(rows[:, :3]), _to_references(cursor, rows[:, 3])
         elif key.lower() in _KNOWN:
             section = _KNOWN[key.lower()]
-            count = source.parse_count(source.next_word(), f"the number of {section.name}")
-            sections[section.name] = source.read_numbers(section.name, count, section.width, np.int64)
+            count = cursor.parse_count(cursor.next_word(), f"the number of {section.name}")
+            sections[section.name] = cursor.read_numbers(section.name, count, section.width, np.int64)
         elif key[:1].isalpha():
-            _skip(source)  # a section that says nothing about hexes
+            _skip(cursor)  # an unused section
         else:
-            raise source.error(f"{quoted(key)} stands where a section should begin ({line})")
+            raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
     if points is None:
-        raise source.error("has no section Vertices")
-    if "Hexahedra" not in sections and not source.data.rstrip().endswith(b"End"):
-        raise source.error(f"ends at {source.location} without Hexahedra")
+        raise cursor.error("has no section Vertices")
+    if "Hexahedra" not in sections and not cursor.data.rstrip().endswith(b"End"):
+        raise cursor.error(f"ends at {cursor.location} without Hexahedra")
     return to_mesh(path, points, refs, sections)
 
 
-def _whole(source: ByteCursor, numbers: np.ndarray) -> np.ndarray:
-    """References of vertices, (n,) int64."""
+def _to_references(cursor: ByteCursor, numbers: np.ndarray) -> np.ndarray:
+    """Convert references of vertices to (n,) int64; they were read as floats together with the coordinates."""
     with np.errstate(invalid="ignore"):
         wrong = np.flatnonzero(~((numbers == np.rint(numbers)) & (np.abs(numbers) < 2.0**53)))
     if wrong.size:
         row = int(wrong[0])
-        raise source.error(f"vertex {row + 1} has the reference {numbers[row]:g}: expected a whole number")
+        raise cursor.error(f"vertex {row + 1} has the reference {numbers[row]:g}: expected a whole number")
     return numbers.astype(np.int64)
 
 
-def _skip(source: ByteCursor) -> None:
-    """Go to the next word that begins with a letter."""
-    while not source.at_end:
-        mark = source.pos
-        if source.next_word()[:1].isalpha():
-            source.pos = mark
+def _skip(cursor: ByteCursor) -> None:
+    """Skip to the next word that begins with a letter."""
+    while not cursor.at_end:
+        mark = cursor.pos
+        if cursor.next_word()[:1].isalpha():
+            cursor.pos = mark
             return
 
 
 def _without_comments(data: bytes) -> bytes:
-    """The content with comments blanked out; lines keep their numbers."""
+    """Remove comments; lines keep their numbers."""
     if b"#" not in data:
         return data
     return b"\n".join(line.split(b"#", 1)[0] for line in data.split(b"\n"))
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write version 2; decimals are the shortest that give the same number back."""
+    """Write version 2; decimals are the shortest that read as the same number."""
     points, refs, sections = from_mesh(mesh)
     with open(path, "wb") as file:
         file.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n".encode())

@@ -1,4 +1,4 @@
-"""What a Medit file holds, whether in decimals or binary: its sections, and the mesh they make."""
+"""Sections of a Medit file, the same in decimals and binary, and their conversion to and from meshes."""
 
 from __future__ import annotations
 
@@ -14,33 +14,40 @@ from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import needs_marks
 from hexmend.io.base.format import Capability
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
+from hexmend.io.base.numbering import first_out_of_range
 from hexmend.mesh.mesh import Mesh
 
 
 @dataclass(frozen=True)
 class MeditSection:
-    """A section of the format: its keyword, its number in binary files, whole numbers a row, and what they are.
+    """Section of integers.
 
-    `corners` is the number of nodes of a cell, followed by its reference; 0 for lists of numbers.
+    Parameters
+    ----------
+    name : str
+        Keyword in text files.
+    code : int
+        Code in binary files.
+    width : int
+        Integers a row: the nodes of a cell and its reference, or one number.
     """
 
     name: str
     code: int
     width: int
-    corners: int = 0
 
 
-#: Sections that are read and written, Vertices apart, in the order in which they are written.
+#: Sections that are read and written, in this order, except Vertices.
 SECTIONS = {
     section.name: section
     for section in (
-        MeditSection("Edges", 5, 3, 2),
-        MeditSection("Triangles", 6, 4, 3),
-        MeditSection("Quadrilaterals", 7, 5, 4),
-        MeditSection("Tetrahedra", 8, 5, 4),
-        MeditSection("Prisms", 9, 7, 6),
-        MeditSection("Hexahedra", 10, 9, 8),
-        MeditSection("Pyramids", 49, 6, 5),
+        MeditSection("Edges", 5, 3),
+        MeditSection("Triangles", 6, 4),
+        MeditSection("Quadrilaterals", 7, 5),
+        MeditSection("Tetrahedra", 8, 5),
+        MeditSection("Prisms", 9, 7),
+        MeditSection("Hexahedra", 10, 9),
+        MeditSection("Pyramids", 49, 6),
         MeditSection("Corners", 13, 1),
         MeditSection("Ridges", 14, 1),
         MeditSection("RequiredVertices", 15, 1),
@@ -49,35 +56,49 @@ SECTIONS = {
         MeditSection("RequiredQuadrilaterals", 18, 1),
     )
 }
+#: Name of the data that hold references.
 REF = "medit:ref"
 _CELLS = {
-    "Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad",
-    "Tetrahedra": "tetra", "Prisms": "wedge", "Pyramids": "pyramid",
-}  # fmt: skip
+    "Edges": "line",
+    "Triangles": "triangle",
+    "Quadrilaterals": "quad",
+    "Tetrahedra": "tetra",
+    "Prisms": "wedge",
+    "Pyramids": "pyramid",
+}
 _KINDS = frozenset({"hex", *_CELLS.values()})
-#: Lists of cells, as flags on these cells: section, kind of cell, name of the flag.
+#: Sections that list cells, which become data of these cells: section, kind of cells, name of the data.
 _FLAGS = (
     ("Ridges", "line", "medit:ridge"),
     ("RequiredEdges", "line", "medit:required"),
     ("RequiredTriangles", "triangle", "medit:required"),
     ("RequiredQuadrilaterals", "quad", "medit:required"),
 )
-#: What the format holds, and which names of data and sets.
 CAPABILITIES = frozenset({Capability.FIXED_NODES, Capability.LOWER_CELLS, Capability.OTHER_CELLS})
 STORED_NAMES = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 
 def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str, np.ndarray]) -> Mesh:
-    """The mesh that a file's sections make.
+    """Make a mesh of the sections of a file.
 
     Parameters
     ----------
     path : Path
     points : (n, 3) float64
     refs : (n,) int
+        References of the nodes.
     sections : mapping of keyword to (rows, width) int array
-        Numbers from 1, as the format counts.
+        Nodes and cells are numbered from 1.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    FileError
+        For numbers of nodes or cells that do not exist.
     """
     flags = {(kind, flag): sections[name][:, 0] - 1 for name, kind, flag in _FLAGS if name in sections}
     blocks = []
@@ -85,8 +106,8 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
         if len(sections.get(name, ())):
             rows = sections[name]
             data = {REF: rows[:, -1].copy()}
-            for (of, flag), members in flags.items():
-                if of == kind:
+            for (flagged, flag), members in flags.items():
+                if flagged == kind:
                     data[flag] = _mask(path, flag, members, len(rows))
             blocks.append(Block(kind, rows[:, :-1] - 1, data))
     node_sets = {}
@@ -105,12 +126,18 @@ def to_mesh(path: Path, points: np.ndarray, refs: np.ndarray, sections: dict[str
 
 
 def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """Points (n, 3), their references (n,), and the sections by keyword, numbers from 1.
+    """Convert a mesh to the sections of a file; cells of second order keep their corners only.
 
-    Cells of second order are written with their corners, and nodes that no cell has any longer are left out.
+    Returns
+    -------
+    points : (n, 3) float64
+    refs : (n,) int64
+        References of the nodes.
+    sections : dict of keyword to (rows, width) int array
+        Nodes and cells are numbered from 1.
     """
     content = reduce_order(content_of(mesh), _KINDS)
-    order = np.argsort(np.concatenate([numbers for _, numbers in hex_blocks(mesh)]))  # which is that of the mesh
+    order = np.argsort(np.concatenate([numbers for _, numbers in hex_blocks(mesh)]))  # back to the order of the mesh
     rows: dict[str, list[np.ndarray]] = {}
     for block in content.blocks:
         rows.setdefault(block.kind, []).append(_with_refs(block.nodes, block.data.get(REF)))
@@ -121,7 +148,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
             sections[name] = np.asarray(content.node_sets[title]).reshape(-1, 1) + 1
     required = np.zeros(mesh.n_nodes, bool)
     required[mesh.node_sets.get("required", [])] = True
-    if needs_marks(mesh, required):  # changed since it was read, or read elsewhere
+    if needs_marks(mesh, required):  # changed since reading, or from another format
         sections["RequiredVertices"] = np.flatnonzero(content.pinned).reshape(-1, 1) + 1
     for name, kind, flag in _FLAGS:
         blocks = [block for block in content.blocks if block.kind == kind]
@@ -134,7 +161,7 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Nodes of second order of cells beside hexes of first order, in words."""
+    """Describe the mid-nodes of cells next to hexes of first order, which are lost."""
     return lost_mid_nodes(mesh, _KINDS)
 
 
@@ -144,9 +171,10 @@ def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:
 
 
 def _mask(path: Path, name: str, members: np.ndarray, length: int) -> np.ndarray:
-    if len(members) and (members.min() < 0 or members.max() >= length):
-        wrong = int(members[(members < 0) | (members >= length)][0]) + 1
-        raise FileError(path, f"{name} names {wrong}: expected numbers from 1 to {length}", "Correct the file.")
+    """Mark members by 1 in (length,) uint8; `name` is their section, for errors."""
+    outside = first_out_of_range(members, length)
+    if outside is not None:
+        raise FileError(path, f"{name} names {outside + 1}: expected numbers from 1 to {length}", "Correct the file.")
     mask = np.zeros(length, np.uint8)
     mask[members] = 1
     return mask

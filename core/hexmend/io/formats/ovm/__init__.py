@@ -1,8 +1,7 @@
-"""OpenVolumeMesh's format in decimals (.ovm): polyhedra of half-faces, of which those of six quads are hexes.
+"""OpenVolumeMesh's format in decimals (.ovm): polyhedra given by half-faces; those of six quads are hexes.
 
-Cells have properties, of which those named "set:..." are sets, as in VTK's formats.
-
-Edge e is the half-edges 2e and, the other way, 2e + 1; face f the half-faces 2f and 2f + 1.
+Properties of vertices and cells are data; those named "set:..." are sets, as in VTK's formats. Edge e has the
+half-edges 2e and, reversed, 2e + 1; face f has the half-faces 2f and 2f + 1.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
@@ -22,53 +22,55 @@ from hexmend.mesh.mesh import Mesh
 _LETTER = re.compile(rb"[A-Za-z]")
 _PROPERTY = re.compile(r'([A-Z]+Prop)\s+(.+?)\s+"?([^"]*?)"?\s*\Z', re.IGNORECASE)
 _VECTOR = re.compile(r"(?:vec|Vec|Vector)([234])(d|f|i|ui)\Z")
-#: What has to come before properties of it.
-_BEFORE = {"VPROP": "Vertices", "CPROP": "Polyhedra"}
+#: Section that must precede properties.
+_REQUIRED_SECTION = {"VPROP": "Vertices", "CPROP": "Polyhedra"}
 _REALS = ("double", "float")
-_WHOLES = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "short", "bool", "char", "unsigned char")
+_INTEGERS = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "short", "bool", "char", "unsigned char")
 
 
 def read(path: Path) -> Mesh:
-    """Read a mesh of polyhedra; properties of its vertices and cells are data of nodes and hexes."""
-    source = ByteCursor(path, read_text_bytes(path))
-    if source.next_line().upper() != "OVM ASCII":
-        raise source.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
+    """Read a mesh of polyhedra."""
+    cursor = ByteCursor(path, read_text_bytes(path))
+    if cursor.next_line().upper() != "OVM ASCII":
+        raise cursor.error("does not begin with OVM ASCII", "Is it an OpenVolumeMesh file? Save it as ASCII.")
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
     faces = cells = RaggedArray(np.zeros(1, np.int64), np.zeros(0, np.int64))
     seen: set[object] = set()
     node_data: dict[str, np.ndarray] = {}
     cell_data: dict[str, np.ndarray] = {}
     notes: list[str] = []
-    while not source.at_end:
-        line, key = source.location, source.next_line()
+    while not cursor.at_end:
+        line, key = cursor.location, cursor.next_line()
         section, named = key.upper(), _PROPERTY.match(key)
-        mark = (named[1].upper(), *named.groups()[1:]) if named else section  # capitals tell names apart
+        mark = (
+            (named[1].upper(), *named.groups()[1:]) if named else section
+        )  # names are case-sensitive, sections are not
         if mark in seen:
-            raise source.error(f"holds {quoted(key)} twice, again at {line}")
+            raise cursor.error(f"holds {quoted(key)} twice, again at {line}")
         seen.add(mark)
         if section == "VERTICES":
-            points = source.read_numbers("Vertices", _count(source, "Vertices"), 3, np.float64)
+            points = cursor.read_numbers("Vertices", _count(cursor, "Vertices"), 3, np.float64)
         elif section == "EDGES":
-            edges = source.read_numbers("Edges", _count(source, "Edges"), 2, np.int64)
-            _check(source, "Edges", edges, len(points))
+            edges = cursor.read_numbers("Edges", _count(cursor, "Edges"), 2, np.int64)
+            _check(cursor, "Edges", edges, len(points))
         elif section == "FACES":
-            faces = _rows(source, "Faces", 2 * len(edges))
+            faces = _read_lists(cursor, "Faces", 2 * len(edges))
         elif section == "POLYHEDRA":
-            cells = _rows(source, "Polyhedra", 2 * len(faces))
+            cells = _read_lists(cursor, "Polyhedra", 2 * len(faces))
         elif found := _PROPERTY.match(key):
-            first = _BEFORE.get(found[1].upper())
+            first = _REQUIRED_SECTION.get(found[1].upper())
             if first is not None and first.upper() not in seen:
-                raise source.error(f"{quoted(key)} stands before {first} ({line})")
-            _property(source, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
+                raise cursor.error(f"{quoted(key)} stands before {first} ({line})")
+            _read_property(cursor, found, {"VPROP": (node_data, len(points)), "CPROP": (cell_data, len(cells))}, notes)
         else:
-            raise source.error(f"{quoted(key)} stands where a section should begin ({line})")
+            raise cursor.error(f"{quoted(key)} stands where a section should begin ({line})")
     if "POLYHEDRA" not in seen:
-        raise source.error("ends without Polyhedra")
-    loops = RaggedArray(faces.start, edges[faces.values >> 1, faces.values & 1])  # where each half-edge begins
+        raise cursor.error("ends without Polyhedra")
+    loops = RaggedArray(faces.start, edges[faces.values >> 1, faces.values & 1])  # first node of each half-edge
     found = cells_from_faces(loops, RaggedArray(cells.start, cells.values >> 1), (cells.values & 1) == 1)
     others = len(cells) - sum(len(which) for which, _ in found.values())
     if "hex" not in found and others:
-        raise source.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
+        raise cursor.error(f"holds no hexahedra, but {others:,} other polyhedra", "Hexmend works on hexahedra only.")
     if others:
         notes.append(f"{others:,} polyhedra of other kinds are left out.")
     return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
@@ -81,7 +83,7 @@ def _grid(
     cell_data: dict[str, np.ndarray],
     notes: list[str],
 ) -> Grid:
-    """The grid of cells of some kinds: which they are, and their nodes."""
+    """Make a grid of the cells that `cells_from_faces` has found."""
     which = np.concatenate([np.zeros(0, np.int64), *(which for which, _ in found.values())])
     types = np.concatenate([np.full(len(which), NUMBERS[kind]) for kind, (which, _) in found.items()] or [which])
     return Grid(
@@ -95,53 +97,53 @@ def _grid(
     )
 
 
-def _rows(source: ByteCursor, name: str, limit: int) -> RaggedArray:
-    """Rows that each begin with how many numbers follow, which are from 0 to limit - 1."""
-    count = _count(source, name)
-    letter = _LETTER.search(source.data, source.pos)
-    values = source.read_numbers_to(name, letter.start() if letter else len(source.data), np.int64)
+def _read_lists(cursor: ByteCursor, name: str, limit: int) -> RaggedArray:
+    """Read rows that begin with their length; their numbers are from 0 to limit - 1."""
+    count = _count(cursor, name)
+    letter = _LETTER.search(cursor.data, cursor.pos)
+    values = cursor.read_numbers_to(name, letter.start() if letter else len(cursor.data), np.int64)
     starts, at, view = [], 0, memoryview(values)
     while at < values.size and view[at] >= 0:
         starts.append(at + 1)
         at += 1 + view[at]
     if len(starts) != count or at != values.size:
-        raise source.error(f"{name} holds {len(starts)} whole rows of {count} before {source.location}")
-    inside = np.ones(values.size, bool)
-    inside[np.array(starts, np.int64) - 1] = False
-    _check(source, name, values[inside], limit)
-    lengths = values[~inside]
-    return RaggedArray(np.concatenate([[0], np.cumsum(lengths)]), values[inside])
+        raise cursor.error(f"{name} holds {len(starts)} whole rows of {count} before {cursor.location}")
+    is_item = np.ones(values.size, bool)
+    is_item[np.array(starts, np.int64) - 1] = False
+    _check(cursor, name, values[is_item], limit)
+    lengths = values[~is_item]
+    return RaggedArray(np.concatenate([[0], np.cumsum(lengths)]), values[is_item])
 
 
-def _property(
-    source: ByteCursor, head: re.Match[str], kept: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
+def _read_property(
+    cursor: ByteCursor, head: re.Match[str], targets: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
 ) -> None:
-    """Values of a property; those that are no numbers, or of edges and faces, are passed over."""
+    """Read a property of vertices or cells; those of other entities or types are skipped, and a note says so."""
     entity, type, name = head[1], head[2], head[3]
     vector = _VECTOR.match(type)
-    if entity.upper() in kept and (vector or type in _REALS + _WHOLES):
-        data, count = kept[entity.upper()]
+    if entity.upper() in targets and (vector or type in _REALS + _INTEGERS):
+        data, count = targets[entity.upper()]
         width = int(vector[1]) if vector else 1
         real = vector[2] in "df" if vector else type in _REALS
-        values = source.read_numbers(f"{entity} {quoted(name)}", count, width, np.float64 if real else np.int64)
+        values = cursor.read_numbers(f"{entity} {quoted(name)}", count, width, np.float64 if real else np.int64)
         data[name] = values if vector else values[:, 0]
         return
     notes.append(f"The property {quoted(name)} ({entity} {quoted(type)[1:-1]}) is left out.")
-    while not source.at_end:
-        before = source.pos
-        if _PROPERTY.match(source.next_line()):
-            source.pos = before
+    while not cursor.at_end:
+        before = cursor.pos
+        if _PROPERTY.match(cursor.next_line()):
+            cursor.pos = before
             return
 
 
-def _count(source: ByteCursor, name: str) -> int:
-    return source.parse_count(source.next_line(), f"the number of {name}")
+def _count(cursor: ByteCursor, name: str) -> int:
+    return cursor.parse_count(cursor.next_line(), f"the number of {name}")
 
 
-def _check(source: ByteCursor, name: str, values: np.ndarray, limit: int) -> None:
-    if values.size and (values.min() < 0 or values.max() >= limit):
-        wrong = int(values[(values < 0) | (values >= limit)].flat[0])
-        raise source.error(f"{name} name {wrong}: expected numbers from 0 to {limit - 1}")
+def _check(cursor: ByteCursor, name: str, values: np.ndarray, limit: int) -> None:
+    outside = first_out_of_range(values, limit)
+    if outside is not None:
+        raise cursor.error(f"{name} name {outside}: expected numbers from 0 to {limit - 1}")
 
 
 def _matches(head: bytes) -> bool:

@@ -1,6 +1,6 @@
-"""Writes OpenVolumeMesh's format in decimals: each edge and face once, and cells as lists of half-faces.
+"""Writing of OpenVolumeMesh's format in decimals: each edge and face once, and cells as lists of half-faces.
 
-The half-faces of a hex come in pairs, x- and x+ after z- and z+, as OpenVolumeMesh's own hexahedral meshes have them.
+The half-faces of a hex come in pairs, z- and z+ before x- and x+, as in OpenVolumeMesh's own hexahedral meshes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _KINDS = frozenset(LOOPS)
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write vertices, edges, faces, polyhedra and properties; nodes of second order are left out."""
+    """Write vertices, edges, faces, polyhedra and properties; mid-nodes are left out."""
     content = reduce_order(replace(content_of(mesh), node_data=with_marks(mesh)), _KINDS)
     for block in content.blocks:
         twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
@@ -52,25 +52,25 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Data of no type of the format, names that it cannot have, and mid-nodes, in words."""
+    """Describe data without a type of the format, names that are altered, and mid-nodes that are lost."""
     grid = from_content(replace(content_of(mesh), node_data=with_marks(mesh)))
-    left = []
-    for what, data in (("point data", grid.node_data), ("cell data", grid.cell_data)):
+    phrases = []
+    for kind, data in (("point data", grid.node_data), ("cell data", grid.cell_data)):
         odd = sorted(name for name, values in data.items() if _type(np.asarray(values)) is None)
-        left += [f"{what} of more than 4 columns, or no numbers ({', '.join(odd)})"] if odd else []
-        left += altered_names(_titles(data), f"{what} and sets")
-    return left + lost_mid_nodes(mesh, _KINDS)
+        phrases += [f"{kind} of more than 4 columns, or no numbers ({', '.join(odd)})"] if odd else []
+        phrases += altered_names(_titles(data), f"{kind} and sets")
+    return phrases + lost_mid_nodes(mesh, _KINDS)
 
 
 def _edges(loops: np.ndarray, count: int) -> tuple[np.ndarray, RaggedArray]:
-    """The edges of faces, (e, 2) nodes, and the half-edges of each face: 2 k, or 2 k + 1 for edge k the other way."""
+    """Nodes of the edges, (e, 2), and the half-edges of each face: 2 k, or 2 k + 1 for edge k reversed."""
     widths = (loops >= 0).sum(axis=1)
     inside = np.arange(4) < widths[:, None]
     begin = loops[inside]
     end = np.where(np.arange(1, 5) < widths[:, None], np.roll(loops, -1, axis=1), loops[:, :1])[inside]
     low, high = np.minimum(begin, end), np.maximum(begin, end)
     _, first, which = np.unique(low * count + high, return_index=True, return_inverse=True)
-    number = np.argsort(np.argsort(first))[which]  # as they come in the faces
+    number = np.argsort(np.argsort(first))[which]  # in the order of the faces
     pairs = np.column_stack([begin, end])[np.sort(first)]
     return pairs, RaggedArray(np.concatenate([[0], np.cumsum(widths)]), 2 * number + (pairs[number, 0] != begin))
 
@@ -100,7 +100,7 @@ def _write_properties(file: BinaryIO, entity: str, data: Mapping[str, np.ndarray
 
 
 def _type(values: np.ndarray) -> str | None:
-    """The format's name of what an array holds; None where there is none."""
+    """Name of the type of an array in the format; None if there is none."""
     if values.dtype.kind not in "biuf" or values.ndim > 2 or (values.ndim == 2 and not 1 <= values.shape[1] <= 4):
         return None
     real, limit = values.dtype.kind == "f", np.iinfo(np.int32)
@@ -113,10 +113,10 @@ def _type(values: np.ndarray) -> str | None:
 
 
 def _titles(data: Mapping[str, np.ndarray]) -> dict[str, str]:
-    """Names as the format can have them: between quotes, in one line."""
+    """Names as they are written: between quotes, in one line."""
 
-    def form(name: str, end: str) -> str:
+    def form(name: str, suffix: str) -> str:
         clean = "".join(letter if letter.isprintable() else " " for letter in name.replace('"', "'"))
-        return (clean.strip() or "property") + end
+        return (clean.strip() or "property") + suffix
 
     return make_unique(data, form)
