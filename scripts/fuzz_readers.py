@@ -30,7 +30,7 @@ import numpy as np
 from hexmend import gallery, io
 from hexmend.errors import HexmendError
 from hexmend.io.base.format import FORMATS, Format
-from hexmend.io.formats.session import write_session
+from hexmend.io.formats.session.session_file import write_session
 from hexmend.mesh.mesh import Mesh
 
 #: Bytes that the process may take, seconds that a file may, and files of others that are taken, by their size.

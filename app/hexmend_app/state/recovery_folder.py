@@ -13,7 +13,7 @@ from pathlib import Path
 from PySide6.QtCore import QLockFile
 
 from hexmend.io.archive.members import DESCRIPTION
-from hexmend.io.formats.session import SessionFolder
+from hexmend.io.formats.session.session_file import SessionFolder
 from hexmend.io.storage.atomic import atomic_write
 from hexmend_app.state import session_data
 from hexmend_app.state.task import Task

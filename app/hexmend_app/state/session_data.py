@@ -10,7 +10,8 @@ from typing import Any
 
 from hexmend.advice import Advice
 from hexmend.errors import FileError, MeshError
-from hexmend.io.formats.session import SUFFIX, SessionFolder, is_session, read_session, write_session
+from hexmend.io.formats.session import SUFFIX, is_session
+from hexmend.io.formats.session.session_file import SessionFolder, read_session, write_session
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import from_values

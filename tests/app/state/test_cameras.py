@@ -6,7 +6,7 @@ import pytest
 
 from hexmend.errors import FileError, ParameterError
 from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import VERSION
+from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.state import session_data
 from hexmend_app.state.cameras import Cameras

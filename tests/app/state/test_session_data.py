@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexmend.io.formats import session
+from hexmend.io.formats.session import session_file
 from hexmend.iteration import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
@@ -40,7 +40,7 @@ def test_a_surface_tolerance_of_0_was_no_limit_up_to_version_3(tmp_path, monkeyp
     data = session_data.read(_FILES / "version_2.hexmend")
     stage = Stage(METHODS["mend"](boundary="slide", surface_tolerance=0))
     data = dataclasses.replace(data, order=dataclasses.replace(data.order, stage=stage))
-    monkeypatch.setattr(session, "VERSION", version)
+    monkeypatch.setattr(session_file, "VERSION", version)
     session_data.write(tmp_path / "old.hexmend", data)
     monkeypatch.undo()
     assert session_data.read(tmp_path / "old.hexmend").order.stage.smoother.surface_tolerance == read

@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from hexmend.io.formats.session import read_session
+from hexmend.io.formats.session.session_file import read_session
 from hexmend_app.features.script.lines import Lines
 from hexmend_app.state import session_data
 from hexmend_app.state.comparison import Compared

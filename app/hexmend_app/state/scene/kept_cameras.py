@@ -61,7 +61,7 @@ def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
     FileError
         Where the file cannot be read, or its cameras cannot be used.
     """
-    from hexmend.io.formats.session import read_session
+    from hexmend.io.formats.session.session_file import read_session
 
     window = read_session(path).window
     data = window.get(_FIELD, {}) if isinstance(window, dict) else {}

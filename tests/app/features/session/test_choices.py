@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableView, QWidget
 
 from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import VERSION
+from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.state.choices import CHARTS
 from hexmend_app.state.clip import BoxClip, PlaneClip
 from hexmend_app.state.scene import Camera

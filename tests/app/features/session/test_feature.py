@@ -9,7 +9,7 @@ from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QFileDialog, QMessageBox
 
 from hexmend.io.archive.archive import read_archive, write_archive
-from hexmend.io.formats.session import VERSION
+from hexmend.io.formats.session.session_file import VERSION
 from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage

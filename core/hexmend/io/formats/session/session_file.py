@@ -1,7 +1,6 @@
-"""Sessions (.hexmend): the meshes of a window, the index of the mesh that is shown, and the state of the window.
+"""Reading and writing of sessions.
 
-The file is an archive, see `hexmend.io.archive`. `hexmend.read` gives the mesh that was shown, with the surface on
-which its boundary slides. The viewer defines the data under the key "window".
+The file is an archive, see `hexmend.io.archive`. The viewer defines the data under the key "window".
 """
 
 from __future__ import annotations
@@ -12,20 +11,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hexmend.aliases import exports
 from hexmend.errors import FileError, MeshError
-from hexmend.io.base.format import Format, register
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.archive.folder import ArchiveFolder
+from hexmend.io.archive.mesh_data import MeshDecoder, check_fields, mesh_to_data
+from hexmend.io.files import check_readable
 from hexmend.mesh.mesh import Mesh
 
-SUFFIX = ".hexmend"
 #: Version that is written; earlier ones can be read.
 VERSION = 4
 #: Largest number of meshes in a session.
 MAX_MESHES = 10_000
 
 _FORMAT = "Hexmend session"
-#: Signature of a zip file, and the name of its first member.
-_SIGNATURE, _FIRST_MEMBER = b"PK\x03\x04", b"description.json"
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +60,6 @@ def write_session(path: str | os.PathLike[str], meshes: Sequence[Mesh], now: int
     window : object
         State of the window: plain data with arrays.
     """
-    from hexmend.io.archive.archive import write_archive
-
     write_archive(path, _FORMAT, VERSION, _tree(meshes, now, window))
 
 
@@ -79,8 +75,6 @@ class SessionFolder:
     """
 
     def __init__(self, path: Path):
-        from hexmend.io.archive.folder import ArchiveFolder
-
         self._folder = ArchiveFolder(path)
 
     def write(self, meshes: Sequence[Mesh], now: int, window: Any) -> None:
@@ -95,8 +89,6 @@ class SessionFolder:
 
 
 def _tree(meshes: Sequence[Mesh], now: int, window: Any) -> dict[str, Any]:
-    from hexmend.io.archive.mesh_data import mesh_to_data
-
     return {"meshes": [mesh_to_data(mesh) for mesh in meshes], "now": now, "window": window}
 
 
@@ -116,8 +108,6 @@ def read_session(path: str | os.PathLike[str]) -> SessionContent:
     FileError
         For another file, a damaged one, and a newer version.
     """
-    from hexmend.io.archive.mesh_data import MeshDecoder
-
     version, data = _data(path)
     try:
         decoder, now = MeshDecoder(version), _shown_index(data)
@@ -127,10 +117,8 @@ def read_session(path: str | os.PathLike[str]) -> SessionContent:
         raise _invalid_session(path, error) from None
 
 
-def _read(path: Path) -> Mesh:
-    """Read the mesh that was shown."""
-    from hexmend.io.archive.mesh_data import MeshDecoder
-
+def read_shown_mesh(path: Path) -> Mesh:
+    """Read the mesh that was shown; raises `FileError` as `read_session`."""
     version, data = _data(path)
     try:
         return MeshDecoder(version).decode(data["meshes"][_shown_index(data)])
@@ -140,9 +128,6 @@ def _read(path: Path) -> Mesh:
 
 def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
     """Version and data of a session."""
-    from hexmend.io.archive.archive import read_archive
-    from hexmend.io.files import check_readable
-
     if not Path(path).is_dir():
         check_readable(Path(path), "a session")
     try:
@@ -153,8 +138,6 @@ def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
 
 def _shown_index(data: Any) -> int:
     """Check the fields of a session; returns the index of the mesh that was shown."""
-    from hexmend.io.archive.mesh_data import check_fields
-
     check_fields("the session", data, {"meshes", "now", "window"})
     meshes, now = data["meshes"], data["now"]
     if not isinstance(meshes, list) or type(now) is not int or not 0 <= now < len(meshes):
@@ -166,22 +149,3 @@ def _shown_index(data: Any) -> int:
 
 def _invalid_session(path: str | os.PathLike[str], error: MeshError) -> FileError:
     return FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.")
-
-
-def is_session(head: bytes) -> bool:
-    """Return True if a file that begins with these bytes is a session."""
-    return head.startswith(_SIGNATURE) and head[30 : 30 + len(_FIRST_MEMBER)] == _FIRST_MEMBER  # behind its header
-
-
-register(
-    Format(
-        name="session",
-        title="Hexmend session",
-        suffixes=(SUFFIX,),
-        encodings=(),
-        read=_read,
-        matches=is_session,
-    )
-)
-
-__getattr__ = exports(__name__)
