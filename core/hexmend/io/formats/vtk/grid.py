@@ -1,4 +1,4 @@
-"""An unstructured grid as VTK's formats hold it, and the content that it is."""
+"""Unstructured grids of VTK's formats, and their conversion to and from the content of a file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, node_count
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
@@ -19,30 +19,39 @@ from hexmend.mesh.mesh import Mesh
 
 HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
 
-#: VTK's number of every kind of cell that is read.
+#: Kinds of cells that are read, by VTK's type number.
 KINDS = {12: "hex", 25: "hex20", 29: "hex27", **{kind.vtk: name for name, kind in CELL_KINDS.items()}}
+#: VTK's type number by kind.
 NUMBERS = {name: number for number, name in KINDS.items()}
-WIDTHS = {number: HEX_KINDS[name] if name in HEX_KINDS else CELL_KINDS[name].nodes for number, name in KINDS.items()}
+#: Number of nodes by type number.
+WIDTHS = {number: node_count(name) for number, name in KINDS.items()}
 WIDTHS |= {VOXEL: 8, PIXEL: 4}
 
-#: Types whose cells may have any number of nodes; of these, those with the nodes of another kind are of that one.
-_ANY = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
+#: Types with any number of nodes: the type that a cell with so many nodes is read as.
+_VARIABLE_WIDTH = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
 #: Names of types that are not read, for messages.
 NAMES = {
-    0: "VTK_EMPTY_CELL", 2: "VTK_POLY_VERTEX", 4: "VTK_POLY_LINE", 6: "VTK_TRIANGLE_STRIP", 7: "VTK_POLYGON",
-    15: "VTK_PENTAGONAL_PRISM", 16: "VTK_HEXAGONAL_PRISM", 42: "VTK_POLYHEDRON",
+    0: "VTK_EMPTY_CELL",
+    2: "VTK_POLY_VERTEX",
+    4: "VTK_POLY_LINE",
+    6: "VTK_TRIANGLE_STRIP",
+    7: "VTK_POLYGON",
+    15: "VTK_PENTAGONAL_PRISM",
+    16: "VTK_HEXAGONAL_PRISM",
+    42: "VTK_POLYHEDRON",
     72: "VTK_LAGRANGE_HEXAHEDRON",
-}  # fmt: skip
+}
 
 #: quad = pixel[PIXEL_ORDER].
 PIXEL_ORDER = np.array([0, 1, 3, 2])
 
+#: Prefix of arrays of ones and zeros that hold sets.
 _SET = "set:"
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """An unstructured grid as VTK's formats hold it.
+    """Unstructured grid in the layout of VTK's formats.
 
     Parameters
     ----------
@@ -50,12 +59,12 @@ class Grid:
     types : (c,) int
         VTK cell types.
     start : (c + 1,) int64
-        Nodes of cell i are nodes[start[i]:start[i + 1]].
+        Cell i has the nodes nodes[start[i]:start[i + 1]].
     nodes : (start[-1],) int64
-    node_data, cell_data : mapping of name to (n, ...) or (c, ...) array
-    field_data : mapping of name to array or list of str
+    node_data, cell_data : mapping of str to (n, ...) or (c, ...) array
+    field_data : mapping of str to array or list of str
     notes : sequence of str
-        What was done to it on reading, in sentences.
+        Sentences about changes made on reading.
     """
 
     points: np.ndarray
@@ -69,22 +78,32 @@ class Grid:
 
 
 def to_mesh(path: Path, grid: Grid) -> Mesh:
-    """The mesh that a grid holds; see `to_content` and `hexmend.io.base.content.to_mesh`."""
+    """Make a mesh of a grid; see `to_content` and `hexmend.io.base.content.to_mesh`."""
     return mesh_of(path, to_content(path, grid))
 
 
 def to_content(path: Path, grid: Grid) -> Content:
-    """The content that a grid holds.
+    """Make the content of a file of a grid.
 
-    Cells of eight nodes that are labelled as tetrahedra are hexes where all of them are, and a note says so. Cells of
-    kinds that are not known (polyhedra, Lagrange's) are left out, and a note says so.
+    Cells labelled as tetrahedra are read as hexes if all of them have eight nodes. Cells of other types (polyhedra,
+    Lagrange cells) are left out. Notes say so.
+
+    Parameters
+    ----------
+    path : Path
+        Named in errors.
+    grid : Grid
+
+    Returns
+    -------
+    Content
 
     Raises
     ------
     FileError
-        Where no cell is a hex, a cell has not the nodes of its type, or its type is none.
+        Where no cell is a hex, the number of nodes of a cell does not fit its type, or the type is not one of VTK's.
     """
-    types, notes = _true_types(path, grid)
+    types, notes = _correct_types(path, grid)
     check_sizes(path, grid, types)
     blocks = []
     for number in dict.fromkeys(types.tolist()):
@@ -93,7 +112,7 @@ def to_content(path: Path, grid: Grid) -> Content:
         chosen = np.flatnonzero(types == number)
         rows = _rows(grid, chosen, WIDTHS[number])
         rows = rows[:, VOXEL_ORDER] if number == VOXEL else rows[:, PIXEL_ORDER] if number == PIXEL else rows
-        data, sets = _parted({name: _taken(values, chosen) for name, values in grid.cell_data.items()})
+        data, sets = _split_sets({name: _select(values, chosen) for name, values in grid.cell_data.items()})
         blocks.append(Block(KINDS[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
     unknown = np.flatnonzero(~np.isin(types, list(WIDTHS)))
     if unknown.size:
@@ -108,21 +127,21 @@ def to_content(path: Path, grid: Grid) -> Content:
         names = sorted({NAMES.get(int(number), f"type {number}") for number in types[unknown]})
         notes.append(f"{unknown.size:,} cells of other kinds ({', '.join(names)}) are left out.")
     blocks.sort(key=lambda block: [*HEX_KINDS, *CELL_KINDS].index(block.kind))
-    node_data, node_sets = _parted(grid.node_data)
+    node_data, node_sets = _split_sets(grid.node_data)
     if all(block.kind != "hex20" and block.kind != "hex27" for block in blocks):
-        blocks = _in_order(grid, types, blocks)
-    said = (*grid.notes, *notes)
-    return Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=said)
+        blocks = _merge_voxels(types, blocks)
+    notes = (*grid.notes, *notes)
+    return Content(grid.points, tuple(blocks), node_data, node_sets, field_data=grid.field_data, notes=notes)
 
 
 def from_mesh(mesh: Mesh, kinds: str = "biufU") -> Grid:
-    """The grid that holds a mesh, hexahedra first; sets are arrays named "set:...", pins one named "fixed".
+    """Make a grid of a mesh, hexahedra first; sets become arrays named "set:...", fixed nodes one named "fixed".
 
     Parameters
     ----------
     mesh : Mesh
     kinds : str
-        Kinds of NumPy types of which data of cells and nodes are kept. VTK's formats have no complex numbers.
+        Kinds of NumPy types of data that are kept. VTK's formats have no complex numbers.
     """
     content = content_of(mesh)
     blocks = tuple(replace(block, data=_of_kinds(block.data, kinds)) for block in content.blocks)
@@ -130,7 +149,7 @@ def from_mesh(mesh: Mesh, kinds: str = "biufU") -> Grid:
 
 
 def from_content(content: Content) -> Grid:
-    """The grid of a content's blocks and arrays, one behind the other; sets are arrays named "set:..."."""
+    """Make a grid of a content; sets become arrays named "set:..."."""
     lengths = [len(block) for block in content.blocks]
     node_data = dict(content.node_data)
     for name, members in content.node_sets.items():
@@ -142,15 +161,13 @@ def from_content(content: Content) -> Grid:
         start=np.concatenate([[0], np.cumsum(widths)]),
         nodes=np.concatenate([block.nodes.ravel() for block in content.blocks]),
         node_data=node_data,
-        cell_data=concatenate_data(
-            [
-                {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
-                for block in content.blocks
-            ],
-            lengths,
-        ),
+        cell_data=concatenate_data([_with_set_arrays(block) for block in content.blocks], lengths),
         field_data=content.field_data,
     )
+
+
+def _with_set_arrays(block: Block) -> dict[str, np.ndarray]:
+    return {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
 
 
 def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarray]:
@@ -158,7 +175,7 @@ def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarra
 
 
 def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
-    """Raise `FileError` naming the first cell whose number of nodes is not that of its type."""
+    """Raise a `FileError` that names the first cell whose number of nodes does not fit its type."""
     widths = np.diff(grid.start)
     expected = np.array([WIDTHS.get(number, -1) for number in range(256)])[types]
     wrong = np.flatnonzero((widths != expected) & (expected >= 0))
@@ -171,8 +188,8 @@ def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
         )
 
 
-def _true_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
-    """Types of the cells by what they are, and what is to be said of it."""
+def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
+    """Correct the types of cells by their numbers of nodes; returns types (c,) int64 and notes."""
     given, widths, notes = np.asarray(grid.types).astype(np.int64), np.diff(grid.start), []
     outside = np.flatnonzero((given < 0) | (given > 255))
     if outside.size:
@@ -182,7 +199,7 @@ def _true_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
             "Write the file again with the program that made it.",
         )
     types = given.copy()
-    for number, others in _ANY.items():
+    for number, others in _VARIABLE_WIDTH.items():
         for width, other in others.items():
             types[(given == number) & (widths == width)] = other
     tetra = given == NUMBERS["tetra"]
@@ -194,32 +211,24 @@ def _true_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     return types, notes
 
 
-def _in_order(grid: Grid, types: np.ndarray, blocks: list[Block]) -> list[Block]:
-    """Hexahedra and voxels as one block, in the order of the file."""
+def _merge_voxels(types: np.ndarray, blocks: list[Block]) -> list[Block]:
+    """Merge hexahedra and voxels into one block, in the order of the file."""
     hexes = [block for block in blocks if block.kind == "hex"]
     if len(hexes) < 2:
         return blocks
-    places = [np.flatnonzero(types == number) for number in dict.fromkeys(types.tolist()) if number in (11, 12)]
-    order = np.argsort(np.concatenate(places), kind="stable")
+    hex_types = [number for number in dict.fromkeys(types.tolist()) if number in (VOXEL, HEXAHEDRON)]
+    order = np.argsort(np.concatenate([np.flatnonzero(types == number) for number in hex_types]), kind="stable")
     lengths = [len(block) for block in hexes]
-    data, sets = _parted(
-        concatenate_data(
-            [
-                {**block.data, **{_SET + name: _mask(members, len(block)) for name, members in block.sets.items()}}
-                for block in hexes
-            ],
-            lengths,
-        )
-    )
+    data, sets = _split_sets(concatenate_data([_with_set_arrays(block) for block in hexes], lengths))
     nodes = np.concatenate([block.nodes for block in hexes])[order]
-    place = np.argsort(order)
-    whole = Block(
+    new_index = np.argsort(order)
+    merged = Block(
         "hex",
         nodes,
         {name: values[order] for name, values in data.items()},
-        {name: np.sort(place[members]) for name, members in sets.items()},
+        {name: np.sort(new_index[members]) for name, members in sets.items()},
     )
-    return [whole, *(block for block in blocks if block.kind != "hex")]
+    return [merged, *(block for block in blocks if block.kind != "hex")]
 
 
 def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:
@@ -228,12 +237,12 @@ def _rows(grid: Grid, chosen: np.ndarray, width: int) -> np.ndarray:
     return np.asarray(grid.nodes, dtype=np.int64)[grid.start[chosen][:, None] + np.arange(width)]
 
 
-def _taken(values: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+def _select(values: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     return values if len(chosen) == len(values) else np.asarray(values)[chosen]
 
 
-def _parted(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Arrays, and the sets among them, which are of ones and zeros."""
+def _split_sets(data: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Separate arrays that hold sets; returns the other arrays and the members of sets."""
     arrays, sets = {}, {}
     for name, values in data.items():
         if name.startswith(_SET) and np.ndim(values) == 1 and np.isin(values, (0, 1)).all():

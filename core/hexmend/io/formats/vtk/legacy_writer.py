@@ -1,9 +1,8 @@
-"""Writing VTK's legacy format, version 3.0, in decimals and binary."""
+"""Writing of VTK's legacy format, version 3.0, in decimals and binary."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import pairwise
 from pathlib import Path
 from typing import BinaryIO
 from urllib.parse import quote
@@ -12,18 +11,27 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import format_rows, row_chunks
+from hexmend.io.base.numbering import runs
 from hexmend.io.formats.vtk.grid import from_mesh
 from hexmend.mesh.mesh import Mesh
 
-#: VTK's names of types.
+#: VTK's names of NumPy types.
 NAMES = {
-    "u1": "unsigned_char", "i1": "char", "i2": "short", "u2": "unsigned_short", "i4": "int", "u4": "unsigned_int",
-    "i8": "long", "u8": "unsigned_long", "f4": "float", "f8": "double",
-}  # fmt: skip
+    "u1": "unsigned_char",
+    "i1": "char",
+    "i2": "short",
+    "u2": "unsigned_short",
+    "i4": "int",
+    "u4": "unsigned_int",
+    "i8": "long",
+    "u8": "unsigned_long",
+    "f4": "float",
+    "f8": "double",
+}
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write version 3.0, which every program reads."""
+    """Write version 3.0, which all programs read."""
     grid = from_mesh(mesh)
     ascii = encoding == "ascii"
     with open(path, "wb") as file:
@@ -32,37 +40,37 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(
             f"# vtk DataFile Version 3.0\n{name}\n{kind}\nDATASET UNSTRUCTURED_GRID\n".encode("utf-8", "replace")
         )
-        _arrays(path, file, grid.field_data, ascii)
+        _write_arrays(path, file, grid.field_data, ascii)
         file.write(f"POINTS {len(grid.points)} double\n".encode())
-        _numbers(file, grid.points, "f8", ascii)
+        _write_numbers(file, grid.points, "f8", ascii)
         widths = np.diff(grid.start)
         count = len(widths)
         file.write(f"CELLS {count} {count + len(grid.nodes)}\n".encode())
         flat = np.empty(count + len(grid.nodes), np.int32)
-        heads = grid.start[:-1] + np.arange(count)
-        rest = np.ones(len(flat), dtype=bool)
-        rest[heads] = False
-        flat[heads], flat[rest] = widths, grid.nodes
+        begins = grid.start[:-1] + np.arange(count)
+        is_node = np.ones(len(flat), dtype=bool)
+        is_node[begins] = False
+        flat[begins], flat[is_node] = widths, grid.nodes
         if ascii:
-            for begin, end in _of_one_width(widths):
-                row = widths[begin] + 1
-                part = flat[heads[begin] : heads[begin] + (end - begin) * row]
-                _numbers(file, part.reshape(-1, row), "i4", ascii)
+            for run in runs(widths):
+                width = widths[run.start] + 1
+                rows = flat[begins[run.start] :][: (run.stop - run.start) * width].reshape(-1, width)
+                _write_numbers(file, rows, "i4", ascii)
         else:
-            _numbers(file, flat, "i4", ascii)
+            _write_numbers(file, flat, "i4", ascii)
         file.write(f"CELL_TYPES {count}\n".encode())
-        _numbers(file, grid.types, "i4", ascii)
+        _write_numbers(file, grid.types, "i4", ascii)
         for section, rows, data in (
             ("POINT_DATA", len(grid.points), grid.node_data),
             ("CELL_DATA", count, grid.cell_data),
         ):
             if data:
                 file.write(f"{section} {rows}\n".encode())
-                _arrays(path, file, data, ascii)
+                _write_arrays(path, file, data, ascii)
 
 
-def _arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool) -> None:
-    """Write arrays as a FIELD."""
+def _write_arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool) -> None:
+    """Write arrays as a FIELD; raises `FileError` for a type that VTK does not have."""
     if data:
         file.write(f"FIELD FieldData {len(data)}\n".encode())
     for title, values in data.items():
@@ -70,8 +78,8 @@ def _arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool)
         array = np.atleast_1d(np.asarray(values))
         if array.dtype.kind == "U" or (isinstance(values, (list, tuple)) and not len(values)):
             file.write(f"{head} 1 {array.size} string\n".encode())
-            for one in array.ravel().tolist():
-                file.write(quote(one, errors="replace").encode() + b"\n" if ascii else _counted(one))
+            for text in array.ravel().tolist():
+                file.write(quote(text, errors="replace").encode() + b"\n" if ascii else _with_length(text))
             file.write(b"\n")
             continue
         if array.dtype.kind == "b":
@@ -81,10 +89,10 @@ def _arrays(path: Path, file: BinaryIO, data: Mapping[str, object], ascii: bool)
             raise FileError(path, f"the array {title!r} holds {array.dtype}, which VTK cannot", "Remove the array.")
         flat = array.reshape(len(array), -1)
         file.write(f"{head} {flat.shape[1]} {len(flat)} {NAMES[code]}\n".encode())
-        _numbers(file, flat, code, ascii)
+        _write_numbers(file, flat, code, ascii)
 
 
-def _numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool) -> None:
+def _write_numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool) -> None:
     if ascii:
         for part in row_chunks(len(values)):
             file.write(format_rows(values[part]))
@@ -92,16 +100,10 @@ def _numbers(file: BinaryIO, values: np.ndarray, code: str, ascii: bool) -> None
         file.write(np.ascontiguousarray(values, dtype=f">{code}").tobytes() + b"\n")
 
 
-def _counted(text: str) -> bytes:
-    """A string behind its length, whose first two bits say in how many bytes that is: 11 one, 10 two, 01 four."""
+def _with_length(text: str) -> bytes:
+    """Encode a string after its length, whose first two bits tell its size in bytes: 11 one, 10 two, 01 four."""
     data = text.encode("utf-8", "replace")
     for size, mark in ((1, 3), (2, 2), (4, 1)):
         if len(data) < 1 << 8 * size - 2:
             return (len(data) | mark << 8 * size - 2).to_bytes(size, "big") + data
     raise ValueError("a string of more than a gigabyte")
-
-
-def _of_one_width(widths: np.ndarray) -> list[tuple[int, int]]:
-    """First and last but one of each series of cells with the same number of nodes."""
-    ends = [*(np.flatnonzero(np.diff(widths)) + 1).tolist(), len(widths)]
-    return list(pairwise([0, *ends]))

@@ -1,4 +1,4 @@
-"""VTK's XML format for unstructured grids in several files (.pvtu), which names its pieces; read only."""
+"""VTK's XML format for unstructured grids in several files (.pvtu), read only."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from hexmend.errors import FileError
 from hexmend.io.base.format import Format, register
+from hexmend.io.files import check_readable
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu import read_grids
@@ -18,21 +19,36 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']PUnstructuredGrid[\"']")
 
 
 def read(path: Path) -> Mesh:
-    """Read a PVTU file and the files that it names, put together without their ghost cells."""
-    names = _names(path)
+    """Read a PVTU file and merge its pieces without their ghost cells."""
+    names = _piece_names(path)
     if len(set(names)) < len(names):
         raise FileError(path, "names a piece twice", "Write it again with the program that made it.")
-    grids = [grid for name in names for grid in _piece(path, name)]
+    grids = [grid for name in names for grid in _read_piece(path, name)]
     fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
     return to_mesh(path, replace(merge_grids(grids), field_data=fields))
 
 
 def piece_paths(path: Path) -> list[Path]:
-    """The files that a PVTU file names, there or not. Raises `FileError` where it is none, or names others' files."""
-    return [_place(path, name) for name in _names(path)]
+    """List the files of the pieces, which may be missing.
+
+    Parameters
+    ----------
+    path : Path
+        The PVTU file.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    FileError
+        For another file, and for pieces outside the folder of the file.
+    """
+    return [_piece_path(path, name) for name in _piece_names(path)]
 
 
-def _names(path: Path) -> list[str]:
+def _piece_names(path: Path) -> list[str]:
     with Document(path, "PUnstructuredGrid") as document:
         names = [piece.get("Source") for piece in document.root.first("PUnstructuredGrid").all("Piece")]
         if not names:
@@ -40,28 +56,26 @@ def _names(path: Path) -> list[str]:
     return names
 
 
-def _piece(path: Path, name: str) -> list[Grid]:
-    """The grids of a file beside another one."""
-    from hexmend.io.files import check_readable
-
-    place = _place(path, name)
+def _read_piece(path: Path, name: str) -> list[Grid]:
+    """Read the grids of a piece."""
+    piece = _piece_path(path, name)
     try:
-        check_readable(place, "a VTU file")
-        return read_grids(place)
+        check_readable(piece, "a VTU file")
+        return read_grids(piece)
     except FileError as error:
-        raise FileError(path, f"its piece {_shown(name)}: {error.problem}", error.remedy) from None
+        raise FileError(path, f"its piece {_printable(name)}: {error.problem}", error.remedy) from None
 
 
-def _shown(name: str) -> str:
+def _printable(name: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in name[:80])
 
 
-def _place(path: Path, name: str) -> Path:
-    """The file beside another one, or below, that a piece's name stands for."""
+def _piece_path(path: Path, name: str) -> Path:
+    """Path of a piece, in the folder of the file or below."""
     relative = PurePosixPath(name.replace("\\", "/"))
     if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
         raise FileError(
-            path, f"names the piece {_shown(name)!r}: expected a file beside it or below", "Put its pieces there."
+            path, f"names the piece {_printable(name)!r}: expected a file beside it or below", "Put its pieces there."
         )
     return path.parent / relative
 

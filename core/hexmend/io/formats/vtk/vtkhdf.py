@@ -58,7 +58,7 @@ class _Reader:
 
     def __init__(self, path: Path, root):
         self.path, self.root = path, root
-        self.allowance = MemoryBudget(path, path.stat().st_size)
+        self.budget = MemoryBudget(path, path.stat().st_size)
         self.notes: list[str] = []
 
     def grids(self) -> list[Grid]:
@@ -155,7 +155,7 @@ class _Reader:
         answer = []
         for k in range(values.size):
             one = values[()] if values.ndim == 0 else values[np.unravel_index(k, values.shape)]
-            self.allowance.charge(len(one), name)
+            self.budget.charge(len(one), name)
             answer.append(one.decode("utf-8", "replace") if isinstance(one, bytes) else str(one))
         return answer
 
@@ -165,7 +165,7 @@ class _Reader:
         if rows is not None and (found.ndim < 1 or rows.stop > len(found) or rows.start < 0):
             raise FileError(self.path, f"its {name} ends after {found.shape} rows: expected {rows.stop}", _DAMAGED)
         count = found.size if rows is None else (rows.stop - rows.start) * int(np.prod(found.shape[1:]))
-        self.allowance.charge(count * found.dtype.itemsize, name)
+        self.budget.charge(count * found.dtype.itemsize, name)
         values = np.asarray(found[()] if rows is None else found[rows])
         return values.astype(values.dtype.newbyteorder("="), copy=False)
 
@@ -179,7 +179,7 @@ class _Reader:
         chunks = math.prod(
             -(-size // max(1, width)) for size, width in zip(found.shape, found.chunks or (), strict=False)
         )
-        if chunks > _CHUNKS + self.allowance.size // _CHUNK:
+        if chunks > _CHUNKS + self.budget.size // _CHUNK:
             raise FileError(
                 self.path, f"its array {name!r} has {chunks:,} chunks, more than fit into the file", _DAMAGED
             )

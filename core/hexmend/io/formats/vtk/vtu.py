@@ -50,10 +50,10 @@ def _charge(document: Document, piece: XMLElement) -> None:
         for array in piece.first(section).arrays():
             if array.get("type") != "String":
                 width = _width(document, array) * document.dtype(array).itemsize
-                document.allowance.charge(document.count(piece, rows) * width, array_title(array))
+                document.budget.charge(document.count(piece, rows) * width, array_title(array))
     for array in piece.first("Cells").arrays():
         if array.get("Name") in ("offsets", "types"):
-            document.allowance.charge(
+            document.budget.charge(
                 document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, array_title(array)
             )
 
@@ -76,7 +76,7 @@ def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
     if falls.size:
         raise document.error(f"its offsets fall at cell {falls[0]}: expected where each cell's nodes end")
     if cells:
-        document.allowance.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
+        document.budget.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
     return Grid(
         places.reshape(-1, 3).astype(np.float64, copy=False),
         _whole(document, arrays["types"], cells) if cells else np.empty(0, np.int64),

@@ -29,7 +29,7 @@ def read_values(document: Document, array: XMLElement, count: int | None = None)
     document : Document
     array : XMLElement
     count : int, optional
-        How many there must be; None where only the array knows it. It must have been told to `Document.allowance`;
+        How many there must be; None where only the array knows it. It must have been told to `Document.budget`;
         without it that is done here.
 
     Returns
@@ -221,7 +221,7 @@ def _unpacker(kind: str) -> Callable[[bytes, int], bytes]:
 
 def _check_size(document: Document, array: XMLElement, length: int, size: int | None) -> None:
     if size is None:
-        document.allowance.charge(length, array_title(array))
+        document.budget.charge(length, array_title(array))
     elif length != size:
         raise document.error(f"{array_title(array)} has {length} bytes: expected {size}")
 

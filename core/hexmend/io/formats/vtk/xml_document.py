@@ -91,7 +91,7 @@ class Document:
             if not start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
                 raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
             self.size = self.file.seek(0, io.SEEK_END)
-            self.allowance = MemoryBudget(path, self.size)
+            self.budget = MemoryBudget(path, self.size)
             self._appended: int | None = None
             self.root = self._head(kind)
         except BaseException:
