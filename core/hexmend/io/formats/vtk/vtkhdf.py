@@ -1,13 +1,14 @@
-"""VTK's format on HDF5 (.vtkhdf): unstructured grids, of several time steps the first; read only.
+"""VTK's format on HDF5 (.vtkhdf): unstructured grids, the first of several time steps; read only.
 
-The group VTKHDF holds the counts of each part (NumberOfPoints, NumberOfCells, NumberOfConnectivityIds) and the arrays
-of all parts one behind the other: Points, Types, Connectivity, Offsets (each part's from 0, one more than cells), and
-those of the groups PointData and CellData. (VTK's manual, "VTKHDF File Format"; measured with VTK 9.7's writer.)
+The group VTKHDF holds the counts of each part (NumberOfPoints, NumberOfCells, NumberOfConnectivityIds) and the
+concatenated arrays of all parts: Points, Types, Connectivity, Offsets (from 0 for each part, one more than its cells),
+and those of the groups PointData and CellData. (VTK's manual, "VTKHDF File Format"; measured with VTK 9.7's writer.)
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,33 +23,33 @@ from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh
 
 _DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-#: Chunks that any file may have; and what one takes at least, in bytes: its entry in the index.
-_CHUNKS, _CHUNK = 1000, 24
+#: Chunks that any file may have, and the smallest size of a further chunk in bytes, that of its entry in the index.
+_MIN_CHUNKS, _MIN_CHUNK_BYTES = 1000, 24
 
 
 def read(path: Path) -> Mesh:
-    """Read a VTKHDF file, in a process of its own; its parts are put together without their ghost cells."""
+    """Read a VTKHDF file in a subprocess, and merge its parts without their ghost cells."""
     return to_mesh(path, hdf5.read_content("hexmend.io.formats.vtk.vtkhdf:content", path))
 
 
 def content(path: Path) -> Content:
-    """What a VTKHDF file holds."""
+    """Read the content of a VTKHDF file; for the subprocess."""
     try:
         with hdf5.open_file(path) as file:
             root = _group(file, "VTKHDF")
             if root is None:
                 raise FileError(path, "has no group VTKHDF", "Is it a VTKHDF file? Check its suffix.")
-            grids = _Reader(path, root).grids()
+            grids = _VTKHDFReader(path, root).read_grids()
     except (FileError, MemoryError):
         raise
-    except Exception as error:  # each of the library's failures is another one
+    except Exception as error:  # h5py raises many types
         detail = " ".join(str(error).split()) or type(error).__name__
         raise FileError(path, f"cannot be read as VTKHDF ({detail[:120]})", _DAMAGED) from None
     return to_content(path, merge_grids(grids))
 
 
-class _Reader:
-    """Takes the group apart.
+class _VTKHDFReader:
+    """Reader of the group VTKHDF.
 
     Parameters
     ----------
@@ -61,13 +62,13 @@ class _Reader:
         self.budget = MemoryBudget(path, path.stat().st_size)
         self.notes: list[str] = []
 
-    def grids(self) -> list[Grid]:
-        """The parts of the first time step."""
+    def read_grids(self) -> list[Grid]:
+        """Read the parts of the first time step."""
         kind = self.root.attrs.get("Type", b"")
         kind = kind.decode("ascii", "replace") if isinstance(kind, bytes) else str(kind)
         if kind != "UnstructuredGrid":
             raise FileError(self.path, f"is of the type {kind[:40]!r}: expected UnstructuredGrid", "Convert it.")
-        counts = {name: self._values(self.root, f"NumberOf{name}") for name in ("Points", "Cells", "ConnectivityIds")}
+        counts = {name: self._read(self.root, f"NumberOf{name}") for name in ("Points", "Cells", "ConnectivityIds")}
         parts = len(counts["Points"])
         begins = {"Points": 0, "Cells": 0, "ConnectivityIds": 0}
         first = 0
@@ -76,92 +77,87 @@ class _Reader:
             count = int(steps.attrs.get("NSteps", 1))
             if count > 1:
                 self.notes.append(f"Of its {count} time steps the first is read.")
-            first = self._first(steps, "PartOffsets", 0)
-            parts = self._first(steps, "NumberOfParts", max(1, parts // max(1, count)))
+            first = self._first_value(steps, "PartOffsets", 0)
+            parts = self._first_value(steps, "NumberOfParts", max(1, parts // max(1, count)))
             begins = {
-                "Points": self._first(steps, "PointOffsets", 0),
-                "Cells": self._first(steps, "CellOffsets", 0),
-                "ConnectivityIds": self._first(steps, "ConnectivityIdOffsets", 0),
+                "Points": self._first_value(steps, "PointOffsets", 0),
+                "Cells": self._first_value(steps, "CellOffsets", 0),
+                "ConnectivityIds": self._first_value(steps, "ConnectivityIdOffsets", 0),
             }
-        known = {len(rows) for rows in counts.values()}
-        if (
-            len(known) > 1
-            or parts < 1
-            or first + parts > min(known)
-            or any((rows < 0).any() for rows in counts.values())
-        ):
+        lengths = {len(rows) for rows in counts.values()}
+        negative = any((rows < 0).any() for rows in counts.values())
+        if len(lengths) > 1 or parts < 1 or first + parts > min(lengths) or negative:
             raise FileError(self.path, f"has not the counts of its {parts} parts", _DAMAGED)
         grids = []
         for part in range(first, first + parts):
             sizes = {name: int(rows[part]) for name, rows in counts.items()}
-            grids.append(self._grid(sizes, begins, part - first))
+            grids.append(self._read_grid(sizes, begins, part - first))
             begins = {name: begins[name] + size for name, size in sizes.items()}
-        strings = self._fields()
-        grids[0] = Grid(**{**vars(grids[0]), "field_data": strings, "notes": tuple(self.notes)})
+        grids[0] = replace(grids[0], field_data=self._read_field_data(), notes=tuple(self.notes))
         return grids
 
-    def _grid(self, sizes: dict[str, int], begins: dict[str, int], part: int) -> Grid:
+    def _read_grid(self, sizes: dict[str, int], begins: dict[str, int], part: int) -> Grid:
         points, cells = (slice(begins[name], begins[name] + sizes[name]) for name in ("Points", "Cells"))
         ids = slice(begins["ConnectivityIds"], begins["ConnectivityIds"] + sizes["ConnectivityIds"])
-        start = self._whole("Offsets", slice(cells.start + part, cells.stop + part + 1))
+        start = self._read_integers("Offsets", slice(cells.start + part, cells.stop + part + 1))
         if start[0] != 0 or start[-1] != sizes["ConnectivityIds"] or (np.diff(start) < 0).any():
             raise FileError(
                 self.path, f"its Offsets of part {part} do not rise from 0 to {ids.stop - ids.start}", _DAMAGED
             )
-        places = self._values(self.root, "Points", points)
-        if places.ndim != 2 or places.shape[1] != 3:
-            raise FileError(self.path, f"its Points have the shape {places.shape}: expected (n, 3)", _DAMAGED)
+        coordinates = self._read(self.root, "Points", points)
+        if coordinates.ndim != 2 or coordinates.shape[1] != 3:
+            raise FileError(self.path, f"its Points have the shape {coordinates.shape}: expected (n, 3)", _DAMAGED)
         return Grid(
-            places.astype(np.float64, copy=False),
-            self._whole("Types", cells),
+            coordinates.astype(np.float64, copy=False),
+            self._read_integers("Types", cells),
             start,
-            self._whole("Connectivity", ids),
-            self._data("PointData", points),
-            self._data("CellData", cells),
+            self._read_integers("Connectivity", ids),
+            self._read_data("PointData", points),
+            self._read_data("CellData", cells),
         )
 
-    def _first(self, steps, name: str, default: int) -> int:
-        return int(self._values(steps, name).ravel()[0]) if name in steps else default
+    def _first_value(self, steps, name: str, default: int) -> int:
+        return int(self._read(steps, name).ravel()[0]) if name in steps else default
 
-    def _whole(self, name: str, rows: slice) -> np.ndarray:
-        values = self._values(self.root, name, rows)
+    def _read_integers(self, name: str, rows: slice) -> np.ndarray:
+        values = self._read(self.root, name, rows)
         if values.dtype.kind not in "iu" or values.ndim != 1:
             raise FileError(self.path, f"its {name} are {values.dtype}: expected whole numbers", _DAMAGED)
         return values.astype(np.int64)
 
-    def _data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
+    def _read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
         group = _group(self.root, section)
         found = {}
         for name in group or ():
             if group[name].dtype.kind in "biuf":
-                found[name] = self._values(group, name, rows)
+                found[name] = self._read(group, name, rows)
             else:
                 note = f"{section} {name!r} is not of numbers, and left out."
                 self.notes += [note] if note not in self.notes else []
         return found
 
-    def _fields(self) -> dict[str, object]:
+    def _read_field_data(self) -> dict[str, object]:
         answer: dict[str, object] = {}
         group = _group(self.root, "FieldData")
         for name in group or ():
             if group[name].dtype.kind in "biuf":
-                answer[name] = self._values(group, name)
+                answer[name] = self._read(group, name)
             else:
-                answer[name] = self._strings(group, name)
+                answer[name] = self._read_strings(group, name)
         return answer
 
-    def _strings(self, group, name: str) -> list[str]:
-        values = self._checked(group, name)
+    def _read_strings(self, group, name: str) -> list[str]:
+        values = self._dataset(group, name)
         answer = []
         for k in range(values.size):
-            one = values[()] if values.ndim == 0 else values[np.unravel_index(k, values.shape)]
-            self.budget.charge(len(one), name)
-            answer.append(one.decode("utf-8", "replace") if isinstance(one, bytes) else str(one))
+            text = values[()] if values.ndim == 0 else values[np.unravel_index(k, values.shape)]
+            self.budget.charge(len(text), name)
+            answer.append(text.decode("utf-8", "replace") if isinstance(text, bytes) else str(text))
         return answer
 
-    def _values(self, group, name: str, rows: slice | None = None) -> np.ndarray:
-        """Rows of a dataset, in the machine's byte order."""
-        found = self._checked(group, name)
+    def _read(self, group, name: str, rows: slice | None = None) -> np.ndarray:
+        """Read rows of a dataset, in the machine's byte order."""
+        found = self._dataset(group, name)
         if rows is not None and (found.ndim < 1 or rows.stop > len(found) or rows.start < 0):
             raise FileError(self.path, f"its {name} ends after {found.shape} rows: expected {rows.stop}", _DAMAGED)
         count = found.size if rows is None else (rows.stop - rows.start) * int(np.prod(found.shape[1:]))
@@ -169,8 +165,8 @@ class _Reader:
         values = np.asarray(found[()] if rows is None else found[rows])
         return values.astype(values.dtype.newbyteorder("="), copy=False)
 
-    def _checked(self, group, name: str):
-        """A dataset, which has no more chunks than fit into the file."""
+    def _dataset(self, group, name: str):
+        """Return a dataset after a check that it has no more chunks than fit into the file."""
         import h5py
 
         found = group.get(name)
@@ -179,7 +175,7 @@ class _Reader:
         chunks = math.prod(
             -(-size // max(1, width)) for size, width in zip(found.shape, found.chunks or (), strict=False)
         )
-        if chunks > _CHUNKS + self.budget.size // _CHUNK:
+        if chunks > _MIN_CHUNKS + self.budget.size // _MIN_CHUNK_BYTES:
             raise FileError(
                 self.path, f"its array {name!r} has {chunks:,} chunks, more than fit into the file", _DAMAGED
             )
@@ -187,7 +183,7 @@ class _Reader:
 
 
 def _group(parent, name: str):
-    """A group, or None."""
+    """Return a subgroup, or None."""
     import h5py
 
     found = parent.get(name)

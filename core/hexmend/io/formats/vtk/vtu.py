@@ -1,4 +1,4 @@
-"""VTK's XML format for unstructured grids (.vtu), as VTK and others write it: in every mode, order and compression."""
+"""VTK's XML format for unstructured grids (.vtu), in every encoding, byte order and compression."""
 
 from __future__ import annotations
 
@@ -21,31 +21,46 @@ _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']UnstructuredGrid[\"']")
 
 
 def read(path: Path) -> Mesh:
-    """Read a VTU file, its pieces put together."""
+    """Read a VTU file and merge its pieces."""
     return to_mesh(path, merge_grids(read_grids(path)))
 
 
 def read_grids(path: Path) -> list[Grid]:
-    """The pieces of a VTU file, at least one; field data are with the first."""
+    """Read the pieces of a VTU file.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    list of Grid
+        At least one; the first has the field data.
+
+    Raises
+    ------
+    FileError
+        Where the file is damaged or holds no pieces.
+    """
     with Document(path, "UnstructuredGrid") as document:
         top = document.root.first("UnstructuredGrid")
         pieces = list(top.all("Piece"))
         if not pieces:
             raise document.error("holds no Piece")
         for piece in pieces:
-            _charge(document, piece)
-        left: dict[str, None] = {}
-        grids = [_grid(document, piece, left) for piece in pieces]
+            _charge_budget(document, piece)
+        skipped: dict[str, None] = {}
+        grids = [_read_grid(document, piece, skipped) for piece in pieces]
         fields: dict[str, object] = {}
         for section in (top.first("FieldData"), *(piece.first("FieldData") for piece in pieces)):
             for array in section.arrays():
-                fields[array.get("Name") or f"array {len(fields)}"] = _field(document, array)
-    notes = (f"Arrays of strings, one for each node or cell, are left out: {', '.join(left)}.",) if left else ()
+                fields[array.get("Name") or f"array {len(fields)}"] = _read_field(document, array)
+    notes = (f"Arrays of strings, one for each node or cell, are left out: {', '.join(skipped)}.",) if skipped else ()
     return [replace(grids[0], field_data=fields, notes=notes), *grids[1:]]
 
 
-def _charge(document: Document, piece: XMLElement) -> None:
-    """Announce the arrays of a piece whose lengths its head tells."""
+def _charge_budget(document: Document, piece: XMLElement) -> None:
+    """Charge the memory budget with the arrays whose lengths the attributes of the piece give."""
     for section, rows in (("Points", "NumberOfPoints"), ("PointData", "NumberOfPoints"), ("CellData", "NumberOfCells")):
         for array in piece.first(section).arrays():
             if array.get("type") != "String":
@@ -58,19 +73,20 @@ def _charge(document: Document, piece: XMLElement) -> None:
             )
 
 
-def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
+def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) -> Grid:
+    """Read a piece; names of arrays of strings are added to `skipped`."""
     points, cells = document.count(piece, "NumberOfPoints"), document.count(piece, "NumberOfCells")
     found = piece.first("Points").arrays()
     if points and not found:
         raise document.error("its Points hold no array")
     if points and _width(document, found[0]) != 3:
         raise document.error(f"its Points have {_width(document, found[0])} coordinates each: expected 3")
-    places = read_values(document, found[0], 3 * points) if points else np.empty(0)
+    points_flat = read_values(document, found[0], 3 * points) if points else np.empty(0)
     arrays = {array.get("Name"): array for array in piece.first("Cells").arrays()}
     for name in ("connectivity", "offsets", "types"):
         if cells and name not in arrays:
             raise document.error(f"its Cells hold no array {name!r}")
-    ends = _whole(document, arrays["offsets"], cells) if cells else np.empty(0, np.int64)
+    ends = _read_integers(document, arrays["offsets"], cells) if cells else np.empty(0, np.int64)
     start = np.concatenate([[0], ends])
     falls = np.flatnonzero(np.diff(start) < 0)
     if falls.size:
@@ -78,17 +94,17 @@ def _grid(document: Document, piece: XMLElement, left: dict[str, None]) -> Grid:
     if cells:
         document.budget.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
     return Grid(
-        places.reshape(-1, 3).astype(np.float64, copy=False),
-        _whole(document, arrays["types"], cells) if cells else np.empty(0, np.int64),
+        points_flat.reshape(-1, 3).astype(np.float64, copy=False),
+        _read_integers(document, arrays["types"], cells) if cells else np.empty(0, np.int64),
         start,
-        _whole(document, arrays["connectivity"], int(start[-1])) if cells else np.empty(0, np.int64),
-        _data(document, piece.first("PointData"), points, left),
-        _data(document, piece.first("CellData"), cells, left),
+        _read_integers(document, arrays["connectivity"], int(start[-1])) if cells else np.empty(0, np.int64),
+        _read_data(document, piece.first("PointData"), points, skipped),
+        _read_data(document, piece.first("CellData"), cells, skipped),
     )
 
 
-def _whole(document: Document, array: XMLElement, count: int) -> np.ndarray:
-    """Whole numbers, (count,) int64."""
+def _read_integers(document: Document, array: XMLElement, count: int) -> np.ndarray:
+    """Read whole numbers of any type, (count,) int64."""
     values = read_values(document, array, count)
     if values.dtype.kind == "f" or (values.dtype == np.uint64 and values.size and values.max() > np.iinfo(int).max):
         with np.errstate(invalid="ignore"):
@@ -98,20 +114,20 @@ def _whole(document: Document, array: XMLElement, count: int) -> np.ndarray:
     return values.astype(np.int64, copy=False)
 
 
-def _data(document: Document, section: XMLElement, rows: int, left: dict[str, None]) -> dict[str, np.ndarray]:
-    answer: dict[str, np.ndarray] = {}
+def _read_data(document: Document, section: XMLElement, rows: int, skipped: dict[str, None]) -> dict[str, np.ndarray]:
+    data: dict[str, np.ndarray] = {}
     for array in section.arrays():
         name, width = array.get("Name"), _width(document, array)
         if array.get("type") == "String":
-            left[name] = None
+            skipped[name] = None
             continue
         values = read_values(document, array, rows * width)
-        name = name if name not in answer else f"{name} ({len(answer) + 1})"
-        answer[name] = values if width == 1 else values.reshape(rows, width)
-    return answer
+        name = name if name not in data else f"{name} ({len(data) + 1})"
+        data[name] = values if width == 1 else values.reshape(rows, width)
+    return data
 
 
-def _field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
+def _read_field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
     if array.get("type") == "String":
         return read_strings(document, array)
     width = _width(document, array)
@@ -124,7 +140,7 @@ def _field(document: Document, array: XMLElement) -> np.ndarray | list[str]:
 
 
 def _width(document: Document, array: XMLElement) -> int:
-    return max(1, document.count(array, "NumberOfComponents"))  # VTK's writers leave 1 away, and old ones say 0
+    return max(1, document.count(array, "NumberOfComponents"))  # VTK omits 1, and old versions write 0
 
 
 register(

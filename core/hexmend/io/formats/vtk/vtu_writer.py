@@ -1,4 +1,4 @@
-"""Writing VTU: arrays in base64, packed by zlib, or in decimals; and reading again what was written."""
+"""Writing of VTU: arrays in base64, compressed by zlib, or in decimals; the file is read again to verify it."""
 
 from __future__ import annotations
 
@@ -17,49 +17,54 @@ from hexmend.io.formats.vtk.xml_arrays import read_values
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement
 from hexmend.mesh.mesh import Mesh
 
+#: Bytes of an array that are compressed together.
 _BLOCK = 1 << 20
 _NAMES = {code: name for name, code in TYPES.items() if name not in ("Bit", "String")}
 _SPACE = "\t\n\r"
-#: Control characters, which XML cannot hold, become their pictures; what is no character, the mark for that.
-_HELD = {code: 0x2400 + code for code in range(32) if chr(code) not in _SPACE} | {0xFFFE: 0xFFFD, 0xFFFF: 0xFFFD}
-_MARKS = {ord(c): f"&#{ord(c)};" for c in f"&<>\"'{_SPACE}"}
+#: Replacements of characters that XML cannot contain: control characters become their pictures (U+2400...), and
+#: noncharacters become U+FFFD.
+_REPLACEMENTS = {code: 0x2400 + code for code in range(32) if chr(code) not in _SPACE} | {
+    0xFFFE: 0xFFFD,
+    0xFFFF: 0xFFFD,
+}
+_ENTITIES = {ord(c): f"&#{ord(c)};" for c in f"&<>\"'{_SPACE}"}
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write VTU, and compare what can be read of it again.
+    """Write a VTU file, read it again and compare checksums.
 
     Raises
     ------
     FileError
-        Where an array holds what VTK cannot, or the file does not give back what was written to it.
+        For an array of a type that VTK does not have, and where the file differs from the data.
     """
     grid = from_mesh(mesh)
-    sums: list[tuple[str, int]] = []
+    checksums: list[tuple[str, int]] = []
     with open(path, "wb") as file:
-        packed = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
+        compressor = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
         file.write(
             '<?xml version="1.0" encoding="utf-8"?>\n'
             '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32"'
-            f"{packed}>\n<UnstructuredGrid>\n".encode()
+            f"{compressor}>\n<UnstructuredGrid>\n".encode()
         )
         for section, arrays in _sections(path, grid):
             file.write(f"{section}\n".encode())
             for name, values in arrays.items():
-                sums.append(_array(file, name, values, encoding == "ascii"))
+                checksums.append(_write_array(file, name, values, encoding == "ascii"))
         file.write(b"</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
-    _compare(path, sums)
+    _verify(path, checksums)
 
 
 def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.ndarray | list[str]]]]:
-    """Lines of the file, and the arrays that follow each."""
+    """Yield lines of the file, and the arrays that follow each."""
     n, m = len(grid.points), len(grid.types)
     if grid.field_data:
         yield "<FieldData>", {name: _writable(path, name, values) for name, values in grid.field_data.items()}
         yield "</FieldData>", {}
     cells = {"connectivity": grid.nodes, "offsets": grid.start[1:], "types": grid.types.astype(np.uint8)}
     data = [
-        {name: _writable(path, name, values) for name, values in one.items() if np.size(values)}  # else of width 0
-        for one in (grid.node_data, grid.cell_data)
+        {name: _writable(path, name, values) for name, values in arrays.items() if np.size(values)}  # not of width 0
+        for arrays in (grid.node_data, grid.cell_data)
     ]
     yield f'<Piece NumberOfPoints="{n}" NumberOfCells="{m}">\n<Points>', {"Points": grid.points}
     yield "</Points>\n<Cells>", cells
@@ -69,14 +74,14 @@ def _sections(path: Path, grid: Grid) -> Iterator[tuple[str, Mapping[str, np.nda
 
 
 def _writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
-    """Values of a type that VTK has, in the machine's byte order, or a list of strings."""
+    """Convert values to an array of a type that VTK has, or a list of strings."""
     if isinstance(values, str):
         return [values]
-    if isinstance(values, (list, tuple)) and all(isinstance(one, str) for one in values):
+    if isinstance(values, (list, tuple)) and all(isinstance(text, str) for text in values):
         return list(values)
     array = np.asarray(values)
     if array.dtype.kind == "U":
-        return [str(one) for one in array.ravel()]
+        return [str(text) for text in array.ravel()]
     if array.dtype.kind == "b":
         array = array.astype(np.uint8)
     if array.dtype.str[1:] not in _NAMES:
@@ -84,18 +89,18 @@ def _writable(path: Path, name: str, values: object) -> np.ndarray | list[str]:
     return np.atleast_1d(array)
 
 
-def _array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: bool) -> tuple[str, int]:
-    """Write an array; its name as it is read again, and the checksum of its bytes."""
-    title = name.translate(_HELD)
+def _write_array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: bool) -> tuple[str, int]:
+    """Write an array; returns the name that will be read, and the checksum of its bytes."""
+    title = name.translate(_REPLACEMENTS)
     if isinstance(values, list):
-        data = b"".join(one.replace("\0", "").encode("utf-8", "replace") + b"\0" for one in values)
-        head = f'<Array type="String" Name="{title.translate(_MARKS)}" NumberOfTuples="{len(values)}"'
+        data = b"".join(text.replace("\0", "").encode("utf-8", "replace") + b"\0" for text in values)
+        head = f'<Array type="String" Name="{title.translate(_ENTITIES)}" NumberOfTuples="{len(values)}"'
         numbers = np.frombuffer(data, np.uint8)
     else:
         numbers = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
         rows, width = len(numbers), int(np.prod(numbers.shape[1:]))
         head = (
-            f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_MARKS)}" '
+            f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_ENTITIES)}" '
             f'NumberOfComponents="{width}" NumberOfTuples="{rows}"'
         )
         numbers = numbers.reshape(-1)
@@ -103,13 +108,13 @@ def _array(file: BinaryIO, name: str, values: np.ndarray | list[str], ascii: boo
     if ascii:
         file.write(format_rows(numbers))
     else:
-        _pack(file, numbers)
+        _write_compressed(file, numbers)
     file.write(b"\n</Array>\n" if isinstance(values, list) else b"\n</DataArray>\n")
     return title.encode("utf-8", "replace").decode(), zlib.crc32(numbers.view(np.uint8))
 
 
-def _pack(file: BinaryIO, numbers: np.ndarray) -> None:
-    """Blocks packed by zlib, each of `_BLOCK` bytes but for the last one."""
+def _write_compressed(file: BinaryIO, numbers: np.ndarray) -> None:
+    """Write blocks compressed by zlib, of `_BLOCK` bytes each except the last one."""
     data = numbers.view(np.uint8)
     blocks = [zlib.compress(data[at : at + _BLOCK], 4) for at in range(0, len(data), _BLOCK)]
     sizes = [len(blocks), _BLOCK, len(data) % _BLOCK, *map(len, blocks)] if blocks else [0]
@@ -117,14 +122,14 @@ def _pack(file: BinaryIO, numbers: np.ndarray) -> None:
     file.write(b64encode(b"".join(blocks)))
 
 
-def _compare(path: Path, sums: list[tuple[str, int]]) -> None:
-    """Raise `FileError` unless the file holds arrays of these names and checksums, in this order."""
+def _verify(path: Path, checksums: list[tuple[str, int]]) -> None:
+    """Raise `FileError` unless the file holds arrays with these names and checksums, in this order."""
     with Document(path, "UnstructuredGrid") as document:
         arrays = list(_arrays(document.root))
-        found = [(one.get("Name"), zlib.crc32(_as_written(document, one))) for one in arrays]
-    wrong = next((k for k, (a, b) in enumerate(zip(sums, found, strict=False)) if a != b), None)
-    if wrong is not None or len(sums) != len(found):
-        name = repr(sums[wrong][0]) if wrong is not None else "one"
+        found = [(array.get("Name"), zlib.crc32(_as_written(document, array))) for array in arrays]
+    wrong = next((k for k, (a, b) in enumerate(zip(checksums, found, strict=False)) if a != b), None)
+    if wrong is not None or len(checksums) != len(found):
+        name = repr(checksums[wrong][0]) if wrong is not None else "one"
         raise FileError(
             path, f"the array {name} is not read again as it was written", "Write another format, or another place."
         )
@@ -137,7 +142,7 @@ def _as_written(document: Document, array: XMLElement) -> np.ndarray:
 
 
 def _arrays(element: XMLElement) -> Iterator[XMLElement]:
-    """All arrays, in the order of the file."""
+    """Yield all arrays in the order of the file."""
     for child in element.children:
         if child.name in ("DataArray", "Array"):
             yield child

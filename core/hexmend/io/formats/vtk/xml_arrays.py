@@ -1,9 +1,10 @@
-"""The arrays of VTK's XML files: in decimals, base64 or raw bytes; packed by zlib, LZ4, LZMA or not at all.
+"""Arrays of VTK's XML files: in decimals, base64 or raw bytes; compressed by zlib, LZ4, LZMA or not at all.
 
-Uncompressed, an array is its size in bytes and its bytes. Compressed, it is the number of its blocks, the size of a
-block and of the last one (0: as the others) before packing, and of each block after it; then the blocks. These numbers
-are of the type `header_type`. In base64 the head of a compressed array is encoded by itself, the size of an
-uncompressed one together with its bytes. (VTK's manual, "VTK XML Formats"; measured with VTK 9.7's writer.)
+An uncompressed array is its size in bytes and its bytes. A compressed array is a header and its blocks; the header is
+the number of blocks, the size of a block and of the last block (0 if equal) before compression, and the size of each
+block after it. These numbers are of the type `header_type`. In base64 the header of a compressed array is encoded
+separately, the size of an uncompressed array together with its bytes. (VTK's manual, "VTK XML Formats"; measured with
+VTK 9.7's writer.)
 """
 
 from __future__ import annotations
@@ -16,38 +17,38 @@ import numpy as np
 from hexmend.io.base.cursor import count_words, exceeds_dtype
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
 
-#: How compressors are named.
+#: Names of compressors.
 COMPRESSORS = {"vtkZLibDataCompressor": "zlib", "vtkLZ4DataCompressor": "LZ4", "vtkLZMADataCompressor": "LZMA"}
+#: Memory limit of LZMA in bytes.
 _LZMA_MEMORY = 1 << 28
 
 
 def read_values(document: Document, array: XMLElement, count: int | None = None) -> np.ndarray:
-    """The numbers of an array.
+    """Read the numbers of an array.
 
     Parameters
     ----------
     document : Document
     array : XMLElement
     count : int, optional
-        How many there must be; None where only the array knows it. It must have been told to `Document.budget`;
-        without it that is done here.
+        Expected number, already charged to `Document.budget`. If None, the array gives it, and it is charged here.
 
     Returns
     -------
     (count,) array
-        In the machine's byte order. Of type "String": the bytes, uint8.
+        In the machine's byte order; for the type "String" its bytes, uint8.
 
     Raises
     ------
     FileError
-        Where there are more or fewer, or they are no such numbers.
+        Where the number of values differs, or they are not of the type.
     """
     dtype = document.dtype(array)
     if array.get("format", "ascii") == "ascii":
-        return _decimals(document, array, dtype, count)
+        return _read_decimals(document, array, dtype, count)
     bits = array.get("type") == "Bit"
     size = None if count is None else (count + 7) // 8 if bits else count * dtype.itemsize
-    data = _bytes(document, array, size)
+    data = _read_bytes(document, array, size)
     if len(data) % dtype.itemsize:
         raise document.error(f"{array_title(array)} has {len(data)} bytes: expected a multiple of {dtype.itemsize}")
     values = np.frombuffer(data, dtype)
@@ -57,21 +58,21 @@ def read_values(document: Document, array: XMLElement, count: int | None = None)
 
 
 def read_strings(document: Document, array: XMLElement) -> list[str]:
-    """The strings of an array of them, each of which ends with a zero."""
+    """Read an array of strings, each of which ends with a zero."""
     data = read_values(document, array).astype(np.uint8).tobytes()
     if not data:
         return []
     return [part.decode("utf-8", errors="replace") for part in data.removesuffix(b"\0").split(b"\0")]
 
 
-def _decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int | None) -> np.ndarray:
+def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int | None) -> np.ndarray:
     text = document.text(array)
     if array.get("type") == "String":
-        dtype = np.dtype("i2")  # codes, some of them less than 0
+        dtype = np.dtype("i2")  # character codes, written as signed bytes by some programs
     wide = np.dtype("f8") if dtype.kind == "f" else np.dtype("u8" if dtype == np.uint64 else "i8")
     try:
         values = np.fromstring(text, wide, sep=" ")
-    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns, and gives fewer
+    except (ValueError, DeprecationWarning):  # NumPy before 2.3 warns and returns fewer numbers
         values = np.empty(0, wide)
     found = count_words(text)
     if len(values) < found:
@@ -88,55 +89,57 @@ def _decimals(document: Document, array: XMLElement, dtype: np.dtype, count: int
     return values.astype(dtype.newbyteorder("="), copy=False)
 
 
-def _bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
-    """The bytes of an array, unpacked; `size` as `read_values` says."""
-    where = array.get("format")
-    stream: _Stored | _Encoded
-    if where == "appended":
-        begin, encoding = document.appended()
+def _read_bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
+    """Read and decompress the bytes of an array; `size` is the expected number, None if only the array gives it."""
+    encoding = array.get("format")
+    stream: _RawStream | _Base64Stream
+    if encoding == "appended":
+        begin, appended_encoding = document.appended()
         begin += document.count(array, "offset")
-        if encoding == "raw":
-            stream = _Stored(document, begin)
+        if appended_encoding == "raw":
+            stream = _RawStream(document, begin)
         else:
-            stream = _Encoded(lambda at, n: document.bytes(begin + at, n), document.size - begin)
-    elif where == "binary":
+            stream = _Base64Stream(lambda at, n: document.bytes(begin + at, n), document.size - begin)
+    elif encoding == "binary":
         text = b"".join(document.text(array).split())
-        stream = _Encoded(lambda at, n: text[at : at + n], len(text))
+        stream = _Base64Stream(lambda at, n: text[at : at + n], len(text))
     else:
-        raise document.error(f"{array_title(array)} has the format {where[:20]!r}: expected ascii, binary or appended")
+        raise document.error(
+            f"{array_title(array)} has the format {encoding[:20]!r}: expected ascii, binary or appended"
+        )
     compressor = document.root.get("compressor")
     if compressor and compressor not in COMPRESSORS:
         known = ", ".join(COMPRESSORS)
         raise document.error(f"is packed by {compressor[:40]!r}: expected {known}", "Write it without compression.")
     try:
         if compressor:
-            return _unpacked(document, array, stream, size, COMPRESSORS[compressor])
-        return _plain(document, array, stream, size)
+            return _read_compressed(document, array, stream, size, COMPRESSORS[compressor])
+        return _read_uncompressed(document, array, stream, size)
     except binascii.Error:
         raise document.error(f"{array_title(array)} is no base64") from None
 
 
-class _Stored:
-    """Bytes of an array as they lie in the file from a place on, and how many there are at most (`left`)."""
+class _RawStream:
+    """Raw bytes of an array; `left` is the largest number that the file can hold."""
 
     def __init__(self, document: Document, begin: int):
         self.document, self.begin, self.left = document, begin, document.size - begin
 
     def read(self, at: int, size: int) -> bytes:
-        """Bytes from a place on; fewer at the end."""
+        """Read `size` bytes from an offset of the stream; fewer at the end."""
         return self.document.bytes(self.begin + at, size)
 
     def after(self, size: int) -> int:
-        """The place behind bytes that were stored by themselves."""
+        """Offset behind the first `size` bytes, if these are stored separately."""
         return size
 
     def alone(self, size: int) -> bool:
-        """Whether the first bytes are stored by themselves, so that others do not follow in the same quantum."""
+        """Return True if the first `size` bytes are encoded separately, with padding behind them."""
         return False
 
 
-class _Encoded:
-    """The same of base64, of which `text` gives characters: from a place, a number of them."""
+class _Base64Stream:
+    """Bytes of an array in base64; text(offset, count) gives characters. Methods are those of `_RawStream`."""
 
     def __init__(self, text: Callable[[int, int], bytes], length: int):
         self.text, self.left = text, length // 4 * 3
@@ -151,37 +154,39 @@ class _Encoded:
         return len(binascii.a2b_base64(self.text(0, self.after(size)))) == size
 
 
-def _plain(document: Document, array: XMLElement, stream: _Stored | _Encoded, size: int | None) -> bytes:
-    head = _header(document)
-    length = _numbers(document, array, stream, 1)[0]
+def _read_uncompressed(
+    document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, size: int | None
+) -> bytes:
+    header_type = _header_type(document)
+    length = _read_header(document, array, stream, 1)[0]
     _check_size(document, array, length, size)
-    if stream.alone(head.itemsize):  # as some programs encode it
-        return _taken(document, array, stream, stream.after(head.itemsize), length)
-    return _taken(document, array, stream, 0, head.itemsize + length)[head.itemsize :]
+    if stream.alone(header_type.itemsize):  # some programs encode the size separately
+        return _take(document, array, stream, stream.after(header_type.itemsize), length)
+    return _take(document, array, stream, 0, header_type.itemsize + length)[header_type.itemsize :]
 
 
-def _unpacked(
-    document: Document, array: XMLElement, stream: _Stored | _Encoded, size: int | None, kind: str
+def _read_compressed(
+    document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, size: int | None, kind: str
 ) -> np.ndarray:
-    blocks = _numbers(document, array, stream, 1)[0]
+    blocks = _read_header(document, array, stream, 1)[0]
     if blocks == 0:
         _check_size(document, array, 0, size)
         return np.empty(0, np.uint8)
-    _, whole, last, *packed = _numbers(document, array, stream, 3 + blocks)
+    _, whole, last, *packed = _read_header(document, array, stream, 3 + blocks)
     length = whole * (blocks - 1) + (last or whole)
     _check_size(document, array, length, size)
-    begin = stream.after((3 + blocks) * _header(document).itemsize)
-    data = memoryview(_taken(document, array, stream, begin, sum(packed)))
-    answer, unpack = np.empty(length, np.uint8), _unpacker(kind)
+    begin = stream.after((3 + blocks) * _header_type(document).itemsize)
+    data = memoryview(_take(document, array, stream, begin, sum(packed)))
+    answer, decompress = np.empty(length, np.uint8), _decompressor(kind)
     at = to = 0
     for k, width in enumerate(packed):
         expected = whole if k < blocks - 1 else last or whole
         block_title = f"block {k + 1} of {blocks} of {array_title(array)}"
         try:
-            block = unpack(data[at : at + width], expected)
+            block = decompress(data[at : at + width], expected)
         except MemoryError:
             raise
-        except Exception as error:  # each of the three libraries has its own
+        except Exception as error:  # each of the three libraries raises its own type
             detail = " ".join(str(error).split())[:80]
             raise document.error(f"{block_title} is no {kind} ({detail})") from None
         if len(block) != expected:
@@ -191,21 +196,21 @@ def _unpacked(
     return answer
 
 
-def _numbers(document: Document, array: XMLElement, stream: _Stored | _Encoded, count: int) -> list[int]:
-    """Numbers of an array's head."""
-    head = _header(document)
-    return np.frombuffer(_taken(document, array, stream, 0, count * head.itemsize), head).tolist()
+def _read_header(document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, count: int) -> list[int]:
+    """Read the first `count` numbers of an array's header."""
+    header_type = _header_type(document)
+    return np.frombuffer(_take(document, array, stream, 0, count * header_type.itemsize), header_type).tolist()
 
 
-def _taken(document: Document, array: XMLElement, stream: _Stored | _Encoded, at: int, size: int) -> bytes:
+def _take(document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, at: int, size: int) -> bytes:
     data = stream.read(at, size) if size <= stream.left else b""
     if len(data) != size:
         raise document.error(f"{array_title(array)} goes on behind the end of the data")
     return data
 
 
-def _unpacker(kind: str) -> Callable[[bytes, int], bytes]:
-    """What unpacks a block to as many bytes as it should have, and hardly more."""
+def _decompressor(kind: str) -> Callable[[bytes, int], bytes]:
+    """Return decompress(data, size), which stops at little more than `size` bytes."""
     if kind == "zlib":
         import zlib
 
@@ -226,7 +231,7 @@ def _check_size(document: Document, array: XMLElement, length: int, size: int | 
         raise document.error(f"{array_title(array)} has {length} bytes: expected {size}")
 
 
-def _header(document: Document) -> np.dtype:
+def _header_type(document: Document) -> np.dtype:
     kind = document.root.get("header_type", "UInt32")
     if kind not in ("UInt32", "UInt64"):
         raise document.error(f"its header_type is {kind[:20]!r}: expected UInt32 or UInt64")

@@ -1,4 +1,4 @@
-"""The head of VTK's XML files: elements and where their arrays lie; the arrays' bytes are never taken for XML."""
+"""XML of VTK's files up to the appended data: elements, and the offsets of their text, which is not kept in memory."""
 
 from __future__ import annotations
 
@@ -15,23 +15,35 @@ from hexmend.errors import FileError
 from hexmend.io.base.memory_budget import MemoryBudget
 
 DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
-#: Types of arrays, without their byte order. A bit is an eighth of a byte: see `hexmend.io.formats.vtk.xml_arrays`.
+#: NumPy types of arrays, without the byte order. Bits are packed: see `hexmend.io.formats.vtk.xml_arrays`.
 TYPES = {
-    "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4", "Int64": "i8",
-    "UInt64": "u8", "Float32": "f4", "Float64": "f8", "Bit": "u1", "String": "u1",
-}  # fmt: skip
+    "Int8": "i1",
+    "UInt8": "u1",
+    "Int16": "i2",
+    "UInt16": "u2",
+    "Int32": "i4",
+    "UInt32": "u4",
+    "Int64": "i8",
+    "UInt64": "u8",
+    "Float32": "f4",
+    "Float64": "f8",
+    "Bit": "u1",
+    "String": "u1",
+}
 
+#: Bytes that are parsed at a time.
 _CHUNK = 1 << 18
 _TAG = re.compile(rb"<(?:[^>\"']|\"[^\"]*\"|'[^']*')*>")
 _COMMENT = re.compile(rb"<!--.*?-->", re.DOTALL)
-#: More elements than any mesh has.
-_ELEMENTS = 1_000_000
-_LARGEST = 1 << 28
+#: Largest number of elements.
+_MAX_ELEMENTS = 1_000_000
+#: Largest file in UTF-16, in bytes.
+_MAX_UTF16 = 1 << 28
 
 
 @dataclass(eq=False)
 class XMLElement:
-    """An element of the head.
+    """Element of the XML.
 
     Parameters
     ----------
@@ -39,7 +51,7 @@ class XMLElement:
     attributes : dict of str to str
     children : list of XMLElement
     spans : list of (begin, end)
-        Bytes of the file in which its text lies, each from the tag that goes before it.
+        Offsets of its text, each part from the beginning of the tag before it.
     """
 
     name: str
@@ -48,35 +60,35 @@ class XMLElement:
     spans: list[tuple[int, int]] = field(default_factory=list)
 
     def get(self, key: str, default: str = "") -> str:
-        """An attribute."""
+        """Return an attribute."""
         return self.attributes.get(key, default)
 
     def all(self, name: str) -> Iterator[XMLElement]:
-        """Children of a name."""
+        """Yield the children with a name."""
         return (child for child in self.children if child.name == name)
 
     def first(self, name: str) -> XMLElement:
-        """The first child of a name, or an empty element where there is none."""
+        """Return the first child with a name, or an empty element."""
         return next(self.all(name), XMLElement(name, {}))
 
     def arrays(self) -> list[XMLElement]:
-        """Children that are arrays."""
+        """Return the children that are arrays."""
         return [child for child in self.children if child.name in ("DataArray", "Array")]
 
 
 class Document:
-    """An open VTK XML file: its head as `root`, and its bytes. Used in a `with` statement.
+    """Open VTK XML file, for a `with` statement; `root` is its element VTKFile.
 
     Parameters
     ----------
     path : Path
     kind : str
-        The type that it should have, such as "UnstructuredGrid".
+        Expected type, such as "UnstructuredGrid".
 
     Raises
     ------
     FileError
-        Where the file is no XML, of another type, or declares a document type or entities (which no VTK file does).
+        Where the file is not XML, is of another type, or declares a document type or entities, as no VTK file does.
     """
 
     def __init__(self, path: Path, kind: str):
@@ -84,16 +96,16 @@ class Document:
         self.file: BinaryIO = open(path, "rb")  # noqa: SIM115  (closed by __exit__)
         try:
             self._encoding = None
-            start = self.file.read(4096)
-            if start[:2] in (b"\xff\xfe", b"\xfe\xff"):  # UTF-16, in which no raw bytes can lie
-                self.file, self._encoding = io.BytesIO(_recoded(path, self.file)), "utf-8"
-                start = self.file.read(4096)
-            if not start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
+            head = self.file.read(4096)
+            if head[:2] in (b"\xff\xfe", b"\xfe\xff"):  # UTF-16, which excludes raw bytes
+                self.file, self._encoding = io.BytesIO(_convert_to_utf8(path, self.file)), "utf-8"
+                head = self.file.read(4096)
+            if not head.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
                 raise FileError(path, "does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
             self.size = self.file.seek(0, io.SEEK_END)
             self.budget = MemoryBudget(path, self.size)
             self._appended: int | None = None
-            self.root = self._head(kind)
+            self.root = self._parse(kind)
         except BaseException:
             self.file.close()
             raise
@@ -105,18 +117,18 @@ class Document:
         self.file.close()
 
     def error(self, problem: str, remedy: str = DAMAGED) -> FileError:
-        """The error to raise."""
+        """Make the error to raise; `problem` and `remedy` are as of `FileError`."""
         return FileError(self.path, problem, remedy)
 
     def count(self, element: XMLElement, key: str) -> int:
-        """A count among the attributes of an element."""
+        """Convert an attribute to a count; 0 where it is missing."""
         word = element.get(key, "0").strip()
         if not (word.isascii() and word.isdigit() and len(word) < 19):
             raise self.error(f"{key} of {element.name} is {word[:20]!r}: expected a natural number")
         return int(word)
 
     def dtype(self, array: XMLElement) -> np.dtype:
-        """The type of an array's numbers as they lie in the file."""
+        """Return the NumPy type of an array in the file, with its byte order."""
         kind = array.get("type")
         if kind not in TYPES:
             raise self.error(f"{array_title(array)} has the type {kind[:20]!r}: expected {', '.join(TYPES)}")
@@ -124,11 +136,11 @@ class Document:
 
     @property
     def order(self) -> str:
-        """The byte order, as NumPy says it."""
+        """Byte order in NumPy's notation."""
         return ">" if self.root.get("byte_order", "LittleEndian") == "BigEndian" else "<"
 
     def text(self, element: XMLElement) -> bytes:
-        """The text of an element, without that of its children."""
+        """Read the text of an element, without that of its children."""
         parts = []
         for begin, end in element.spans:
             part = self.bytes(begin, end - begin)
@@ -137,12 +149,12 @@ class Document:
         return b"".join(parts)
 
     def bytes(self, begin: int, size: int) -> bytes:
-        """Bytes as they lie in the file; fewer at its end."""
+        """Read `size` bytes from the offset `begin`; fewer at the end of the file."""
         self.file.seek(begin)
         return self.file.read(size)
 
     def appended(self) -> tuple[int, str]:
-        """Where the appended data begin, behind their mark "_", and how they are encoded: "raw" or "base64"."""
+        """Return the offset of the appended data, behind their mark "_", and the encoding: "raw" or "base64"."""
         if self._appended is None:
             raise self.error("has no AppendedData, in which its arrays should be")
         start = self.bytes(self._appended, _CHUNK)
@@ -153,8 +165,8 @@ class Document:
         encoding = self.root.first("AppendedData").get("encoding", "base64")
         return self._appended + mark + 1, encoding
 
-    def _head(self, kind: str) -> XMLElement:
-        """The elements, up to the appended data."""
+    def _parse(self, kind: str) -> XMLElement:
+        """Parse the elements up to the appended data."""
         from xml.parsers import expat
 
         parser = expat.ParserCreate(self._encoding)
@@ -164,8 +176,8 @@ class Document:
         def begin(name: str, attributes: dict[str, str]) -> None:
             nonlocal count
             at, count = parser.CurrentByteIndex, count + 1
-            if count > _ELEMENTS:
-                raise self.error(f"has more than {_ELEMENTS:,} elements")
+            if count > _MAX_ELEMENTS:
+                raise self.error(f"has more than {_MAX_ELEMENTS:,} elements")
             if stack[-1] is top:
                 self._check(name, attributes, kind)
             else:
@@ -174,28 +186,28 @@ class Document:
             stack[-2].children.append(stack[-1])
             if name == "AppendedData":
                 self._appended = at
-                raise _Reached
+                raise _AppendedDataReached
 
         def end(_: str) -> None:
             at = parser.CurrentByteIndex
-            one = stack.pop()
-            one.spans[-1] = (one.spans[-1][0], at)
+            element = stack.pop()
+            element.spans[-1] = (element.spans[-1][0], at)
             if stack[-1].spans:
                 stack[-1].spans.append((at, at))
 
-        def refused(*_) -> None:
+        def reject_doctype(*_) -> None:
             raise self.error("declares a document type, which no VTK file does", "Remove <!DOCTYPE ...>.")
 
         parser.StartElementHandler, parser.EndElementHandler = begin, end
-        parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = refused
+        parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = reject_doctype
         self.file.seek(0)
         try:
             while chunk := self.file.read(_CHUNK):
                 parser.Parse(chunk, False)
             parser.Parse(b"", True)
-        except _Reached:
+        except _AppendedDataReached:
             pass
-        except (expat.ExpatError, LookupError, UnicodeError, ValueError) as error:  # or an encoding of no name
+        except (expat.ExpatError, LookupError, UnicodeError, ValueError) as error:  # or an unknown encoding
             line, column = getattr(error, "lineno", parser.CurrentLineNumber), getattr(error, "offset", 0)
             raise self.error(f"its XML is broken at line {line}, column {column}") from None
         return top.children[0]
@@ -210,19 +222,19 @@ class Document:
 
 
 def array_title(array: XMLElement) -> str:
-    """An array for a message."""
+    """Name an array for a message."""
     name = array.get("Name", "without name")
     return f"the array {''.join(c if c.isprintable() else '?' for c in name)[:60]!r}"
 
 
-class _Reached(Exception):
-    """The head ends here."""
+class _AppendedDataReached(Exception):
+    """The part of the file that is XML ends here."""
 
 
-def _recoded(path: Path, file: BinaryIO) -> bytes:
-    """A file in UTF-16 as UTF-8."""
+def _convert_to_utf8(path: Path, file: BinaryIO) -> bytes:
+    """Convert a file in UTF-16 to UTF-8."""
     with file:
-        if file.seek(0, io.SEEK_END) > _LARGEST:
+        if file.seek(0, io.SEEK_END) > _MAX_UTF16:
             raise FileError(path, "is text in UTF-16, of more than 256 MB", "Write it in UTF-8.")
         file.seek(0)
         try:
