@@ -119,7 +119,7 @@ def test_cells_of_other_kinds_are_handled_as_in_a_file():
     assert mesh.pinned[CUBE.hexes[:2, [0, 1, 3, 4]]].all()
     assert mesh.notes == (
         "1 cells of other kinds (type polygon) are left out.",
-        "2 tetra cells beside the hexes are kept as they are, and their nodes fixed.",
+        "2 tetra cells next to the hexes are kept, and their nodes are fixed.",
     )
 
 

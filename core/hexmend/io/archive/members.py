@@ -129,7 +129,7 @@ def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]
             raise FileError(path, f"{name} is compressed: expected what Hexmend wrote, which is not", REMEDY)
         members[name], left = info, left - info.file_size
     if left < 0:
-        raise FileError(path, f"says that it holds {-left:,} bytes more than it has", REMEDY)
+        raise FileError(path, f"claims to hold {-left:,} bytes more than it has", REMEDY)
     return members
 
 

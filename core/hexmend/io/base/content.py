@@ -121,7 +121,7 @@ def to_mesh(path: Path, content: Content) -> Mesh:
     pinned = content.pinned if content.pinned is not None else find_marks(content.node_data)[1]
     volumes = [block for block in others if CELL_KINDS[block.kind].dimension == 3]
     if volumes:
-        notes.append(f"{_inventory(volumes)} beside the hexes are kept as they are, and their nodes fixed.")
+        notes.append(f"{_inventory(volumes)} next to the hexes are kept, and their nodes are fixed.")
         pinned = np.zeros(len(content.points), bool) if pinned is None else pinned.copy()
         for block in volumes:
             pinned[block.nodes] = True

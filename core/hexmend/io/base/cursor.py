@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 
 _NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")
 _NOT_FINITE = re.compile(rb"(?:nan|inf(?:inity)?)(?=\s|$)", re.IGNORECASE)
@@ -128,11 +129,11 @@ class ByteCursor:
             return np.empty((rows, width), dtype)
         start, end = self.pos, self._numeric_end()
         text = self.data[start:end]
-        values, found = _parsed(text, dtype), count_words(text)
+        values, found = parse_numbers(text, dtype), count_words(text)
         if values is None or values.size != found or found < count:
             end = self._checked_end(section, rows, width, dtype)
             text = self.data[start:end]
-            values = _parsed(text, dtype)
+            values = parse_numbers(text, dtype)
         elif found > count:  # the name of the next array begins with digits
             end = start + len(text.rsplit(None, found - count)[0])
         values = values[:count]
@@ -238,7 +239,7 @@ class ByteCursor:
         while at < len(self.data):
             chunk = self.data[at : at + _CHUNK]
             end = max(chunk.rfind(b" "), chunk.rfind(b"\n")) + 1
-            values, found = _parsed(chunk[:end], dtype), count_words(chunk[:end])
+            values, found = parse_numbers(chunk[:end], dtype), count_words(chunk[:end])
             if not end or values is None or values.size != found or k + found >= count:
                 break
             at, k = at + end, k + found
@@ -258,29 +259,3 @@ def quoted(word: str) -> str:
     """Quote a word of the file for a message, printable and of 20 characters at most."""
     word = "".join(c if c.isprintable() else "?" for c in word[:25])
     return repr(word[:20] + "..." if len(word) > 20 else word) if word else "missing"
-
-
-def _parsed(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
-    """Parse the numbers of a text; None if it holds something else."""
-    try:
-        return np.fromstring(text, dtype=dtype, sep=" ")
-    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns and gives fewer numbers than words
-        return None
-
-
-def exceeds_dtype(values: np.ndarray, text: bytes) -> bool:
-    """Return True if a word of the text exceeds the integer type of `values`, to whose limits NumPy clips it."""
-    limits = np.iinfo(values.dtype)
-    if not values.size or (values.max() < limits.max and (limits.min == 0 or values.min() > limits.min)):
-        return False
-    return not all(limits.min <= int(word) <= limits.max for word in text.split()[: values.size])
-
-
-def count_words(text: bytes) -> int:
-    """Count the words of a text, 16 MB at a time to limit the memory."""
-    total, before = 0, True
-    for start in range(0, len(text), 1 << 24):
-        space = np.frombuffer(text, np.uint8, min(1 << 24, len(text) - start), start) <= 32
-        total += int(before and not space[0]) + int(np.count_nonzero(space[:-1] & ~space[1:]))
-        before = bool(space[-1])
-    return total

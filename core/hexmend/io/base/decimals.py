@@ -1,4 +1,4 @@
-"""Numbers as decimal text, the slowest part of writing text files."""
+"""Formatting and parsing of decimal numbers, the slowest part of text files."""
 
 from __future__ import annotations
 
@@ -44,3 +44,29 @@ def format_rows(values: np.ndarray, last: np.ndarray | None = None) -> bytes:
 def row_chunks(count: int) -> list[slice]:
     """Split `count` rows into slices that are formatted and written at a time."""
     return [slice(begin, begin + CHUNK_ROWS) for begin in range(0, count, CHUNK_ROWS)]
+
+
+def parse_numbers(text: bytes, dtype: np.dtype | type) -> np.ndarray | None:
+    """Parse the numbers of a text; None if it holds something else."""
+    try:
+        return np.fromstring(text, dtype=dtype, sep=" ")
+    except (ValueError, DeprecationWarning):  # NumPy before 2.3 only warns and gives fewer numbers than words
+        return None
+
+
+def exceeds_dtype(values: np.ndarray, text: bytes) -> bool:
+    """Return True if a word of the text exceeds the integer type of `values`, to whose limits NumPy clips it."""
+    limits = np.iinfo(values.dtype)
+    if not values.size or (values.max() < limits.max and (limits.min == 0 or values.min() > limits.min)):
+        return False
+    return not all(limits.min <= int(word) <= limits.max for word in text.split()[: values.size])
+
+
+def count_words(text: bytes) -> int:
+    """Count the words of a text, 16 MB at a time to limit the memory."""
+    total, before = 0, True
+    for start in range(0, len(text), 1 << 24):
+        space = np.frombuffer(text, np.uint8, min(1 << 24, len(text) - start), start) <= 32
+        total += int(before and not space[0]) + int(np.count_nonzero(space[:-1] & ~space[1:]))
+        before = bool(space[-1])
+    return total

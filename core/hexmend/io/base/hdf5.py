@@ -114,7 +114,7 @@ def _external(file: object, name: bytes, kind: int) -> str:
         return f"has its values in another file, {_title(layout.get_external(0)[0])} (external storage)"
     if layout.get_layout() == h5py.h5d.VIRTUAL:
         other = layout.get_virtual_filename(0) if layout.get_virtual_count() else ""
-        return f"is a virtual dataset, put together of others in the file {_title(other)}"
+        return f"is a virtual dataset with data in the file {_title(other)}"
     return ""
 
 

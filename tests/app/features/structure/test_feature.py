@@ -201,7 +201,7 @@ def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):
     io.write(tmp_path / "mixed.exo", Mesh(np.vstack([bare.points, tip]), bare.hexes, cells=(pyramid,)))
     open_and_know(qtbot, window, tmp_path / "mixed.exo")
     (message,) = window.messages.messages()
-    assert "1 pyramid cell beside the hexes" in message[1]
+    assert "1 pyramid cell next to the hexes" in message[1]
     assert window.canvas.viewport.extras.others.shown
     layer = window.features["structure"].panel.layers["others"]
     assert layer.box.isVisibleTo(window.features["structure"].panel)

@@ -103,8 +103,8 @@ def external_link_behind_a_soft_link(group, name, shape):
 WAYS_OUT = {
     external_link: r"'.+' is an external link to '/secret' in the file 'other\.h5'",
     external_storage: r"'.+' has its values in another file, 'other\.raw' \(external storage\)",
-    virtual_dataset: r"'.+' is a virtual dataset, put together of others in the file 'other\.h5'",
-    virtual_dataset_of_this_file: r"'.+' is a virtual dataset, put together of others in the file '\.'",
+    virtual_dataset: r"'.+' is a virtual dataset with data in the file 'other\.h5'",
+    virtual_dataset_of_this_file: r"'.+' is a virtual dataset with data in the file '\.'",
     linked_group_that_is_not_read: r"'notes' is an external link to '/' in the file 'other\.h5'",
     external_link_behind_a_soft_link: r"'elsewhere' is an external link to '/' in the file 'other\.h5'",
 }

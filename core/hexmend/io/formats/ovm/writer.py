@@ -36,7 +36,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             raise FileError(
                 path,
                 f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's",
-                "Mend it with hexmend repair, or write .vtu instead.",
+                "Repair it with hexmend repair, or write .vtu instead.",
             )
     loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))

@@ -37,7 +37,7 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
         grids = [_without_ghosts(grid) for grid in grids]
         dropped = before - sum(len(grid.types) for grid in grids)
         if dropped:
-            notes.append(f"{dropped:,} ghost cells, which pieces of the file have of their neighbours, are left out.")
+            notes.append(f"{dropped:,} ghost cells, which repeat cells of other pieces, are left out.")
     if len(grids) == 1:
         return replace(grids[0], notes=tuple(notes))
     grids = [grid for grid in grids if len(grid.points) or len(grid.types)] or list(grids[:1])
@@ -47,7 +47,7 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
     node_data, lost = _concatenate_common([grid.node_data for grid in grids])
     cell_data, more = _concatenate_common([grid.cell_data for grid in grids])
     if lost + more:
-        notes.append(f"Arrays that not all pieces have alike are left out: {', '.join(lost + more)}.")
+        notes.append(f"Arrays that are missing or different in some pieces are left out: {', '.join(lost + more)}.")
     merged = Grid(
         np.concatenate([grid.points for grid in grids]),
         np.concatenate([grid.types for grid in grids]),
@@ -58,7 +58,7 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
         {name: values for grid in reversed(grids) for name, values in grid.field_data.items()},
     )
     merged, phrase = _merge_nodes(merged)
-    return replace(merged, notes=(f"Its {len(grids)} pieces are put together{phrase}.", *notes))
+    return replace(merged, notes=(f"Its {len(grids)} pieces are merged{phrase}.", *notes))
 
 
 def _shift_nodes(grid: Grid, by: int) -> np.ndarray:
@@ -112,7 +112,7 @@ def _merge_nodes(grid: Grid) -> tuple[Grid, str]:
     if name is None or np.ndim(grid.node_data[name]) != 1:
         x, y, z = grid.points.T
         duplicates = len(x) - len(np.unique(x + np.e * y + np.pi * z))  # a rare collision only changes the note
-        return grid, f"; {duplicates:,} nodes where they meet are double" if duplicates else ""
+        return grid, f"; {duplicates:,} duplicate nodes remain where they meet" if duplicates else ""
     _, first, which = np.unique(np.asarray(grid.node_data[name]), return_index=True, return_inverse=True)
     if len(first) == len(grid.points) or not np.array_equal(grid.points[first][which], grid.points):
         return grid, ""

@@ -75,7 +75,9 @@ def _piece_path(path: Path, name: str) -> Path:
     relative = PurePosixPath(name.replace("\\", "/"))
     if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
         raise FileError(
-            path, f"names the piece {_printable(name)!r}: expected a file beside it or below", "Put its pieces there."
+            path,
+            f"names the piece {_printable(name)!r}: expected a file in its folder or below",
+            "Move its pieces there.",
         )
     return path.parent / relative
 

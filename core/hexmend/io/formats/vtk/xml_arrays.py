@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.io.base.cursor import count_words, exceeds_dtype
+from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
 from hexmend.io.formats.vtk.xml_document import TYPES, Document, XMLElement, array_title
 
 #: Names of compressors.
@@ -70,15 +70,13 @@ def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count
     if array.get("type") == "String":
         dtype = np.dtype("i2")  # character codes, written as signed bytes by some programs
     wide = np.dtype("f8") if dtype.kind == "f" else np.dtype("u8" if dtype == np.uint64 else "i8")
-    try:
-        values = np.fromstring(text, wide, sep=" ")
-    except (ValueError, DeprecationWarning):  # NumPy before 2.3 warns and returns fewer numbers
-        values = np.empty(0, wide)
-    found = count_words(text)
-    if len(values) < found:
+    values, found = parse_numbers(text, wide), count_words(text)
+    if found and (values is None or len(values) < found):
         raise document.error(f"{array_title(array)} holds words that are no numbers of its type")
     if count is not None and found != count:
         raise document.error(f"{array_title(array)} holds {found} numbers: expected {count}")
+    if values is None:
+        values = np.empty(0, wide)
     if wide.kind == "f":
         return values.astype(dtype.newbyteorder("="), copy=False)
     limit = np.iinfo(dtype)

@@ -1,4 +1,4 @@
-"""PVTU: the pieces beside it, put together without ghost cells."""
+"""PVTU: the pieces in its folder, merged without ghost cells."""
 
 import numpy as np
 import pytest
@@ -33,14 +33,14 @@ def pvtu(folder, pieces):
 
 @pytest.mark.parametrize("numbered", [False, True])
 @pytest.mark.parametrize("ghosts", [False, True])
-def test_pieces_are_put_together(numbered, ghosts, tmp_path):
+def test_pieces_are_merged(numbered, ghosts, tmp_path):
     path, mesh = halves(tmp_path, numbered, ghosts)
     back = io.read(path)
     assert back.n_nodes == (12 if numbered else 16)
     np.testing.assert_array_equal(back.points[back.hexes], mesh.points[mesh.hexes])
     np.testing.assert_array_equal(back.hex_data["part"], [0, 1])
     assert back.field_data["title"] == ["x"]
-    assert ("double" in back.notes[0]) is not numbered
+    assert ("duplicate nodes" in back.notes[0]) is not numbered
     assert any("2 ghost cells" in note for note in back.notes) is ghosts
 
 
@@ -63,8 +63,8 @@ def test_what_vtk_writes_in_parallel_is_read(tmp_path):
         ("", "names no pieces"),
         ('<Piece Source="none.vtu"/>', r"whole\.pvtu: its piece none\.vtu: there is no such file"),
         ('<Piece Source="half_0.vtu"/><Piece Source="half_0.vtu"/>', "names a piece twice"),
-        ('<Piece Source="/etc/passwd"/>', "expected a file beside it or below"),
-        ('<Piece Source="../half_0.vtu"/>', "expected a file beside it or below"),
+        ('<Piece Source="/etc/passwd"/>', "expected a file in its folder or below"),
+        ('<Piece Source="../half_0.vtu"/>', "expected a file in its folder or below"),
         ('<Piece Source="."/>', "is a folder"),
         ('<Piece Source="whole.pvtu"/>', r"its piece whole\.pvtu: is a VTKFile of the type 'PUnstructuredGrid'"),
     ],

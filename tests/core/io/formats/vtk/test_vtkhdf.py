@@ -79,7 +79,7 @@ def test_parts_are_put_together_without_ghosts(tmp_path):
     back = io.read(hand_made(tmp_path / "a.vtkhdf", plain))
     assert back.n_hexes == 2
     assert (back.hexes[1] == grid(1).hexes[0] + 8).all()
-    assert "4 nodes where they meet are double" in back.notes[0]
+    assert "4 duplicate nodes remain where they meet" in back.notes[0]
 
 
 def test_the_first_of_several_steps_is_read(tmp_path):

@@ -110,7 +110,7 @@ def test_several_pieces_are_put_together(tmp_path):
     np.testing.assert_array_equal(back.hexes, [np.arange(8), np.arange(8, 16)])
     np.testing.assert_array_equal(back.hex_data["a"], [7, 9])
     assert "b" not in back.hex_data
-    assert "2 pieces are put together; 8 nodes where they meet are double" in back.notes[0]
+    assert "2 pieces are merged; 8 duplicate nodes remain where they meet" in back.notes[0]
     assert "left out: b" in back.notes[1]
 
 
