@@ -12,7 +12,7 @@ from hexmend.io.base.format import Format
 from hexmend.io.formats.cgns import ADF
 from hexmend.io.formats.cgns.reader import JOINED_BY
 from hexmend.io.formats.cgns.structured import hexes_between
-from hexmend.io.formats.vtk.grid import KINDS, WIDTHS
+from hexmend.io.formats.vtk.grid import KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.storage.subprocess_reader import run_reader
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
@@ -86,9 +86,9 @@ def _blocks(zone: object, points: np.ndarray) -> list[Block]:
     nodes, answer = _array(zone.GetCells().GetConnectivityArray()).astype(np.int64), []
     for number in dict.fromkeys(types.tolist()):
         chosen = np.flatnonzero(types == number)
-        if number in KINDS and (np.diff(start)[chosen] == WIDTHS[number]).all():
-            rows = nodes[start[chosen][:, None] + np.arange(WIDTHS[number])]
-            answer.append(Block(KINDS[number], rows, {name: values[chosen] for name, values in data.items()}))
+        if number in KIND_BY_TYPE and (np.diff(start)[chosen] == WIDTH_BY_TYPE[number]).all():
+            rows = nodes[start[chosen][:, None] + np.arange(WIDTH_BY_TYPE[number])]
+            answer.append(Block(KIND_BY_TYPE[number], rows, {name: values[chosen] for name, values in data.items()}))
     return answer
 
 

@@ -217,14 +217,14 @@ class ByteCursor:
                     raise ValueError
                 kind(word)
             except ValueError:
-                where, what = self.location_of(found.start()), quoted(word.decode("utf-8", errors="replace"))
+                location, shown = self.location_of(found.start()), quoted(word.decode("utf-8", errors="replace"))
                 if _KEYWORD.match(word):
                     raise self.error(
-                        f"{section} ends after {k // width} of {rows} rows: {where} goes on with {what}"
+                        f"{section} ends after {k // width} of {rows} rows: {location} goes on with {shown}"
                     ) from None
                 number = "a number" if kind is float else "a whole number"
                 raise self.error(
-                    f"{section} holds {what} in row {k // width + 1} of {rows} ({where}): expected {number}"
+                    f"{section} holds {shown} in row {k // width + 1} of {rows} ({location}): expected {number}"
                 ) from None
             k, end = k + 1, found.end()
         if k == rows * width:

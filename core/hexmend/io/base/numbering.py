@@ -105,17 +105,17 @@ def element_ids(blocks: Sequence[Block], limit: int = ID_LIMIT) -> list[np.ndarr
         Ids of each block.
     """
     ids = [_usable(block.data.get(ID), len(block), limit) for block in blocks]
-    known = [one for one in ids if one is not None]
+    known = [numbers for numbers in ids if numbers is not None]
     taken = np.concatenate([*known, np.zeros(0, np.int64)])
     if len(np.unique(taken)) < taken.size:
         ids, taken = [None] * len(blocks), taken[:0]
     following = int(taken.max(initial=0)) + 1
     answer = []
-    for block, one in zip(blocks, ids, strict=True):
-        if one is None:
-            one = np.arange(following, following + len(block))
+    for block, numbers in zip(blocks, ids, strict=True):
+        if numbers is None:
+            numbers = np.arange(following, following + len(block))
             following += len(block)
-        answer.append(one)
+        answer.append(numbers)
     return answer
 
 

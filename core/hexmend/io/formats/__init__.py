@@ -1,1 +1,1 @@
-"""The formats of meshes, one module or package each; each registers itself in FORMATS."""
+"""Mesh formats, a module or package each, which registers them in FORMATS."""

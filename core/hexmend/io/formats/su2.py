@@ -20,8 +20,8 @@ from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
 #: Kinds of elements by type number; the format has no others.
-KINDS = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hex", 13: "wedge", 14: "pyramid"}
-NUMBERS = {kind: number for number, kind in KINDS.items()}
+KIND_BY_TYPE = {3: "line", 5: "triangle", 9: "quad", 10: "tetra", 12: "hex", 13: "wedge", 14: "pyramid"}
+TYPE_BY_KIND = {kind: number for number, kind in KIND_BY_TYPE.items()}
 _KEY = re.compile(rb"^[ \t]*([A-Za-z_]+)[ \t]*=[ \t]*([^\n]*)", re.MULTILINE)
 _COMMENT = re.compile(rb"%[^\n]*")
 
@@ -130,18 +130,21 @@ def _read_cells(cursor: ByteCursor, end: int, count: int, name: str) -> dict[str
     values = cursor.read_numbers_to(name, end, np.int64)
     for indices in (0, 1):
         starts, at, view = [], 0, memoryview(values)
-        while at < values.size and view[at] in KINDS and len(starts) < count:
+        while at < values.size and view[at] in KIND_BY_TYPE and len(starts) < count:
             starts.append(at)
-            at += 1 + node_count(KINDS[view[at]]) + indices
+            at += 1 + node_count(KIND_BY_TYPE[view[at]]) + indices
         if len(starts) == count and at == values.size:
             begins = np.array(starts, np.int64)
             types = values[begins]
             return {
-                KINDS[number]: values[begins[types == number][:, None] + np.arange(1, 1 + node_count(KINDS[number]))]
+                KIND_BY_TYPE[number]: values[
+                    begins[types == number][:, None] + np.arange(1, 1 + node_count(KIND_BY_TYPE[number]))
+                ]
                 for number in np.unique(types).tolist()
             }
     raise cursor.error(
-        f"{name} holds {values.size} numbers, which are not {count} elements of the types {', '.join(map(str, KINDS))}",
+        f"{name} holds {values.size} numbers, which are not {count} elements of the types "
+        f"{', '.join(map(str, KIND_BY_TYPE))}",
     )
 
 
@@ -150,7 +153,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
     Other sets, other cells and mid-nodes are left out.
     """
-    content = reduce_order(from_mesh(mesh), NUMBERS)
+    content = reduce_order(from_mesh(mesh), TYPE_BY_KIND)
     titles = _titles(content)
     volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
     markers: dict[str, list[tuple[str, np.ndarray]]] = {}
@@ -175,7 +178,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
 
 def limitations(mesh: Mesh) -> list[str]:
     """Describe names of markers that are altered, and mid-nodes that are lost."""
-    return altered_names(_titles(reduce_order(from_mesh(mesh), NUMBERS))) + lost_mid_nodes(mesh, NUMBERS)
+    return altered_names(_titles(reduce_order(from_mesh(mesh), TYPE_BY_KIND))) + lost_mid_nodes(mesh, TYPE_BY_KIND)
 
 
 def _titles(content: Content) -> dict[str, str]:
@@ -189,7 +192,7 @@ def _titles(content: Content) -> dict[str, str]:
 
 
 def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
-    file.write(format_rows(np.column_stack([np.full(len(nodes), NUMBERS[kind]), nodes])))
+    file.write(format_rows(np.column_stack([np.full(len(nodes), TYPE_BY_KIND[kind]), nodes])))
 
 
 def _matches(head: bytes) -> bool:

@@ -111,7 +111,7 @@ def decode(value: object, arrays: object) -> object:
         return arrays[inside]
     if kind == "items":
         return {name: decode(item, arrays) for name, item in inside}
-    parts = {name: decode(one, arrays) for name, one in inside.items()}
+    parts = {name: decode(item, arrays) for name, item in inside.items()}
     if kind == "block":
         return Block(**parts)
     return Content(**{**parts, "blocks": tuple(parts["blocks"]), "notes": tuple(parts["notes"])})

@@ -40,10 +40,12 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     """
     path = Path(path)
     check_readable(path, "a file of a surface")
-    format = next((one for one in SURFACE_FORMATS.values() if path.suffix.lower() in one.suffixes), None)
+    format = next((known for known in SURFACE_FORMATS.values() if path.suffix.lower() in known.suffixes), None)
     if format is None:
-        known = ", ".join(f"{suffix} ({one.title})" for one in SURFACE_FORMATS.values() for suffix in one.suffixes)
-        raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", f"Hexmend reads {known}.")
+        supported = ", ".join(
+            f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes
+        )
+        raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", f"Hexmend reads {supported}.")
     try:
         polygons = format.read(path)
     except MemoryError:

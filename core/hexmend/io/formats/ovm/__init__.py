@@ -16,7 +16,7 @@ from hexmend.io.base.format import Capability, Format, register
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.ovm.writer import limitations, write
-from hexmend.io.formats.vtk.grid import NUMBERS, WIDTHS, Grid, to_mesh
+from hexmend.io.formats.vtk.grid import TYPE_BY_KIND, WIDTH_BY_TYPE, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
 
 _LETTER = re.compile(rb"[A-Za-z]")
@@ -85,11 +85,11 @@ def _grid(
 ) -> Grid:
     """Make a grid of the cells that `cells_from_faces` has found."""
     which = np.concatenate([np.zeros(0, np.int64), *(which for which, _ in found.values())])
-    types = np.concatenate([np.full(len(which), NUMBERS[kind]) for kind, (which, _) in found.items()] or [which])
+    types = np.concatenate([np.full(len(which), TYPE_BY_KIND[kind]) for kind, (which, _) in found.items()] or [which])
     return Grid(
         points,
         types,
-        np.concatenate([[0], np.cumsum([WIDTHS[number] for number in types.tolist()])]).astype(np.int64),
+        np.concatenate([[0], np.cumsum([WIDTH_BY_TYPE[number] for number in types.tolist()])]).astype(np.int64),
         np.concatenate([np.zeros(0, np.int64), *(nodes.ravel() for _, nodes in found.values())]),
         node_data,
         {name: values[which] for name, values in cell_data.items()},

@@ -20,12 +20,12 @@ from hexmend.mesh.mesh import Mesh
 HEXAHEDRON, VOXEL, QUAD, PIXEL = 12, 11, 9, 8
 
 #: Kinds of cells that are read, by VTK's type number.
-KINDS = {12: "hex", 25: "hex20", 29: "hex27", **{kind.vtk: name for name, kind in CELL_KINDS.items()}}
+KIND_BY_TYPE = {12: "hex", 25: "hex20", 29: "hex27", **{kind.vtk: name for name, kind in CELL_KINDS.items()}}
 #: VTK's type number by kind.
-NUMBERS = {name: number for number, name in KINDS.items()}
+TYPE_BY_KIND = {name: number for number, name in KIND_BY_TYPE.items()}
 #: Number of nodes by type number.
-WIDTHS = {number: node_count(name) for number, name in KINDS.items()}
-WIDTHS |= {VOXEL: 8, PIXEL: 4}
+WIDTH_BY_TYPE = {number: node_count(name) for number, name in KIND_BY_TYPE.items()}
+WIDTH_BY_TYPE |= {VOXEL: 8, PIXEL: 4}
 
 #: Types with any number of nodes: the type that a cell with so many nodes is read as.
 _VARIABLE_WIDTH = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
@@ -107,14 +107,14 @@ def to_content(path: Path, grid: Grid) -> Content:
     check_sizes(path, grid, types)
     blocks = []
     for number in dict.fromkeys(types.tolist()):
-        if number not in WIDTHS:
+        if number not in WIDTH_BY_TYPE:
             continue
         chosen = np.flatnonzero(types == number)
-        rows = _rows(grid, chosen, WIDTHS[number])
+        rows = _rows(grid, chosen, WIDTH_BY_TYPE[number])
         rows = rows[:, VOXEL_ORDER] if number == VOXEL else rows[:, PIXEL_ORDER] if number == PIXEL else rows
         data, sets = _split_sets({name: _select(values, chosen) for name, values in grid.cell_data.items()})
-        blocks.append(Block(KINDS[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
-    unknown = np.flatnonzero(~np.isin(types, list(WIDTHS)))
+        blocks.append(Block(KIND_BY_TYPE[{VOXEL: HEXAHEDRON, PIXEL: QUAD}.get(number, number)], rows, data, sets))
+    unknown = np.flatnonzero(~np.isin(types, list(WIDTH_BY_TYPE)))
     if unknown.size:
         if not any(block.kind in HEX_KINDS for block in blocks):
             first = int(unknown[0])
@@ -157,7 +157,7 @@ def from_content(content: Content) -> Grid:
     widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])
     return Grid(
         points=content.points,
-        types=np.concatenate([np.full(len(block), NUMBERS[block.kind], np.uint8) for block in content.blocks]),
+        types=np.concatenate([np.full(len(block), TYPE_BY_KIND[block.kind], np.uint8) for block in content.blocks]),
         start=np.concatenate([[0], np.cumsum(widths)]),
         nodes=np.concatenate([block.nodes.ravel() for block in content.blocks]),
         node_data=node_data,
@@ -177,7 +177,7 @@ def _of_kinds(data: Mapping[str, np.ndarray], kinds: str) -> dict[str, np.ndarra
 def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
     """Raise a `FileError` that names the first cell whose number of nodes does not fit its type."""
     widths = np.diff(grid.start)
-    expected = np.array([WIDTHS.get(number, -1) for number in range(256)])[types]
+    expected = np.array([WIDTH_BY_TYPE.get(number, -1) for number in range(256)])[types]
     wrong = np.flatnonzero((widths != expected) & (expected >= 0))
     if len(wrong):
         i = int(wrong[0])
@@ -202,7 +202,7 @@ def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     for number, others in _VARIABLE_WIDTH.items():
         for width, other in others.items():
             types[(given == number) & (widths == width)] = other
-    tetra = given == NUMBERS["tetra"]
+    tetra = given == TYPE_BY_KIND["tetra"]
     if tetra.any() and (widths[tetra] == 8).all():
         types[tetra] = HEXAHEDRON
         notes.append(
