@@ -10,6 +10,7 @@ VTK 9.7's writer.)
 from __future__ import annotations
 
 import binascii
+import zlib
 from collections.abc import Callable
 
 import numpy as np
@@ -210,8 +211,6 @@ def _take(document: Document, array: XMLElement, stream: _RawStream | _Base64Str
 def _decompressor(kind: str) -> Callable[[bytes, int], bytes]:
     """Return decompress(data, size), which stops at little more than `size` bytes."""
     if kind == "zlib":
-        import zlib
-
         return lambda data, size: zlib.decompressobj().decompress(data, size + 1)
     if kind == "LZMA":
         import lzma

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
+from xml.parsers import expat
 
 import numpy as np
 
@@ -167,8 +168,6 @@ class Document:
 
     def _parse(self, kind: str) -> XMLElement:
         """Parse the elements up to the appended data."""
-        from xml.parsers import expat
-
         parser = expat.ParserCreate(self._encoding)
         top, count = XMLElement("", {}), 0
         stack = [top]
