@@ -9,9 +9,9 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, Content, concatenate_data, to_mesh
 from hexmend.io.base.format import Format
-from hexmend.io.formats.cgns import ADF
-from hexmend.io.formats.cgns.reader import JOINED_BY
-from hexmend.io.formats.cgns.structured import hexes_between
+from hexmend.io.formats.cgns import ADF_MARK
+from hexmend.io.formats.cgns.reader import JOIN_HINT
+from hexmend.io.formats.cgns.structured import structured_hexes
 from hexmend.io.formats.vtk.grid import KIND_BY_TYPE, WIDTH_BY_TYPE
 from hexmend.io.storage.subprocess_reader import run_reader
 from hexmend.mesh.mesh import Mesh
@@ -42,7 +42,7 @@ def content(path: Path) -> Content:
         )
     notes = ["Of a CGNS file of the ADF kind, boundary conditions are left out; adf2hdf makes a file that has them."]
     if len(zones) > 1:
-        notes.append(f"{len(zones)} zones are one mesh; VTK does not tell where they meet. {JOINED_BY}")
+        notes.append(f"{len(zones)} zones are one mesh; VTK does not tell where they meet. {JOIN_HINT}")
     points, blocks, data, first = [], [], [], 0
     for name, zone in zones:
         here = _array(zone.GetPoints().GetData()).astype(np.float64)
@@ -58,7 +58,7 @@ def content(path: Path) -> Content:
 
 def matches(head: bytes) -> bool:
     """Whether a file begins as those of the ADF kind do."""
-    return ADF in head[:64]
+    return ADF_MARK in head[:64]
 
 
 def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
@@ -79,7 +79,7 @@ def _blocks(zone: object, points: np.ndarray) -> list[Block]:
     if zone.IsA("vtkStructuredGrid"):
         count = np.zeros(3, np.int32)
         zone.GetDimensions(count)
-        return [Block("hex", hexes_between(points, count.astype(np.int64))[0], data)] if (count > 1).all() else []
+        return [Block("hex", structured_hexes(points, count.astype(np.int64))[0], data)] if (count > 1).all() else []
     if not zone.IsA("vtkUnstructuredGrid"):
         return []
     types, start = _array(zone.GetCellTypes()), _array(zone.GetCells().GetOffsetsArray()).astype(np.int64)

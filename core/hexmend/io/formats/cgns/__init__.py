@@ -1,6 +1,7 @@
-"""CGNS (.cgns), read: structured and unstructured zones of files on HDF5, as one mesh.
+"""CGNS (.cgns), read only: structured and unstructured zones of files on HDF5, as one mesh.
 
-Files of the older kind, ADF, are read by VTK: its reader joins through the entry-point group `hexmend.formats`.
+*The CGNS Standard Interface Data Structures* (SIDS) and the "CGNS File Mapping Manual". Files of the older ADF kind are
+read by VTK: its reader joins through the entry-point group `hexmend.formats`.
 """
 
 from __future__ import annotations
@@ -13,24 +14,24 @@ from hexmend.io.base.content import to_mesh
 from hexmend.io.base.format import Format, register
 from hexmend.mesh.mesh import Mesh
 
-#: Marks of the two kinds near the beginning of a file.
-ADF, ON_HDF5 = b"ADF Database", (b"HDF5 MotherNode", b"CGNSLibraryVersion")
+#: Texts near the beginning of files of the two kinds.
+ADF_MARK, HDF5_MARKS = b"ADF Database", (b"HDF5 MotherNode", b"CGNSLibraryVersion")
 
 
 def read(path: Path) -> Mesh:
-    """Read a CGNS file, in a process of its own, which the HDF5 library may end."""
+    """Read a CGNS file in a subprocess, since the HDF5 library may crash on a damaged one."""
     with open(path, "rb") as file:
         head = file.read(64)
-    if ADF in head:
+    if ADF_MARK in head:
         raise FileError(
             path, "is a CGNS file of the ADF kind", "pip install hexmend[app] reads it; or adf2hdf converts it."
         )
-    return to_mesh(path, hdf5.read_content("hexmend.io.formats.cgns.reader:content", path))
+    return to_mesh(path, hdf5.content_by("hexmend.io.formats.cgns.reader:content", path))
 
 
 def matches(head: bytes) -> bool:
-    """Whether a file begins as CGNS on HDF5 does."""
-    return head.startswith(hdf5.MAGIC) and any(mark in head for mark in ON_HDF5)
+    """Return True if a file begins like CGNS on HDF5."""
+    return head.startswith(hdf5.MAGIC) and any(mark in head for mark in HDF5_MARKS)
 
 
 register(

@@ -1,4 +1,4 @@
-"""Polyhedra of an unstructured zone of a CGNS file (NGON_n and NFACE_n): those that are hexes and the like."""
+"""Polyhedra of an unstructured zone of a CGNS file (NGON_n and NFACE_n): hexes, wedges, pyramids and tetrahedra."""
 
 from __future__ import annotations
 
@@ -8,72 +8,76 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
-from hexmend.io.formats.cgns.elements import POLYGONS, POLYHEDRA
-from hexmend.io.formats.cgns.section import CGNSSection
-from hexmend.io.formats.cgns.zone import DAMAGED
-
-#: Kind, nodes from 0 and numbers in the zone of some elements, and their section.
-Part = tuple[tuple[str, np.ndarray, np.ndarray], CGNSSection]
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.formats.cgns.elements import NFACE, NGON
+from hexmend.io.formats.cgns.section import CellGroup, CGNSSection
 
 
-def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -> list[Part]:
-    """The cells that are known among polyhedra, and the triangles and quads of the boundary around these.
+def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -> list[CellGroup]:
+    """Cells of known kinds among polyhedra, and the triangles and quads of the boundary around these.
 
     Parameters
     ----------
     sections : sequence of CGNSSection
-        By their numbers.
+        In the order of their element numbers.
     n_nodes : int
     notes : list of str
-        What is left out is added.
+        Notes on elements that are left out are appended.
 
     Raises
     ------
     FileError
-        For a face or node that there is not.
+        For a face or node that does not exist.
     """
-    polygons = [one for one in sections if one.type == POLYGONS]
-    rows = [one.rows() for one in polygons]
+    ngons = [section for section in sections if section.type == NGON]
+    rows = [section.rows() for section in ngons]
     faces = RaggedArray(
-        np.concatenate([[0], *(np.diff(one.start) for one in rows)]).cumsum(),
-        np.concatenate([np.empty(0, np.int64), *(one.values for one in rows)]) - 1,
+        np.concatenate([[0], *(np.diff(lists.start) for lists in rows)]).cumsum(),
+        np.concatenate([np.empty(0, np.int64), *(lists.values for lists in rows)]) - 1,
     )
     nodes = faces.values
     if nodes.size and (nodes.min() < 0 or nodes.max() >= n_nodes):
         raise FileError(
-            polygons[0].node.path,
+            ngons[0].node.path,
             f"its faces use the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {n_nodes}",
             DAMAGED,
         )
-    numbers = np.concatenate([np.empty(0, np.int64), *(np.arange(one.first, one.last + 1) for one in polygons)])
-    uses, answer = np.zeros(len(faces), np.int64), []
-    for section in (one for one in sections if one.type == POLYHEDRA):
+    numbers = np.concatenate([np.empty(0, np.int64), *(np.arange(ngon.first, ngon.last + 1) for ngon in ngons)])
+    n_cells, groups = np.zeros(len(faces), np.int64), []  # of each face
+    for section in (section for section in sections if section.type == NFACE):
         cells = section.rows()
-        place = np.searchsorted(numbers, np.abs(cells.values)).clip(0, max(0, len(numbers) - 1))
-        if cells.values.size and (not len(numbers) or (numbers[place] != np.abs(cells.values)).any()):
-            raise FileError(section.node.path, f"section {section.name!r} names faces that there are not", DAMAGED)
+        index = np.searchsorted(numbers, np.abs(cells.values)).clip(0, max(0, len(numbers) - 1))
+        if cells.values.size and (not len(numbers) or (numbers[index] != np.abs(cells.values)).any()):
+            raise section.error("names faces that there are not")
         found = cells_from_faces(
-            faces, RaggedArray(cells.start, place), cells.values > 0
-        )  # whose normal points out of the cell
-        left = len(section) - sum(len(which) for which, _ in found.values())
-        if left:
-            notes.append(f"{left:,} polyhedra of section {section.name!r} are left out.")
-        uses += np.bincount(place, minlength=len(faces))
-        answer += [((kind, nodes, section.first + which), section) for kind, (which, nodes) in found.items()]
+            faces, RaggedArray(cells.start, index), cells.values > 0
+        )  # the face's normal points out of the cell
+        n_other = len(section) - sum(len(which) for which, _ in found.values())
+        if n_other:
+            notes.append(f"{n_other:,} polyhedra of section {section.name!r} are left out.")
+        n_cells += np.bincount(index, minlength=len(faces))
+        for kind, (which, nodes) in found.items():
+            groups.append(CellGroup(kind, nodes, section.first + which, section.name))
     first = 0
-    for section, own in zip(polygons, rows, strict=True):
-        widths, times = own.lengths, uses[first : first + len(own)]
-        outer = times == 1
-        first += len(own)
-        left = int((times == 0).sum() + (outer & (widths != 3) & (widths != 4)).sum())
-        if left:
-            notes.append(
-                f"{left:,} polygons of section {section.name!r} that bound no polyhedron, or have more than 4 nodes, "
-                "are left out."
-            )
-        for kind, width in (("triangle", 3), ("quad", 4)):
-            which = np.flatnonzero(outer & (widths == width))
-            if which.size:
-                nodes = own.values[own.start[which][:, None] + np.arange(width)] - 1
-                answer.append(((kind, nodes, section.first + which), section))
-    return answer
+    for section, lists in zip(ngons, rows, strict=True):
+        groups += _boundary_faces(section, lists, n_cells[first : first + len(lists)], notes)
+        first += len(lists)
+    return groups
+
+
+def _boundary_faces(section: CGNSSection, rows: RaggedArray, n_cells: np.ndarray, notes: list[str]) -> list[CellGroup]:
+    """Triangles and quads of an NGON_n section that bound one cell each."""
+    widths, outer = rows.lengths, n_cells == 1
+    n_other = int((n_cells == 0).sum() + (outer & (widths != 3) & (widths != 4)).sum())
+    if n_other:
+        notes.append(
+            f"{n_other:,} polygons of section {section.name!r} that bound no polyhedron, or have more than 4 nodes, "
+            "are left out."
+        )
+    groups = []
+    for kind, width in (("triangle", 3), ("quad", 4)):
+        which = np.flatnonzero(outer & (widths == width))
+        if which.size:
+            nodes = rows.values[rows.start[which][:, None] + np.arange(width)] - 1
+            groups.append(CellGroup(kind, nodes, section.first + which, section.name))
+    return groups

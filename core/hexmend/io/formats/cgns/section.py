@@ -1,45 +1,87 @@
-"""A section of elements of an unstructured zone of a CGNS file."""
+"""Elements_t section of an unstructured zone of a CGNS file."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.cell_kinds import to_vtk_order
 from hexmend.io.base.polyhedra import RaggedArray
-from hexmend.io.formats.cgns.elements import MIXED, ORDER, POLYGONS, POLYHEDRA, TYPES
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.formats.cgns.elements import MIXED, NFACE, NGON, ORDER, TYPES
 from hexmend.io.formats.cgns.tree import CGNSNode
-from hexmend.io.formats.cgns.zone import DAMAGED
+
+
+class CellGroup(NamedTuple):
+    """Elements of one kind of a section.
+
+    Parameters
+    ----------
+    kind : str
+    nodes : (k, width) int64
+        From 0, in VTK's order.
+    numbers : (k,) int64
+        Element numbers in the zone.
+    section : str
+        Name of the section.
+    """
+
+    kind: str
+    nodes: np.ndarray
+    numbers: np.ndarray
+    section: str
 
 
 class CGNSSection:
-    """A section of elements, whose numbers follow one another."""
+    """Section of elements with consecutive numbers.
+
+    Parameters
+    ----------
+    node : CGNSNode
+
+    Attributes
+    ----------
+    type : int
+        ElementType_t.
+    first, last : int
+        Element numbers.
+    connectivity : (m,) int64
+    parents : (k, 2, 2) int64 or None
+        For each face its two parent elements, each with the number of the element's face; 0 for none.
+    """
 
     def __init__(self, node: CGNSNode):
         self.node, self.name = node, node.name
-        kind, span = node.numbers().ravel(), node.named("ElementRange")
-        span = span.numbers().ravel() if span is not None else np.empty(0, np.int64)
-        if kind.size < 1 or span.size != 2 or span[1] < span[0]:
-            raise FileError(node.path, f"section {node.name!r} has the kind {kind} and the range {span}", DAMAGED)
-        self.type, self.first, self.last = int(kind[0]), int(span[0]), int(span[1])
-        nodes = node.named("ElementConnectivity")
-        self.nodes = nodes.numbers().ravel() if nodes is not None else np.empty(0, np.int64)
-        self.parents = self._parents()
+        type, span = node.integers().ravel(), node.child_named("ElementRange")
+        span = span.integers().ravel() if span is not None else np.empty(0, np.int64)
+        if type.size < 1 or span.size != 2 or span[1] < span[0]:
+            raise self.error(f"has the kind {type} and the range {span}")
+        self.type, self.first, self.last = int(type[0]), int(span[0]), int(span[1])
+        connectivity = node.child_named("ElementConnectivity")
+        self.connectivity = connectivity.integers().ravel() if connectivity is not None else np.empty(0, np.int64)
+        self.parents = self._read_parents()
 
     def __len__(self) -> int:
         return self.last - self.first + 1
 
+    def error(self, problem: str) -> FileError:
+        """Make the error to raise."""
+        return FileError(self.node.path, f"section {self.name!r} {problem}", DAMAGED)
+
     def rows(self) -> RaggedArray:
-        """What the elements of a section of polygons or polyhedra name, as the file has it.
+        """Entries of each element of an NGON_n or NFACE_n section, numbered as in the file.
 
         Raises
         ------
         FileError
-            Where their lengths are not those of the section.
+            Unless there is a row for each element.
         """
-        offsets, values = self.node.named("ElementStartOffset"), self.nodes
+        offsets, values = self.node.child_named("ElementStartOffset"), self.connectivity
         if offsets is not None:
-            start = offsets.numbers().ravel()
-        else:  # of versions before 4: each behind its length
+            start = offsets.integers().ravel()
+        else:  # before version 4 each row follows its length
             begins, at, flat = [], 0, values.tolist()
             while at < len(flat) and flat[at] >= 0:
                 begins.append(at)
@@ -47,64 +89,66 @@ class CGNSSection:
             lengths = values[begins] if at == len(flat) else np.empty(0, np.int64)
             start, values = np.concatenate([[0], np.cumsum(lengths)]), np.delete(values, begins)
         if len(start) != len(self) + 1 or start[0] != 0 or (np.diff(start) < 0).any() or start[-1] != values.size:
-            raise FileError(self.node.path, f"section {self.name!r} does not name {len(self)} rows", DAMAGED)
+            raise self.error(f"does not name {len(self)} rows")
         return RaggedArray(start, values)
 
-    def parts(self, notes: list[str]) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        """Kind, nodes from 0 in VTK's order, and numbers in the zone of the elements of each kind."""
-        if self.parents is not None and not self.nodes.any():
+    def cell_groups(self, notes: list[str]) -> list[CellGroup]:
+        """Elements by kind; none for faces known by their parents alone, and for polygons and polyhedra.
+
+        Parameters
+        ----------
+        notes : list of str
+            A note on elements that are left out is appended.
+
+        Raises
+        ------
+        FileError
+            Where the connectivity does not fit the elements.
+        """
+        if self.type in (NGON, NFACE) or (self.parents is not None and not self.connectivity.any()):
             return []
         if self.type == MIXED:
-            types, starts = self._mixed()
+            types, starts = self._mixed_layout()
         elif self.type in TYPES:
             width = TYPES[self.type][1]
-            if self.nodes.size != len(self) * width:
-                raise FileError(
-                    self.node.path,
-                    f"section {self.name!r} has {len(self)} elements of {width} nodes, and {self.nodes.size} nodes",
-                    DAMAGED,
-                )
+            if self.connectivity.size != len(self) * width:
+                raise self.error(f"has {len(self)} elements of {width} nodes, and {self.connectivity.size} nodes")
             types, starts = np.full(len(self), self.type), width * np.arange(len(self))
-        elif self.type in (POLYGONS, POLYHEDRA):  # which belong together: see hexmend.io.formats.cgns.polyhedra
-            return []
         else:
             notes.append(f"{len(self):,} elements of type {self.type} of section {self.name!r} are left out.")
             return []
-        answer = []
-        for number in dict.fromkeys(types.tolist()):
-            kind, width = TYPES[number]
-            chosen = np.flatnonzero(types == number)
-            rows = self.nodes[starts[chosen][:, None] + np.arange(width)] - 1
-            answer.append((kind, rows[:, ORDER[kind]] if kind in ORDER else rows, self.first + chosen))
-        return answer
+        groups = []
+        for type in dict.fromkeys(types.tolist()):
+            kind, width = TYPES[type]
+            chosen = np.flatnonzero(types == type)
+            nodes = self.connectivity[starts[chosen][:, None] + np.arange(width)] - 1
+            groups.append(CellGroup(kind, to_vtk_order(nodes, kind, ORDER), self.first + chosen, self.name))
+        return groups
 
-    def _mixed(self) -> tuple[np.ndarray, np.ndarray]:
-        """Types of the elements, and where the nodes of each begin."""
-        offsets, nodes = self.node.named("ElementStartOffset"), self.nodes
+    def _mixed_layout(self) -> tuple[np.ndarray, np.ndarray]:
+        """Type of each element of a MIXED section, and the index of its first node, (k,) int64 each."""
+        offsets, nodes = self.node.child_named("ElementStartOffset"), self.connectivity
         if offsets is not None:
-            starts = offsets.numbers().ravel()[:-1]
+            starts = offsets.integers().ravel()[:-1]
             if len(starts) != len(self) or (len(starts) and (starts.min() < 0 or starts.max() >= nodes.size)):
-                raise FileError(self.node.path, f"section {self.name!r} has wrong ElementStartOffset", DAMAGED)
-        else:  # of versions before 4: one after the other
-            starts, place, flat = [], 0, nodes.tolist()
-            while len(starts) < len(self) and place < len(flat) and flat[place] in TYPES:
-                starts.append(place)
-                place += 1 + TYPES[flat[place]][1]
+                raise self.error("has wrong ElementStartOffset")
+        else:  # before version 4 elements follow one another
+            starts, at, flat = [], 0, nodes.tolist()
+            while len(starts) < len(self) and at < len(flat) and flat[at] in TYPES:
+                starts.append(at)
+                at += 1 + TYPES[flat[at]][1]
             starts = np.array(starts, np.int64)
         types = nodes[starts]
-        widths = np.array([TYPES.get(number, ("", nodes.size))[1] for number in types.tolist()], np.int64)
+        widths = np.array([TYPES.get(type, ("", nodes.size))[1] for type in types.tolist()], np.int64)
         if len(starts) != len(self) or (len(starts) and (starts + 1 + widths > nodes.size).any()):
-            raise FileError(
-                self.node.path, f"section {self.name!r} names elements of types that are not known", DAMAGED
-            )
+            raise self.error("names elements of types that are not known")
         return types, starts + 1
 
-    def _parents(self) -> np.ndarray | None:
-        """The elements that each face belongs to, and which of their faces it is: (k, 2, 2), 0 where there is none."""
-        found = [self.node.named(name) for name in ("ParentElements", "ParentElementsPosition")]
+    def _read_parents(self) -> np.ndarray | None:
+        found = [self.node.child_named(name) for name in ("ParentElements", "ParentElementsPosition")]
         if None in found:
-            found = [self.node.named("ParentData")]  # of versions before 3, both in one
+            found = [self.node.child_named("ParentData")]  # before version 3 one array holds both
         if None in found:
             return None
-        rows = np.concatenate([one.numbers().ravel() for one in found])
+        rows = np.concatenate([node.integers().ravel() for node in found])
         return rows.reshape(2, 2, -1).transpose(2, 1, 0) if rows.size == 4 * len(self) else None

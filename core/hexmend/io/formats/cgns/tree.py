@@ -1,4 +1,7 @@
-"""CGNS's tree of nodes as HDF5 keeps it: a node is a group with a label, and its data are a dataset called " data"."""
+"""Tree of CGNS's nodes in HDF5: a node is a group with a label, its data are the dataset " data".
+
+*CGNS HDF5 Storage*, "CGNS File Mapping Manual".
+"""
 
 from __future__ import annotations
 
@@ -9,12 +12,12 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 
-#: What the library raises where a file is damaged.
+#: Exceptions of h5py for damaged files.
 _FAILURES = (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError)
 
 
 class CGNSNode:
-    """A node of the tree.
+    """Node of the tree.
 
     Parameters
     ----------
@@ -28,12 +31,12 @@ class CGNSNode:
         self.path, self.name = path, name
         try:
             self.label = _text(group.attrs.get("label", b""))
-            self._group = self._followed(group)
+            self._group = self._resolve_link(group)
         except _FAILURES as error:
             raise hdf5.damaged_file(path, error) from None
 
-    def _followed(self, group: object) -> object:
-        """The group, or that to which a link leads."""
+    def _resolve_link(self, group: object) -> object:
+        """Return the group, or the target of a link."""
         if _text(group.attrs.get("type", b"")) != "LK":
             return group
         if " file" in group and (name := _text(hdf5.read_dataset(self.path, group[" file"]).tobytes())):
@@ -45,7 +48,7 @@ class CGNSNode:
         return group.file[_text(hdf5.read_dataset(self.path, group[" path"]).tobytes())]
 
     def children(self, *labels: str) -> list[CGNSNode]:
-        """Nodes below this one that have one of some labels, by name."""
+        """Child nodes with one of these labels, ordered by name."""
         try:
             return [
                 CGNSNode(self.path, self._group[name], name)
@@ -58,32 +61,32 @@ class CGNSNode:
             raise hdf5.damaged_file(self.path, error) from None
 
     def child(self, label: str) -> CGNSNode | None:
-        """The first node below this one that has a label."""
+        """First child node with a label; None where there is none."""
         return next(iter(self.children(label)), None)
 
-    def named(self, name: str) -> CGNSNode | None:
-        """The node below this one that has a name, whatever its label."""
+    def child_named(self, name: str) -> CGNSNode | None:
+        """Child node of a name, whatever its label; None where there is none."""
         try:
             return CGNSNode(self.path, self._group[name], name) if name in self._group else None
         except _FAILURES as error:
             raise hdf5.damaged_file(self.path, error) from None
 
     def value(self) -> np.ndarray:
-        """The data, axes in Fortran's order reversed; empty where there are none."""
+        """Data of the node, with the axes of Fortran's order reversed; empty where there are none."""
         try:
-            there = " data" in self._group
-            data = self._group[" data"] if there else None
+            exists = " data" in self._group
+            data = self._group[" data"] if exists else None
         except _FAILURES as error:
-            raise hdf5.damaged_file(self.path, error) from None
-        return hdf5.read_dataset(self.path, data) if there else np.empty(0)
+            raise hdf5.damaged(self.path, error) from None
+        return hdf5.values_of(self.path, data) if exists else np.empty(0)
 
-    def numbers(self) -> np.ndarray:
-        """The data as 64-bit integers.
+    def integers(self) -> np.ndarray:
+        """Data of the node as int64.
 
         Raises
         ------
         FileError
-            Where they are no whole numbers.
+            Unless they are whole numbers.
         """
         values = self.value()
         if values.dtype.kind not in "iu":
@@ -95,10 +98,11 @@ class CGNSNode:
         return values.astype(np.int64)
 
     def text(self) -> str:
-        """The data as a text."""
+        """Data of the node as a string."""
         return _text(self.value().tobytes())
 
 
 def _text(value: object) -> str:
+    """Text up to the first zero byte, stripped."""
     value = value if isinstance(value, str) else bytes(value).decode("utf-8", errors="replace")
     return value.split("\0")[0].strip()

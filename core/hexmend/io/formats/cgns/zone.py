@@ -1,36 +1,55 @@
-"""What is read of a CGNS zone of either kind."""
+"""Zone_t of a CGNS file, and its parts that structured and unstructured zones have in common."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
+from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.tree import CGNSNode
 
-DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
+
+class Interface(NamedTuple):
+    """Nodes of a zone that are nodes of a donor zone (GridConnectivity1to1_t, Abutting1to1).
+
+    Parameters
+    ----------
+    donor : str
+        Name of the donor, after its base and a slash where it is in another one.
+    nodes : (k,) int64
+    donor_nodes : (k,) or (k, 3) int64
+        Numbers, or indices i, j, k, from 0.
+    """
+
+    donor: str
+    nodes: np.ndarray
+    donor_nodes: np.ndarray
 
 
 @dataclass(eq=False)
 class Zone:
-    """A zone, with numbers of nodes and hexes of its own.
+    """Zone, whose nodes and hexes are numbered from 0.
 
     Parameters
     ----------
-    name, family : str
+    name : str
+    family : str
+        Empty where none is named.
     points : (n, 3) float64
     blocks : list of Block
     node_sets : dict of name to (k,) int64
     side_sets : dict of name to (k, 2) int64
     node_data : dict of name to (n,) array
-    interfaces : list of (name of another zone, own nodes, its nodes)
+    interfaces : list of Interface
     notes : list of str
     key : (str, str)
-        Names of its base and itself.
+        Names of its base and its own.
     shape : (3,) int64, optional
-        Vertices along i, j and k of a structured one. Nodes of such a zone may be told as rows of i, j, k from 0.
+        Vertices along i, j and k of a structured zone.
     """
 
     name: str
@@ -40,102 +59,114 @@ class Zone:
     node_sets: dict[str, np.ndarray] = field(default_factory=dict)
     side_sets: dict[str, np.ndarray] = field(default_factory=dict)
     node_data: dict[str, np.ndarray] = field(default_factory=dict)
-    interfaces: list[tuple[str, np.ndarray, np.ndarray]] = field(default_factory=list)
+    interfaces: list[Interface] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     key: tuple[str, str] = ("", "")
     shape: np.ndarray | None = None
 
-    def numbers(self, nodes: np.ndarray) -> np.ndarray | None:
-        """Nodes told by numbers, or by i, j and k, as numbers; None where they are none of this zone."""
+    def node_numbers(self, nodes: np.ndarray) -> np.ndarray | None:
+        """Node numbers, (k,), of numbers or of indices i, j, k; None where one is outside the zone."""
         if self.shape is not None and nodes.ndim == 2:
             if ((nodes < 0) | (nodes >= self.shape)).any():
                 return None
             return nodes @ [1, self.shape[0], self.shape[0] * self.shape[1]]
-        whole = nodes.ndim == 1 and ((nodes >= 0) & (nodes < len(self.points))).all()
-        return nodes if whole else None
+        inside = nodes.ndim == 1 and ((nodes >= 0) & (nodes < len(self.points))).all()
+        return nodes if inside else None
 
 
-def sizes(node: CGNSNode, rows: int) -> np.ndarray:
-    """Numbers of vertices, cells and boundary vertices of a zone, (3, rows)."""
-    values = node.numbers()
-    if values.shape != (3, rows) or values.min() < 0:
+def zone_size(node: CGNSNode, index_dimension: int) -> np.ndarray:
+    """Numbers of vertices, cells and boundary vertices of a zone, (3, index_dimension) int64."""
+    values = node.integers()
+    if values.shape != (3, index_dimension) or values.min() < 0:
         raise FileError(node.path, f"zone {node.name!r} has the sizes {values.tolist()}", DAMAGED)
     return values
 
 
-def family(node: CGNSNode) -> str:
-    """The family that a zone or boundary condition belongs to; empty where none is named."""
+def family_name(node: CGNSNode) -> str:
+    """Family of a zone or boundary condition; empty where none is named."""
     found = node.child("FamilyName_t")
     return found.text() if found is not None else ""
 
 
 def coordinates(node: CGNSNode, shape: tuple[int, ...]) -> np.ndarray:
-    """The points of a zone, whose arrays have a shape (last index of CGNS first) without their rind, (n, 3)."""
+    """Coordinates of the vertices of a zone, (n, 3) float64.
+
+    Parameters
+    ----------
+    node : CGNSNode
+    shape : tuple of int
+        Vertices along the axes without rind, the last index of CGNS first.
+
+    Raises
+    ------
+    FileError
+        Unless the zone has Cartesian coordinates of this shape.
+    """
     grids = node.children("GridCoordinates_t")
-    grid = next((one for one in grids if one.name == "GridCoordinates"), grids[0] if grids else None)
+    grid = next((grid for grid in grids if grid.name == "GridCoordinates"), grids[0] if grids else None)
     if grid is None:
         raise FileError(node.path, f"zone {node.name!r} has no coordinates", DAMAGED)
-    arrays = {one.name: one for one in grid.children("DataArray_t")}
+    arrays = {array.name: array for array in grid.children("DataArray_t")}
     if "CoordinateR" in arrays or not any(f"Coordinate{axis}" in arrays for axis in "XYZ"):
         raise FileError(
             node.path,
             f"zone {node.name!r} has the coordinates {', '.join(arrays) or 'none'}: expected CoordinateX, Y and Z",
             "Write it with Cartesian coordinates.",
         )
-    rind = rind_of(grid, len(shape))
+    rind = rind_planes(grid, len(shape))
     axes = [axis for axis, letter in enumerate("XYZ") if f"Coordinate{letter}" in arrays]
-    columns = [inside(arrays[f"Coordinate{'XYZ'[axis]}"], shape, rind).ravel() for axis in axes]
+    columns = [without_rind(arrays[f"Coordinate{'XYZ'[axis]}"], shape, rind).ravel() for axis in axes]
     points = np.zeros((columns[0].size, 3))
     points[:, axes] = np.column_stack(columns)
     return points
 
 
-def results(node: CGNSNode, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
-    """Arrays of the last solution at "Vertex" or "CellCenter", flat."""
+def solution_arrays(node: CGNSNode, location: str, shape: tuple[int, ...]) -> dict[str, np.ndarray]:
+    """Arrays of a zone's solutions at "Vertex" or "CellCenter", flat; of one name, the last counts."""
     found: dict[str, np.ndarray] = {}
     for solution in node.children("FlowSolution_t", "DiscreteData_t"):
-        if location_of(solution) == location:
-            rind = rind_of(solution, len(shape))
-            found |= {one.name: inside(one, shape, rind).ravel() for one in solution.children("DataArray_t")}
+        if grid_location(solution) == location:
+            rind = rind_planes(solution, len(shape))
+            found |= {
+                array.name: without_rind(array, shape, rind).ravel() for array in solution.children("DataArray_t")
+            }
     return found
 
 
-def inside(node: CGNSNode, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:
-    """An array without the layers around it that rind (axes, 2), last index of CGNS first, tells of."""
+def without_rind(node: CGNSNode, shape: tuple[int, ...], rind: np.ndarray) -> np.ndarray:
+    """Array of a node without its rind planes, of the given shape; see `rind_planes`."""
     values = node.value()
-    whole = tuple(int(length + layers.sum()) for length, layers in zip(shape, rind, strict=True))
-    if values.dtype.kind not in "iuf" or values.shape != whole:
-        raise FileError(
-            node.path, f"{node.name} holds {values.dtype} {values.shape}: expected numbers {whole}", DAMAGED
-        )
+    full = tuple(int(length + planes.sum()) for length, planes in zip(shape, rind, strict=True))
+    if values.dtype.kind not in "iuf" or values.shape != full:
+        raise FileError(node.path, f"{node.name} holds {values.dtype} {values.shape}: expected numbers {full}", DAMAGED)
     return values[tuple(slice(int(low), int(low) + length) for (low, _), length in zip(rind, shape, strict=True))]
 
 
-def rind_of(node: CGNSNode, axes: int) -> np.ndarray:
-    """How many layers lie before and after the arrays of a node, (axes, 2), last index of CGNS first."""
+def rind_planes(node: CGNSNode, axes: int) -> np.ndarray:
+    """Number of rind planes before and after the arrays of a node, (axes, 2), the last index of CGNS first."""
     found = node.child("Rind_t")
-    values = found.numbers().ravel() if found is not None else np.zeros(2 * axes, np.int64)
+    values = found.integers().ravel() if found is not None else np.zeros(2 * axes, np.int64)
     if values.size != 2 * axes or values.min() < 0:
         raise FileError(node.path, f"{node.name} has the rind {values.tolist()}", DAMAGED)
     return values.reshape(axes, 2)[::-1]
 
 
-def location_of(node: CGNSNode) -> str:
-    """Where data or members of a node are: "Vertex" unless it says otherwise."""
+def grid_location(node: CGNSNode) -> str:
+    """GridLocation_t of a node; "Vertex" where none is given."""
     found = node.child("GridLocation_t")
     return found.text() if found is not None else "Vertex"
 
 
-def conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
-    """Boundary conditions of a zone and their names: those of their families where they have any."""
+def boundary_conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
+    """Boundary conditions of a zone by name, which is that of the family where there is one."""
     return [
-        (family(condition) or condition.name, condition)
+        (family_name(condition) or condition.name, condition)
         for parent in node.children("ZoneBC_t")
         for condition in parent.children("BC_t")
     ]
 
 
-def add(sets: dict[str, np.ndarray], name: str, members: np.ndarray) -> None:
-    """Add members to a set, which may be there already."""
+def add_members(sets: dict[str, np.ndarray], name: str, members: np.ndarray) -> None:
+    """Append members to the set of a name, which is new where there is none."""
     if len(members):
         sets[name] = np.concatenate([sets[name], members]) if name in sets else members
