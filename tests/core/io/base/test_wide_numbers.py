@@ -16,7 +16,7 @@ def test_a_number_takes_64_bits_only_where_32_do_not_hold_it(number, tmp_path):
     from scipy.io import netcdf_file
 
     writer = ClassicWriter({})
-    writer.add("one", {"n": 2}, np.array([0, number]))
+    writer.add_variable("one", {"n": 2}, np.array([0, number]))
     if -(2**31) <= number < 2**31:
         writer.write(tmp_path / "a.nc")
         with netcdf_file(tmp_path / "a.nc", mmap=False) as file:
@@ -44,7 +44,7 @@ def test_every_text_ends_with_a_zero_byte_as_programs_in_c_expect(length, tmp_pa
     from scipy.io import netcdf_file
 
     writer = ClassicWriter({})
-    writer.add_text("names", "n", ["a" * length, "b"])
+    writer.add_strings("names", "n", ["a" * length, "b"])
     writer.write(tmp_path / "a.nc")
     with netcdf_file(tmp_path / "a.nc", mmap=False) as file:
         letters = file.variables["names"]

@@ -1,4 +1,8 @@
-"""ExodusII (.exo, .e, .g): element blocks, node, side and element sets, ids, and results of the last time step."""
+"""ExodusII (.exo, .e, .g): element blocks, node, side and element sets, ids, and results of the last time step.
+
+Schoof and Yarberry, *EXODUS II: A Finite Element Data Model*, SAND92-2137, and Sjaardema et al., *EXODUS: A Finite
+Element Data Model*, for names, properties and 64-bit ids.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,7 @@ from hexmend.mesh.mesh import Mesh
 
 
 def read(path: Path) -> Mesh:
-    """Read an ExodusII file; one on HDF5 in a process of its own, which its library may end."""
+    """Read an ExodusII file; one on HDF5 in a subprocess, since the HDF5 library may crash on a damaged one."""
     from hexmend.io.formats.exodus.reader import content
 
     with open(path, "rb") as file:
@@ -25,21 +29,21 @@ def read(path: Path) -> Mesh:
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write an ExodusII file of NetCDF's classic format with 64-bit offsets."""
-    from hexmend.io.formats.exodus.writer import write as write_file
+    """Write an ExodusII file of NetCDF's classic format, with 64-bit offsets."""
+    from hexmend.io.formats.exodus import writer
 
-    write_file(path, mesh)
+    writer.write(path, mesh)
 
 
 def limitations(mesh: Mesh) -> list[str]:
-    """Describe data of a mesh that are lost although the format has the capability."""
-    from hexmend.io.formats.exodus import writer as exodus_writer
+    """List the data of a mesh that a file cannot hold, in words."""
+    from hexmend.io.formats.exodus import writer
 
-    return exodus_writer.limitations(mesh)
+    return writer.limitations(mesh)
 
 
 def matches(head: bytes) -> bool:
-    """Whether a file begins as NetCDF's do; on HDF5, as one with what Exodus keeps."""
+    """Return True if a file begins like NetCDF, or like HDF5 with the names of ExodusII near its beginning."""
     if netcdf3.recognised(head):
         return True
     return head.startswith(hdf5.MAGIC) and any(mark in head for mark in (b"num_nodes", b"_NCProperties", b"coordx"))

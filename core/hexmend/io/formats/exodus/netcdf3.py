@@ -1,4 +1,4 @@
-"""NetCDF's classic formats, in which ExodusII files are kept: 32 and 64-bit offsets, and 64-bit data.
+"""Reader of NetCDF's classic formats: 32-bit offsets, 64-bit offsets and 64-bit data (CDF-1, CDF-2, CDF-5).
 
 Unidata, *The NetCDF classic format specification*. All numbers are big-endian, all parts padded to 4 bytes. netCDF4 is
 not used: it reads what a file that is cut short lacks as zeros, and needs a process of its own for damaged files.
@@ -14,53 +14,64 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
+from hexmend.io.base.remedies import DAMAGED
 
-#: Types of values by their numbers; 2 is text.
+#: Types of values (nc_type); 2 is text.
 TYPES = {
     1: np.dtype("i1"), 2: np.dtype("S1"), 3: np.dtype(">i2"), 4: np.dtype(">i4"), 5: np.dtype(">f4"),
     6: np.dtype(">f8"), 7: np.dtype("u1"), 8: np.dtype(">u2"), 9: np.dtype(">u4"), 10: np.dtype(">i8"),
     11: np.dtype(">u8"),
 }  # fmt: skip
-#: Of the lists of a head.
+#: Tags of the lists in the header.
 DIMENSIONS, VARIABLES, ATTRIBUTES = 10, 11, 12
 
-#: How much of a file is looked through for its head, bytes.
-_HEAD = 64 << 20
+#: Most bytes of a header.
+_HEADER_SIZE = 64 << 20
 
 
 def recognised(head: bytes) -> bool:
-    """Whether a file begins as NetCDF's classic formats do."""
+    """Return True if a file begins like NetCDF's classic formats."""
     return head[:3] == b"CDF" and head[3:4] in (b"\x01", b"\x02", b"\x05")
 
 
 @dataclass(frozen=True)
 class Variable:
-    """Where a variable lies and what it is.
+    """Variable of the header.
 
     Parameters
     ----------
     shape : tuple of int
-        Without the number of records.
+        Of one record, or of all values.
     dtype : numpy dtype
     begin : int
-        Byte of its first value.
-    of_records : bool
-        Whether it has a value, of that shape, for each record.
+        Offset of its first value, bytes.
+    is_record : bool
+        True if it has values of that shape for each record of the unlimited dimension.
     size : int
-        Bytes of a record, or of all, padded.
+        Bytes of one record, or of all values, padded to 4.
     attributes : mapping of name to str or array
     """
 
     shape: tuple[int, ...]
     dtype: np.dtype
     begin: int
-    of_records: bool
+    is_record: bool
     size: int
     attributes: dict[str, object] = field(default_factory=dict)
 
+    @property
+    def count(self) -> int:
+        """Number of values of one record, or of all."""
+        return int(np.prod(self.shape, dtype=object))
 
-class Classic:
-    """A NetCDF file of a classic format, opened for reading.
+    @property
+    def data_size(self) -> int:
+        """Bytes of one record, or of all values, without padding."""
+        return self.count * self.dtype.itemsize
+
+
+class ClassicReader:
+    """NetCDF file of a classic format.
 
     Every count is checked against the file's size before anything is read.
 
@@ -71,31 +82,31 @@ class Classic:
     Raises
     ------
     FileError
-        Where the head does not say what a head has to, or the file ends before a variable does.
+        For a malformed header, or a file that ends before a variable does.
     """
 
     def __init__(self, path: Path):
         self.path = path
         self._length = os.path.getsize(path)
         with open(path, "rb") as file:
-            head = _Head(ByteCursor(path, file.read(_HEAD), is_text=False))
-        records = head.count()
-        dimensions = head.dimensions()
-        self.attributes = head.attributes()
-        self._variables = head.variables(dimensions)
-        self._stride = _stride(list(self._variables.values()))
-        if records == 2 ** (8 * head.width) - 1:  # of a file that was still being written
-            first = min((one.begin for one in self._variables.values() if one.of_records), default=self._length)
-            records = max(0, self._length - first) // max(1, self._stride)
+            header = _Header(ByteCursor(path, file.read(_HEADER_SIZE), text=False))
+        records = header.count()
+        dimensions = header.dimensions()
+        self.attributes = header.attributes()
+        self._variables = header.variables(dimensions)
+        self._record_size = _record_size(list(self._variables.values()))
+        if records == 2 ** (8 * header.width) - 1:  # a file that was still being written
+            first = min(
+                (variable.begin for variable in self._variables.values() if variable.is_record), default=self._length
+            )
+            records = max(0, self._length - first) // max(1, self._record_size)
         self.dimensions = {name: length or records for name, length in dimensions}
-        for name, one in self._variables.items():
-            last = (records - 1) * self._stride if one.of_records else 0
-            size = int(np.prod(one.shape, dtype=object)) * one.dtype.itemsize
-            if size and (records or not one.of_records) and one.begin + last + size > self._length:
+        for name, variable in self._variables.items():
+            last = (records - 1) * self._record_size if variable.is_record else 0
+            end = variable.begin + last + variable.data_size
+            if variable.data_size and (records or not variable.is_record) and end > self._length:
                 raise FileError(
-                    path,
-                    f"variable {name!r} ends at byte {one.begin + last + size}: the file ends at byte {self._length}",
-                    "Write the file again with the program that made it: it is damaged or cut short.",
+                    path, f"variable {name!r} ends at byte {end}: the file ends at byte {self._length}", DAMAGED
                 )
 
     def __contains__(self, name: str) -> bool:
@@ -105,43 +116,43 @@ class Classic:
         return len(self._variables)
 
     def array(self, name: str, record: int = 0) -> np.ndarray:
-        """The values of a variable, of one record where there are several; in the machine's byte order."""
-        one = self._variables[name]
+        """Values of a variable, of one record where it has several, in the machine's byte order."""
+        variable = self._variables[name]
         with open(self.path, "rb") as file:
-            file.seek(one.begin + (record * self._stride if one.of_records else 0))
-            values = np.fromfile(file, one.dtype, int(np.prod(one.shape, dtype=object)))
-        return values.astype(one.dtype.newbyteorder("=")).reshape(one.shape)
+            file.seek(variable.begin + (record * self._record_size if variable.is_record else 0))
+            values = np.fromfile(file, variable.dtype, variable.count)
+        return values.astype(variable.dtype.newbyteorder("=")).reshape(variable.shape)
 
     def attribute(self, variable: str, name: str) -> object:
-        """A text or an array that a variable has under a name, or None."""
+        """Attribute of a variable, a string or an array; None where it has none of that name."""
         return self._variables[variable].attributes.get(name)
 
 
-class _Head:
-    """The head of a file, taken part by part."""
+class _Header:
+    """Parser of a file's header; its methods take the next part."""
 
     def __init__(self, source: ByteCursor):
         self.source = source
         version = source.read_bytes(4, "the head")[3]
         self.width = 8 if version == 5 else 4  # bytes of a count
-        self.offset = 4 if version == 1 else 8  # and of a place
+        self.offset = 4 if version == 1 else 8  # bytes of an offset
 
     def count(self, width: int = 0) -> int:
-        """The next number."""
-        return int.from_bytes(self.source.read_bytes(width or self.width, "the head"), "big")
+        """Take a number, of the width of a count unless given."""
+        return int.from_bytes(self.source.take(width or self.width, "the head"), "big")
 
     def length(self, kind: int, each: int) -> int:
-        """How many entries a list has, each of some bytes at least."""
-        here = self.source.location
+        """Take the number of entries of a list with the tag `kind`, of at least `each` bytes an entry."""
+        here = self.source.here
         tag, count = self.count(4), self.count()
         if tag not in (0, kind) or (tag == 0 and count) or count * each > len(self.source.data):
             raise self.source.error(f"the head's list at {here} has the kind {tag} and {count} entries")
         return count
 
     def padded(self, size: int) -> bytes:
-        """Bytes, and what fills them up to four."""
-        data = self.source.read_bytes(size, "the head")
-        self.source.read_bytes(-size % 4, "the head")
+        """Take bytes and their padding to 4."""
+        data = self.source.take(size, "the head")
+        self.source.take(-size % 4, "the head")
         return data
 
     def name(self) -> str:
@@ -174,10 +185,10 @@ class _Head:
                 raise self.source.error(f"variable {name!r} has the dimensions {numbers} of {len(dimensions)}")
             attributes, dtype, _ = self.attributes(), self.type(), self.count()
             shape = [dimensions[number][1] for number in numbers]
-            of_records = bool(shape) and shape[0] == 0 and dimensions[numbers[0]][1] == 0
-            shape = tuple(shape[1:] if of_records else shape)
+            is_record = bool(shape) and shape[0] == 0 and dimensions[numbers[0]][1] == 0
+            shape = tuple(shape[1:] if is_record else shape)
             size = int(np.prod(shape, dtype=object)) * dtype.itemsize
-            answer[name] = Variable(shape, dtype, self.count(self.offset), of_records, size + -size % 4, attributes)
+            answer[name] = Variable(shape, dtype, self.count(self.offset), is_record, size + -size % 4, attributes)
         return answer
 
     def length_of_shape(self) -> int:
@@ -187,9 +198,7 @@ class _Head:
         return count
 
 
-def _stride(variables: list[Variable]) -> int:
+def _record_size(variables: list[Variable]) -> int:
     """Bytes from one record to the next."""
-    parts = [one for one in variables if one.of_records]
-    if len(parts) == 1:  # which alone is not padded
-        return int(np.prod(parts[0].shape, dtype=object)) * parts[0].dtype.itemsize
-    return sum(one.size for one in parts)
+    parts = [variable for variable in variables if variable.is_record]
+    return parts[0].data_size if len(parts) == 1 else sum(variable.size for variable in parts)  # one is not padded
