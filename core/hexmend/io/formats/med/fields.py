@@ -1,7 +1,7 @@
-"""MED's fields: values of nodes and cells in one time step, as data.
+"""Fields of MED as data of nodes and cells, in one time step.
 
-A field has a group for each step, in this one for the nodes (NOE) or the cells of a kind (MAI.HE8), and there an array
-of all its first components, then all second ones; for some nodes or cells only where it names a profile.
+A field has a group for each time step, and in it one for each entity: the nodes (NOE), or the cells of a geometric type
+(MAI.HE8). Values are stored component by component, for some nodes or cells only where a profile lists these.
 """
 
 from __future__ import annotations
@@ -14,69 +14,84 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.base.unique_names import make_unique
-from hexmend.io.formats.med.content import BITS, DAMAGED, taken
+from hexmend.io.formats.med.arrays import read_array
+from hexmend.io.formats.med.elements import GEOMETRY_BITS
 
-#: What stands for a profile where all nodes or cells have values, and how wide names are, in bytes.
-ALL = "MED_NO_PROFILE_INTERNAL"
-_WIDTH, _COMPONENT = 64, 16
-#: No places of their own for values inside a cell: a text that is empty, and one byte wide.
-_NONE = np.array(b"", "S1")
-#: MED's numbers of the types that are written.
+#: Profile of values for all nodes or cells.
+NO_PROFILE = "MED_NO_PROFILE_INTERNAL"
+#: Step of data without a time: no number of a time step (MED_NO_DT), none of an iteration (MED_NO_IT).
+NO_STEP = f"{-1:020d}{-1:020d}"
+#: Bytes of the names of fields and of components (MED_NAME_SIZE, MED_SNAME_SIZE).
+_NAME_SIZE, _COMPONENT_SIZE = 64, 16
+#: Name of no localisation of Gauss points: an empty text of one byte.
+_NO_LOCALISATION = np.array(b"", "S1")
+#: Numbers of the types that are written (med_field_type).
 _TYPES = {"<f8": 6, "<i4": 24, "<i8": 26}
 
-#: Data by the place that they belong to: "NOE", or "MAI.HE8" and the like.
+#: Arrays by name, for each entity: "NOE", or "MAI." and a geometric type.
 Fields = dict[str, dict[str, np.ndarray]]
 
 
 def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int], notes: list[str]) -> Fields:
-    """The last step of each field of a mesh.
+    """Read the last time step of each field of a mesh.
 
     Parameters
     ----------
     path : Path
     file : h5py.File
     mesh : str
-        Its name.
-    counts : mapping of place to int
-        How many nodes, or cells of a kind, there are.
+        Name of the mesh.
+    counts : mapping of str to int
+        Number of nodes or cells of each entity.
     notes : list of str
-        What is left out is added.
+        Notes on fields that are left out are appended.
+
+    Returns
+    -------
+    dict of str to dict of str to (count,) or (count, width) array
+
+    Raises
+    ------
+    FileError
+        For a field whose values do not fit its entity.
     """
-    answer: Fields = {place: {} for place in counts}
-    others, bare, steps_left, allowance = [], [], [], MemoryBudget(path, path.stat().st_size)
+    fields: Fields = {entity: {} for entity in counts}
+    other_meshes, unsupported, several_steps = [], [], []
+    allowance = MemoryBudget(path, path.stat().st_size)
     for name, field in file["CHA"].items() if "CHA" in file else ():
         if _text(field.attrs.get("MAI", b"")) != mesh or not len(field):
-            others.append(name)
+            other_meshes.append(name)
             continue
         width = int(field.attrs["NCO"])
         if width < 1:
             raise FileError(path, f"the field {name} has {width} components: expected 1 at least", DAMAGED)
-        step = max(field.values(), key=lambda one: (int(one.attrs["NDT"]), int(one.attrs["NOR"])))
-        steps_left += [name] if len(field) > 1 else []
-        for place, group in step.items():
-            if place not in counts or any(int(one.attrs["NGA"]) != 1 for one in group.values()):
-                bare += [name] if name not in bare else []
+        step = max(field.values(), key=lambda step: (int(step.attrs["NDT"]), int(step.attrs["NOR"])))
+        several_steps += [name] if len(field) > 1 else []
+        for entity, group in step.items():
+            if entity not in counts or any(int(part.attrs["NGA"]) != 1 for part in group.values()):
+                unsupported += [name] if name not in unsupported else []
             else:
-                allowance.charge(8 * width * counts[place], f"the field {name}")
-                answer[place][name] = _values(path, file, group, width, counts[place])
+                allowance.charge(8 * width * counts[entity], f"the field {name}")
+                fields[entity][name] = _values(path, file, group, width, counts[entity])
     for names, words in (
-        (others, "Fields of other meshes are left out"),
-        (bare, "Fields at Gauss points, or at the nodes of each element, are left out"),
-        (steps_left, "Of fields with several time steps the last is read"),
+        (other_meshes, "Fields of other meshes are left out"),
+        (unsupported, "Fields at Gauss points, or at the nodes of each element, are left out"),
+        (several_steps, "Of fields with several time steps the last is read"),
     ):
         notes += [f"{words}: {', '.join(names[:6])}{', ...' if len(names) > 6 else ''}."] if names else []
-    return answer
+    return fields
 
 
 def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -> np.ndarray:
-    """The values of all nodes or cells, (count,) or (count, width); of those without, NaN or 0."""
+    """Values of all nodes or cells, (count,) or (count, width); NaN or 0 where the field has none."""
     found: list[tuple[np.ndarray, np.ndarray]] = []
     for profile, part in group.items():
-        values = taken(path, part, "CO")
+        values = read_array(path, part, "CO")
         rows = np.arange(count)
-        if profile != ALL:
-            rows = taken(path, file["PROFILS"][profile], "PFL").astype(np.int64) - 1
+        if profile != NO_PROFILE:
+            rows = read_array(path, file["PROFILS"][profile], "PFL").astype(np.int64) - 1
         if values.dtype.kind not in "iuf" or values.shape != (width * len(rows),):
             raise FileError(
                 path, f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}", DAMAGED
@@ -85,69 +100,71 @@ def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -
             raise FileError(path, f"the profile {profile} names what there is not: expected 1 to {count}", DAMAGED)
         found.append((rows, values.reshape(width, -1).T))
     dtype = np.result_type(*(values.dtype for _, values in found)) if found else np.dtype(np.float64)
-    answer = np.full((count, width), np.nan if dtype.kind == "f" else 0, dtype)
+    filled = np.full((count, width), np.nan if dtype.kind == "f" else 0, dtype)
     for rows, values in found:
-        answer[rows] = values
-    return answer[:, 0] if width == 1 else answer
+        filled[rows] = values
+    return filled[:, 0] if width == 1 else filled
 
 
 def write_fields(file: Mapping, mesh: str, data: Fields) -> None:
-    """Write data as fields without a time.
+    """Write data as fields without a time; arrays without a type in MED are left out.
 
     Parameters
     ----------
     file : h5py.File
     mesh : str
-        Its name.
-    data : mapping of place to mapping of name to array
-        What has no type in MED is left out.
+        Name of the mesh.
+    data : mapping of str to mapping of str to (count, ...) array
+        Arrays by name, for each entity.
     """
-    step = f"{-1:020d}{-1:020d}"
-    for (title, code, width), parts in _by_field(data).items():
+    for (title, code, width), arrays in _arrays_of_fields(data).items():
         field = file.require_group("CHA").create_group(title, track_order=True)
-        blank = np.bytes_(" " * _COMPONENT * width)
+        blank = np.bytes_(" " * _COMPONENT_SIZE * width)
         field.attrs.update({"MAI": np.bytes_(mesh), "NOM": blank, "UNI": blank, "UNT": np.bytes_(" ")})
         field.attrs.update({"NCO": np.int32(width), "TYP": np.int32(_TYPES[code])})
-        group = field.create_group(step, track_order=True)
-        group.attrs.update({name: np.int32(-1) for name in ("NDT", "NOR", "RDT", "ROR")})
-        group.attrs["PDT"] = 0.0
-        cells = sum(1 << BITS[place.removeprefix("MAI.")] for place in parts if place != "NOE")
-        said = {"LGC": cells, "LGN": int("NOE" in parts)}  # kinds of cells, and whether there are nodes
-        for one in (field, group):
-            one.attrs["LEN"] = np.uint32(bool(cells) + 8 * said["LGN"])
-            one.attrs.update({name: np.uint32(bits) for name, bits in said.items() if bits})
-        steps = {"LAA": 1, "LCA": bool(cells), "LNA": said["LGN"]}  # with anything, with cells, with nodes
-        field.attrs.update({name: np.int32(1) for name, many in steps.items() if many})
-        for place, values in parts.items():
-            here = group.create_group(place, track_order=True)
-            here.attrs.update({"GAU": _NONE, "PFL": np.bytes_(ALL)})
-            whole = here.create_group(ALL)
-            whole.attrs.update({"GAU": _NONE, "NBR": np.int32(len(values)), "NGA": np.int32(1)})
-            whole["CO"] = values.reshape(len(values), width).T.ravel().astype(code)
+        step = field.create_group(NO_STEP, track_order=True)
+        step.attrs.update({name: np.int32(-1) for name in ("NDT", "NOR", "RDT", "ROR")})
+        step.attrs["PDT"] = 0.0
+        cells = sum(1 << GEOMETRY_BITS[entity.removeprefix("MAI.")] for entity in arrays if entity != "NOE")
+        nodes = int("NOE" in arrays)
+        entities = {"LGC": cells, "LGN": nodes}  # geometric types with values, and nodes
+        for group in (field, step):
+            group.attrs["LEN"] = np.uint32(bool(cells) + 8 * nodes)
+            group.attrs.update({name: np.uint32(bits) for name, bits in entities.items() if bits})
+        n_steps = {"LAA": 1, "LCA": bool(cells), "LNA": nodes}  # with any values, with cells, with nodes
+        field.attrs.update({name: np.int32(1) for name, number in n_steps.items() if number})
+        for entity, values in arrays.items():
+            group = step.create_group(entity, track_order=True)
+            group.attrs.update({"GAU": _NO_LOCALISATION, "PFL": np.bytes_(NO_PROFILE)})
+            profile = group.create_group(NO_PROFILE)
+            profile.attrs.update({"GAU": _NO_LOCALISATION, "NBR": np.int32(len(values)), "NGA": np.int32(1)})
+            profile["CO"] = values.reshape(len(values), width).T.ravel().astype(code)
 
 
 def field_titles(data: Fields) -> dict[tuple[str, str, int], str]:
-    """What fields are called, no two alike, by the name, type and width of what they hold.
+    """Names under which fields are written, all different, by name, type code and width of the arrays.
 
-    Names are without / and around spaces, and cut to 64 bytes; a field is of one type and width, so that others of its
-    name have one of their own.
+    Names are stripped, without "/", and cut to 64 bytes. Arrays of one name but another type or width become a field of
+    their own.
     """
-    titles = make_unique((name for part in data.values() for name in part), _form)
-    taken_titles = set(titles.values())
-    answer: dict[tuple[str, str, int], str] = {}
-    for part in data.values():
-        for name, values in part.items():
+    titles = make_unique((name for arrays in data.values() for name in arrays), _clean_name)
+    used = set(titles.values())
+    found: dict[tuple[str, str, int], str] = {}
+    for arrays in data.values():
+        for name, values in arrays.items():
             key = _key(name, values)
-            if key is not None and key not in answer:
-                others = (_form(name, f"_{k}") for k in count(2))
-                known = any(one == name for one, _, _ in answer)
-                answer[key] = next(one for one in others if one not in taken_titles) if known else titles[name]
-                taken_titles.add(answer[key])
-    return answer
+            if key is not None and key not in found:
+                title = titles[name]
+                if any(other == name for other, _, _ in found):
+                    numbered = (_clean_name(name, f"_{k}") for k in count(2))
+                    title = next(title for title in numbered if title not in used)
+                found[key] = title
+                used.add(title)
+    return found
 
 
-def code_of(values: np.ndarray) -> str | None:
-    """The type with which values are written; None where MED has none."""
+def type_code(values: np.ndarray) -> str | None:
+    """NumPy code of the type as which values are written; None where MED has none."""
     kind, limit = values.dtype.kind, np.iinfo(np.int64).max
     if kind == "f" and values.dtype.itemsize <= 8:
         code = "<f8"
@@ -158,28 +175,31 @@ def code_of(values: np.ndarray) -> str | None:
     return code if all(values.shape[1:]) else None
 
 
-def _by_field(data: Fields) -> dict[tuple[str, str, int], dict[str, np.ndarray]]:
-    """Values by the title, type and width of a field, and by place."""
-    titles, answer = field_titles(data), {}
-    for place, part in data.items():
-        for name, values in part.items():
+def _arrays_of_fields(data: Fields) -> dict[tuple[str, str, int], dict[str, np.ndarray]]:
+    """Arrays by entity, for the title, type code and width of each field."""
+    titles, found = field_titles(data), {}
+    for entity, arrays in data.items():
+        for name, values in arrays.items():
             key = _key(name, values)
             if key is not None:
-                answer.setdefault((titles[key], *key[1:]), {})[place] = values
-    return answer
+                found.setdefault((titles[key], *key[1:]), {})[entity] = values
+    return found
 
 
 def _key(name: str, values: np.ndarray) -> tuple[str, str, int] | None:
-    code = code_of(values)
+    """Name, type code and width of an array; None where MED has no type for it."""
+    code = type_code(values)
     return None if code is None else (name, code, int(np.prod(values.shape[1:], dtype=np.int64)))
 
 
-def _form(name: str, end: str) -> str:
+def _clean_name(name: str, end: str) -> str:
+    """Name that a field can have, with `end`."""
     clean = "".join("_" if letter == "/" or not letter.isprintable() else letter for letter in name).strip()
-    cut = clean.encode("utf-8", "replace")[: _WIDTH - len(end)].decode(errors="ignore").strip()
+    cut = clean.encode("utf-8", "replace")[: _NAME_SIZE - len(end)].decode(errors="ignore").strip()
     return (cut if cut.strip(".") else "field") + end
 
 
 def _text(value: object) -> str:
+    """Text up to the first zero byte, stripped."""
     value = value if isinstance(value, str) else bytes(value).decode("utf-8", errors="replace")
     return value.split("\0")[0].strip()

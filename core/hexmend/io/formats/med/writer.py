@@ -1,4 +1,4 @@
-"""Writes MED, version 4.1: one mesh, a family for every combination of sets, and data as fields."""
+"""Writer of MED, version 4.1: one mesh, a family for every combination of sets, and data as fields."""
 
 from __future__ import annotations
 
@@ -8,71 +8,78 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.content import ID, Block, Content, concatenate_data, from_mesh
+from hexmend.io.base.cell_kinds import from_vtk_order
+from hexmend.io.base.content import ID, Block, Content, concatenate_data, concatenate_sets, from_mesh
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.numbering import set_combinations
 from hexmend.io.base.unique_names import altered_names
-from hexmend.io.formats.med.content import GEOMETRIES, NAMES, ORDER, bytes_of, titles_of
-from hexmend.io.formats.med.fields import ALL, code_of, field_titles, write_fields
+from hexmend.io.formats.med.elements import GEOMETRY_NUMBERS, ORDER, TYPE_OF_KIND
+from hexmend.io.formats.med.fields import NO_PROFILE, NO_STEP, field_titles, type_code, write_fields
+from hexmend.io.formats.med.groups import encode_names, group_titles
 from hexmend.mesh.mesh import Mesh
 
-#: The step of a mesh that does not change: no number of a step, none of an iteration.
-_STEP = f"{-1:020d}{-1:020d}"
 
+def write(path: Path, mesh: Mesh) -> None:
+    """Write a mesh, under its name, with its data as fields without a time.
 
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write the mesh under its name."""
+    Parameters
+    ----------
+    path : Path
+    mesh : Mesh
+    """
     import h5py
 
-    content = _titled(replace(from_mesh(mesh), node_data=with_marks(mesh)))
+    content = _with_group_titles(replace(from_mesh(mesh), node_data=with_marks(mesh)))
     title = "".join(c if c.isalnum() or c in "_-" else "_" for c in mesh.name)[:64] or "mesh"
     with h5py.File(path, "w", track_order=True) as file:
         _group(file, "INFOS_GENERALES", MAJ=4, MIN=1, REL=0)
-        about = _group(file, "ENS_MAA", {}).create_group(title, track_order=True)
-        about.attrs.update(_plain(DIM=3, ESP=3, NXI=-1, NXT=-1, REP=0, SRT=0, TYP=0))
+        group = _group(_group(file, "ENS_MAA"), title, DIM=3, ESP=3, NXI=-1, NXT=-1, REP=0, SRT=0, TYP=0)
         axes = np.bytes_("".join(f"{axis:<16}" for axis in "XYZ"))
         blank = np.bytes_(" " * 48)
-        about.attrs.update({"NOM": axes, "UNI": blank, "UNT": np.bytes_(" "), "DES": np.bytes_("Written by Hexmend")})
-        step = _group(about, _STEP, CGT=1, NDT=-1, NOR=-1, NXI=-1, NXT=-1, PVI=-1, PVT=-1)
+        group.attrs.update({"NOM": axes, "UNI": blank, "UNT": np.bytes_(" "), "DES": np.bytes_("Written by Hexmend")})
+        step = _group(group, NO_STEP, CGT=1, NDT=-1, NOR=-1, NXI=-1, NXT=-1, PVI=-1, PVT=-1)
         step.attrs["PDT"] = -1.0
-        families = _group(file, "FAS", {}).create_group(title, track_order=True)
+        families = _group(_group(file, "FAS"), title)
         _group(families, "FAMILLE_ZERO", NUM=0)
-
-        nodes = _group(step, "NOE", CGT=1, CGS=1)
-        nodes.attrs["PFL"] = np.bytes_(ALL)
-        count = len(content.points)
-        _dataset(nodes, "COO", content.points.T.ravel(), count)
-        _write_ids(nodes, content.node_data, count)
-        if content.node_sets:
-            own = _group(families, "NOEUD", {})
-            _dataset(nodes, "FAM", _write_families(own, {}, content.node_sets, count, 1), count)
-
-        cells = _group(step, "MAI", CGT=1)
-        own = _group(families, "ELEME", {}) if any(block.sets for block in content.blocks) else None
-        known: dict[tuple[str, ...], int] = {}
-        for kind in dict.fromkeys(block.kind for block in content.blocks):
-            blocks = [block for block in content.blocks if block.kind == kind]
-            group = _group(cells, NAMES[kind], CGT=1, CGS=1, GEO=GEOMETRIES[NAMES[kind]])
-            group.attrs["PFL"] = np.bytes_(ALL)
-            rows = np.concatenate([block.nodes for block in blocks]).astype(np.int64) + 1
-            rows = rows[:, np.argsort(ORDER[kind])] if kind in ORDER else rows
-            _dataset(group, "NOD", rows.T.ravel(), len(rows))
-            if all(_has_ids(block.data, len(block)) for block in blocks):
-                ids = np.concatenate([np.asarray(block.data[ID]) for block in blocks])
-                _write_ids(group, {ID: ids}, len(rows))
-            first, sets = 0, {}
-            for block in blocks:
-                for name, members in block.sets.items():
-                    sets.setdefault(name, []).append(np.asarray(members, np.int64) + first)
-                first += len(block)
-            if own is not None:  # kinds without sets too: MED's library takes the families of all or of none
-                members_of = {name: np.concatenate(members) for name, members in sets.items()}
-                _dataset(group, "FAM", _write_families(own, known, members_of, len(rows), -1), len(rows))
+        _write_nodes(step, families, content)
+        _write_cells(step, families, content)
         write_fields(file, title, _fields(content))
 
 
+def _write_nodes(step: object, families: object, content: Content) -> None:
+    """Write coordinates, ids and families of the nodes."""
+    group = _group(step, "NOE", CGT=1, CGS=1)
+    group.attrs["PFL"] = np.bytes_(NO_PROFILE)
+    count = len(content.points)
+    _dataset(group, "COO", content.points.T.ravel(), count)
+    _write_ids(group, content.node_data, count)
+    if content.node_sets:
+        numbers = _write_families(_group(families, "NOEUD"), {}, content.node_sets, count, 1)
+        _dataset(group, "FAM", numbers, count)
+
+
+def _write_cells(step: object, families: object, content: Content) -> None:
+    """Write nodes, ids and families of the cells of each geometric type."""
+    cells = _group(step, "MAI", CGT=1)
+    of_cells = _group(families, "ELEME") if any(block.sets for block in content.blocks) else None
+    known: dict[tuple[str, ...], int] = {}
+    for kind in dict.fromkeys(block.kind for block in content.blocks):
+        blocks = [block for block in content.blocks if block.kind == kind]
+        type = TYPE_OF_KIND[kind]
+        group = _group(cells, type, CGT=1, CGS=1, GEO=GEOMETRY_NUMBERS[type])
+        group.attrs["PFL"] = np.bytes_(NO_PROFILE)
+        nodes = np.concatenate([block.nodes for block in blocks]).astype(np.int64) + 1
+        count = len(nodes)
+        _dataset(group, "NOD", from_vtk_order(nodes, kind, ORDER).T.ravel(), count)
+        if all(_has_ids(block.data, len(block)) for block in blocks):
+            _write_ids(group, {ID: np.concatenate([np.asarray(block.data[ID]) for block in blocks])}, count)
+        if of_cells is not None:  # kinds without sets too: MED's library expects families of all kinds or of none
+            sets = concatenate_sets([block.sets for block in blocks], [len(block) for block in blocks])
+            _dataset(group, "FAM", _write_families(of_cells, known, sets, count, -1), count)
+
+
 def limitations(mesh: Mesh) -> list[str]:
-    """Ids that are no whole numbers, data that are no numbers, and names too long, in words."""
+    """List the ids, data and names of a mesh that a file cannot hold as they are, in words."""
     content = from_mesh(mesh)
     left = []
     if ID in content.node_data and not _has_ids(content.node_data, len(content.points)):
@@ -80,46 +87,47 @@ def limitations(mesh: Mesh) -> list[str]:
     if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
         left.append("ids of elements (no whole numbers)")
     fields = _fields(replace(content, node_data=with_marks(mesh)))
-    for what, parts in (
+    for what, tables in (
         ("point data", [fields["NOE"]]),
-        ("cell data", [part for place, part in fields.items() if place != "NOE"]),
+        ("cell data", [arrays for entity, arrays in fields.items() if entity != "NOE"]),
     ):
-        odd = sorted({name for part in parts for name, values in part.items() if code_of(values) is None})
+        odd = sorted({name for arrays in tables for name, values in arrays.items() if type_code(values) is None})
         left += [f"{what} that are no numbers ({', '.join(odd)})"] if odd else []
     titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
-    return left + altered_names(titles_of(_names(content))) + altered_names(titles, "data")
+    return left + altered_names(group_titles(_set_names(content))) + altered_names(titles, "data")
 
 
 def _fields(content: Content) -> dict[str, dict[str, np.ndarray]]:
-    """Data without ids by the place of a field."""
-    answer = {"NOE": content.node_data}
+    """Data without ids, by entity and name."""
+    data = {"NOE": content.node_data}
     for kind in dict.fromkeys(block.kind for block in content.blocks):
         blocks = [block for block in content.blocks if block.kind == kind]
-        answer[f"MAI.{NAMES[kind]}"] = concatenate_data(
+        data[f"MAI.{TYPE_OF_KIND[kind]}"] = concatenate_data(
             [block.data for block in blocks], [len(block) for block in blocks]
         )
     return {
-        place: {name: np.asarray(values) for name, values in part.items() if name != ID}
-        for place, part in answer.items()
+        entity: {name: np.asarray(values) for name, values in arrays.items() if name != ID}
+        for entity, arrays in data.items()
     }
 
 
-def _titled(content: Content) -> Content:
-    """The content with names of sets as the file has them."""
-    titles = titles_of(_names(content))
+def _with_group_titles(content: Content) -> Content:
+    """Content whose sets have the names under which they are written."""
+    titles = group_titles(_set_names(content))
 
-    def named(sets: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    def retitled(sets: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         return {titles[name]: members for name, members in sets.items()}
 
-    blocks = tuple(Block(block.kind, block.nodes, block.data, named(block.sets)) for block in content.blocks)
-    return replace(content, blocks=blocks, node_sets=named(content.node_sets))
+    blocks = tuple(Block(block.kind, block.nodes, block.data, retitled(block.sets)) for block in content.blocks)
+    return replace(content, blocks=blocks, node_sets=retitled(content.node_sets))
 
 
-def _names(content: Content) -> list[str]:
+def _set_names(content: Content) -> list[str]:
     return [*content.node_sets, *(name for block in content.blocks for name in block.sets)]
 
 
 def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
+    """Return True if data hold ids that can be written."""
     ids = np.asarray(data.get(ID, ()))
     return ID in data and ids.shape == (count,) and ids.dtype.kind in "iu"
 
@@ -127,7 +135,25 @@ def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
 def _write_families(
     group: object, known: dict[tuple[str, ...], int], sets: Mapping[str, np.ndarray], count: int, sign: int
 ) -> np.ndarray:
-    """The family of each node or cell, (count,) int64; those that are new are written, and noted in `known`."""
+    """Write a family for each combination of sets that is new.
+
+    Parameters
+    ----------
+    group : h5py.Group
+        Group of the families of nodes or cells.
+    known : dict of tuple of str to int
+        Number of the family of each combination; new ones are added.
+    sets : mapping of str to (k,) int array
+    count : int
+        Number of nodes or cells.
+    sign : int
+        1 for families of nodes, -1 for those of cells.
+
+    Returns
+    -------
+    (count,) int64
+        Number of the family of each node or cell.
+    """
     found, which = set_combinations(sets, count)
     numbers = []
     for names in map(tuple, found):
@@ -135,7 +161,7 @@ def _write_families(
             known[names] = sign * (len(known) + 1)
             family = _group(group, f"FAM_{known[names]}", NUM=known[names])
             groups = _group(family, "GRO", NBR=len(names))
-            groups.create_dataset("NOM", (len(names),), np.dtype(("i1", (80,))))[...] = bytes_of(list(names))
+            groups.create_dataset("NOM", (len(names),), np.dtype(("i1", (80,))))[...] = encode_names(list(names))
         numbers.append(known[names] if names else 0)
     return np.array(numbers, np.int64)[which]
 
@@ -146,14 +172,12 @@ def _write_ids(group: object, data: Mapping[str, np.ndarray], count: int) -> Non
 
 
 def _dataset(group: object, name: str, values: np.ndarray, count: int) -> None:
-    group.create_dataset(name, data=values).attrs.update(_plain(CGT=1, NBR=count))
+    """Write a dataset with its attributes, the number of nodes or cells among them."""
+    group.create_dataset(name, data=values).attrs.update({"CGT": np.int32(1), "NBR": np.int32(count)})
 
 
-def _group(parent: object, name: str, /, attributes: Mapping[str, int] | None = None, **more: int) -> object:
+def _group(parent: object, name: str, /, **attributes: int) -> object:
+    """Create a group with attributes of 32-bit integers."""
     group = parent.create_group(name, track_order=True)
-    group.attrs.update(_plain(**(attributes or {}), **more))
+    group.attrs.update({key: np.int32(value) for key, value in attributes.items()})
     return group
-
-
-def _plain(**values: int) -> dict[str, np.int32]:
-    return {name: np.int32(value) for name, value in values.items()}
