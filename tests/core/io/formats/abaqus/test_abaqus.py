@@ -1,4 +1,4 @@
-"""Abaqus's files: those that Gmsh 4.15 wrote, decks as people write them, and what is written and read again."""
+"""Abaqus input files: written by Gmsh 4.15, written by hand, and written and read again."""
 
 from pathlib import Path
 
@@ -57,7 +57,7 @@ def read(text, tmp_path):
     return io.read(tmp_path / "a.inp")
 
 
-def test_a_deck_as_people_write_it_is_read(tmp_path):
+def test_a_deck_written_by_hand_is_read(tmp_path):
     mesh = read(DECK, tmp_path)
     assert mesh.hexes.tolist() == [list(range(8))]
     assert mesh.node_data["id"].tolist() == list(range(11, 19))
@@ -71,7 +71,7 @@ def test_a_deck_as_people_write_it_is_read(tmp_path):
     assert "*MATERIAL" in mesh.notes[0]
 
 
-def test_every_way_of_ending_lines_reads_the_same(tmp_path):
+def test_all_line_endings_read_the_same(tmp_path):
     (tmp_path / "b.inp").write_bytes(DECK.replace("\n", "\r\n").encode())
     assert_same(read(DECK, tmp_path), io.read(tmp_path / "b.inp"))
 
@@ -83,8 +83,8 @@ def test_the_sides_of_a_hex_are_those_of_the_manual(side, tmp_path):
     assert sorted(FACES[face] + 1) == sorted(map(int, SIDES[side].split()))
 
 
-def test_the_27_nodes_of_a_hex_are_where_they_belong(tmp_path):
-    places = [*UNIT_CUBE, *MID_NODE_POSITIONS[:12], [0.5, 0.5, 0.5]]
+def test_the_27_nodes_of_a_hex_have_the_order_of_the_manual(tmp_path):
+    places = [*UNIT_CUBE, *MID_PLACES[:12], [0.5, 0.5, 0.5]]
     places += [UNIT_CUBE[[int(k) - 1 for k in side.split()]].mean(axis=0) for side in SIDES]
     nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(places))
     row = ", ".join(map(str, range(1, 16))) + ",\n" + ", ".join(map(str, range(16, 28)))
@@ -105,14 +105,14 @@ def test_a_file_of_gmsh_is_read(file, kinds):
 
 
 @pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_what_is_written_is_read_again(nodes, tmp_path):
+def test_a_written_mesh_is_read_again(nodes, tmp_path):
     mesh = with_everything(nodes)
     io.write(tmp_path / "a.inp", mesh)
     assert io.unsupported_data(tmp_path / "a.inp", mesh) == []
     assert_same(mesh, io.read(tmp_path / "a.inp"))
 
 
-def test_types_of_elements_stay_what_they_were(tmp_path):
+def test_element_types_survive(tmp_path):
     deck = DECK + f"*NODE\n{cube(range(21, 29))}*ELEMENT, TYPE=C3D8I\n6, 21, 22, 23, 24, 25, 26, 27, 28\n"
     deck += "*ELEMENT, TYPE=M3D4\n7, 11, 12, 13, 14\n"
     io.write(tmp_path / "b.inp", read(deck, tmp_path))
@@ -120,7 +120,7 @@ def test_types_of_elements_stay_what_they_were(tmp_path):
     assert [line.split("=")[1] for line in written.splitlines() if "*ELEMENT" in line] == ["C3D8R", "C3D8I", "M3D4"]
 
 
-def test_names_that_differ_in_capitals_only_stay_two(tmp_path):
+def test_names_that_differ_only_in_case_stay_distinct(tmp_path):
     mesh = with_everything().replace(
         node_sets={"wall": np.array([1]), "Wall": np.array([2]), 'a "b", c': np.array([3])}
     )
@@ -159,13 +159,13 @@ def test_a_real_file_is_read_and_survives(real_mesh, tmp_path):
         ("*INSTANCE, NAME=a, PART=b\n", "is of the part 'b', which is not there"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_named(text, words, tmp_path):
+def test_errors_name_the_problem(text, words, tmp_path):
     with pytest.raises(FileError) as error:
         read(text, tmp_path)
     assert words in str(error.value)
 
 
-def test_numbers_that_a_set_generates_are_not_all_made(tmp_path):
+def test_a_generated_range_of_a_set_is_not_expanded(tmp_path):
     mesh = read(DECK + "*NSET, NSET=x, GENERATE\n1, 99999999999999, 2\n", tmp_path)
     assert mesh.node_sets["x"].tolist() == [0, 2, 4, 6]
     many = "".join(f"*NSET, NSET=s{k}, GENERATE\n1, 99999\n" for k in range(4))
@@ -174,13 +174,13 @@ def test_numbers_that_a_set_generates_are_not_all_made(tmp_path):
     assert len(mesh.node_sets) == 4
 
 
-def test_blanks_and_other_exponents_are_numbers_too(tmp_path):
+def test_blank_fields_and_exponents_with_d_are_numbers(tmp_path):
     nodes = cube().replace("2, 1, 0, 0", "2, 1.0D+00, , ").replace("4, 0, 1, 0", "4,,1.d0")
     mesh = read(f"*NODE\n{nodes}*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n", tmp_path)
     np.testing.assert_array_equal(mesh.points, UNIT_CUBE)
 
 
-def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_path):
+def test_elements_of_other_types_are_left_out_with_a_note(tmp_path):
     deck = (
         DECK
         + "*ELEMENT, TYPE=COH3D8, ELSET=glue\n70, 11, 12, 13, 14,\n15, 16, 17, 18\n71, 11, 12, 13, 14, 15, 16, 17, 18\n"
@@ -199,8 +199,8 @@ def test_elements_of_other_types_and_what_names_them_are_left_out_and_said(tmp_p
     assert any("4 entries of surfaces" in note for note in mesh.notes)
 
 
-def test_surfaces_stay_on_their_elements_where_those_of_second_order_come_first(tmp_path):
-    """Hexes are written by the number of their nodes."""
+def test_surfaces_stay_on_their_elements_when_blocks_are_reordered(tmp_path):
+    """Blocks of hexes are written in the order of their node counts."""
     far = "".join(f"{k}, {x + 5:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 21))
     middles = "".join(f"{k}, {x:g}, {y:g}, {z:g}\n" for k, (x, y, z) in enumerate(MID_NODE_POSITIONS[:12], 9))
     deck = (

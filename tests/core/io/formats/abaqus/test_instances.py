@@ -1,4 +1,4 @@
-"""Abaqus's parts and instances: what stands in which, and what sets and surfaces of the assembly mean."""
+"""Parts and instances of Abaqus, with sets and surfaces of the assembly."""
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def test_one_instance_of_a_part_is_the_mesh(tmp_path):
     assert any("1 part without an instance" in note for note in mesh.notes)
 
 
-def test_several_instances_are_joined_where_they_are_put(tmp_path):
+def test_several_instances_are_joined_at_their_placements(tmp_path):
     mesh = read(PARTS + SECOND + ASSEMBLY, tmp_path)
     assert mesh.n_hexes == 2
     assert any("2 instances" in note for note in mesh.notes)
@@ -58,7 +58,7 @@ def test_several_instances_are_joined_where_they_are_put(tmp_path):
 
 
 def meshed_instance(name, lift):
-    """An instance whose nodes and elements stand in itself, as Abaqus/CAE writes the mesh of an assembly."""
+    """Instance with nodes and elements of its own, as Abaqus/CAE writes the mesh of an assembly."""
     nodes = "".join(f"{k}, {x:g}, {y:g}, {z + lift:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE, 1))
     upper = "".join(f"{k}, {x:g}, {y:g}, {z + lift + 1:g}\n" for k, (x, y, z) in enumerate(UNIT_CUBE[4:], 9))
     return f"""\
@@ -90,7 +90,7 @@ A-1.Picked, S5
 """
 
 
-def test_sets_of_an_instance_that_holds_its_own_mesh_are_found(tmp_path):
+def test_sets_of_an_instance_with_its_own_mesh_are_found(tmp_path):
     head = "*PART, NAME=Empty\n*END PART\n*ASSEMBLY, NAME=Assembly\n"
     mesh = read(head + meshed_instance("A-1", 0) + ON_INSTANCES, tmp_path)
     assert mesh.notes == ()
@@ -110,7 +110,7 @@ def test_sets_of_an_instance_that_holds_its_own_mesh_are_found(tmp_path):
     assert two.side_sets["B-1.Top"].tolist() == [[3, 5]]
 
 
-def test_what_an_instance_adds_to_its_part_is_its_own(tmp_path):
+def test_data_of_an_instance_do_not_change_its_part(tmp_path):
     own = "*NSET, NSET=Corner\n7\n*NSET, NSET=New\nCorner, 2\n*END INSTANCE\n"
     mesh = read(PARTS.removesuffix("*END INSTANCE\n") + own + SECOND + ASSEMBLY, tmp_path)
     sets = {name: members.tolist() for name, members in mesh.node_sets.items()}

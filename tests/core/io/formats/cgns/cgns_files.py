@@ -1,4 +1,4 @@
-"""CGNS files on HDF5, laid as the CGNS library lays them, for tests."""
+"""CGNS files on HDF5 for tests, with the layout of the CGNS library."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 
 
 class Tree:
-    """A node in the making."""
+    """Node to which children are added."""
 
     def __init__(self, group: h5py.Group):
         self.group = group
 
     def add(self, name: str, label: str, value: object = None) -> Tree:
-        """A node below; a text or an array in Fortran's order of axes is its value."""
+        """Add a child node with a text or an array, with the axes in Fortran's order, as its data."""
         group = self.group.create_group(name)
         kind = b"MT"
         if value is not None:
@@ -30,7 +30,7 @@ class Tree:
 
 @contextmanager
 def cgns(path: Path, dimensions: tuple[int, int] = (3, 3)) -> Iterator[Tree]:
-    """A file with one base, which is given."""
+    """Create a file with one base, which is yielded."""
     with h5py.File(path, "w") as file:
         _mark(file, "HDF5 MotherNode", "Root Node of HDF5 File", b"MT")
         file.create_dataset(" format", data=np.frombuffer(b"IEEE_LITTLE_32\0", np.int8))
@@ -41,7 +41,7 @@ def cgns(path: Path, dimensions: tuple[int, int] = (3, 3)) -> Iterator[Tree]:
 
 
 def structured(base: Tree, name: str, points: np.ndarray) -> Tree:
-    """A structured zone with points (ni, nj, nk, 3)."""
+    """Add a structured zone with points (ni, nj, nk, 3)."""
     count = np.array(points.shape[:3])
     zone = base.add(name, "Zone_t", np.stack([count, count - 1, 0 * count], axis=1).astype(np.int32))
     zone.add("ZoneType", "ZoneType_t", "Structured")
@@ -52,7 +52,7 @@ def structured(base: Tree, name: str, points: np.ndarray) -> Tree:
 
 
 def unstructured(base: Tree, name: str, points: np.ndarray, cells: int) -> Tree:
-    """An unstructured zone with points (n, 3) and so many cells that fill space."""
+    """Add an unstructured zone with points (n, 3) and a number of volume cells."""
     zone = base.add(name, "Zone_t", np.array([[len(points), cells, 0]], np.int32))
     zone.add("ZoneType", "ZoneType_t", "Unstructured")
     grid = zone.add("GridCoordinates", "GridCoordinates_t")
@@ -62,7 +62,7 @@ def unstructured(base: Tree, name: str, points: np.ndarray, cells: int) -> Tree:
 
 
 def section(zone: Tree, name: str, kind: int, first: int, last: int, nodes: object) -> Tree:
-    """Elements of a type, numbered from first to last, with nodes from 1."""
+    """Add elements of a type, numbered from first to last, with nodes from 1."""
     one = zone.add(name, "Elements_t", np.array([kind, 0], np.int32))
     one.add("ElementRange", "IndexRange_t", np.array([first, last], np.int32))
     one.add("ElementConnectivity", "DataArray_t", np.asarray(nodes, np.int32).ravel())
@@ -70,7 +70,7 @@ def section(zone: Tree, name: str, kind: int, first: int, last: int, nodes: obje
 
 
 def condition(zone: Tree, name: str, member: str, values: np.ndarray, where: str = "Vertex", family: str = "") -> Tree:
-    """A boundary condition over a PointRange or PointList, (indices, n)."""
+    """Add a boundary condition over a PointRange or PointList, (indices, n)."""
     parent = Tree(zone.group["ZoneBC"]) if "ZoneBC" in zone.group else zone.add("ZoneBC", "ZoneBC_t")
     one = parent.add(name, "BC_t", "FamilySpecified" if family else "BCWall")
     one.add(member, "IndexRange_t" if member.endswith("Range") else "IndexArray_t", np.asarray(values, np.int32))

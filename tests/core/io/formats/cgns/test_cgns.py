@@ -1,17 +1,18 @@
-"""CGNS: zones of both kinds, how they are joined, and what boundary conditions name."""
+"""CGNS: structured and unstructured zones, their interfaces and boundary conditions."""
 
 import numpy as np
 import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
+from hexmend.io.base.polyhedra import faces_from_cells
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from hexmend.quality import summarise
 from tests.core.grids import grid
 from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, structured, unstructured
 
-#: Twice the places of a HEXA_27's nodes in the unit cube, as the standard's figure has them, from node 1 on.
+#: Twice the coordinates of a HEXA_27's nodes in the unit cube, from the standard's figure, from node 1.
 HEXA_27 = np.array(
     [
         [0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2],
@@ -29,13 +30,13 @@ def lattice(ni, nj, nk, shift=(0.0, 0.0, 0.0)):
 
 
 def faces_of(mesh, name):
-    """Points of the faces of a side set, each face's in order of size."""
+    """Points of the faces of a side set, sorted within each face."""
     rows = mesh.side_sets[name]
     return mesh.points[mesh.hexes[rows[:, :1], FACES[rows[:, 1]]]]
 
 
 @pytest.mark.parametrize(("kind", "width"), [(17, 8), (18, 20), (19, 27)])
-def test_nodes_of_every_order_are_where_vtk_has_them(kind, width, tmp_path):
+def test_nodes_of_every_order_have_vtks_order(kind, width, tmp_path):
     with cgns(tmp_path / "one.cgns") as base:
         section(unstructured(base, "z", HEXA_27[:width] / 2, 1), "hexes", kind, 1, 1, range(1, width + 1))
     mesh = io.read(tmp_path / "one.cgns")
@@ -47,7 +48,7 @@ def test_nodes_of_every_order_are_where_vtk_has_them(kind, width, tmp_path):
 
 
 def points_of_vtk(path):
-    """Points of each cell by VTK."""
+    """Points of each cell, read by VTK."""
     vtk = pytest.importorskip("vtk")
     from vtk.util.numpy_support import vtk_to_numpy
 
@@ -64,7 +65,7 @@ def points_of_vtk(path):
     return answer
 
 
-def test_parents_name_faces(tmp_path):
+def test_parent_elements_give_side_sets(tmp_path):
     with cgns(tmp_path / "p.cgns") as base:
         zone = unstructured(base, "z", UNIT_CUBE, 1)
         section(zone, "hexes", 17, 1, 1, range(1, 9))
@@ -76,11 +77,11 @@ def test_parents_name_faces(tmp_path):
     for face, nodes in enumerate(FACES_OF_HEX, 1):
         ((hex_, side),) = mesh.side_sets[f"face {face}"]
         assert set(mesh.hexes[hex_, FACES[side]] + 1) == set(nodes)
-    assert sum(len(cells.nodes) for cells in mesh.cells) == 3  # of whose faces the nodes are told
+    assert sum(len(cells.nodes) for cells in mesh.cells) == 3  # those faces whose nodes are given
 
 
 @pytest.mark.parametrize("offsets", [False, True])
-def test_a_mixed_section_is_parted_by_kind(offsets, tmp_path):
+def test_a_mixed_section_is_split_by_kind(offsets, tmp_path):
     bare = grid(1)
     points = np.vstack([bare.points, [[0.5, 0.5, 2], [0.5, 0.5, -1]]])
     rows = [[17, *(bare.hexes[0] + 1)], [12, *(bare.hexes[0, 4:] + 1), 9], [7, *(bare.hexes[0, [0, 3, 2, 1]] + 1)]]
@@ -122,23 +123,23 @@ def test_a_structured_zone_is_read_with_its_faces_and_results(tmp_path):
     low = mesh.points[mesh.hexes].min(axis=1)
     np.testing.assert_array_equal(mesh.hex_data["p"], low @ [1.0, 10.0, 100.0])
     assert {name: len(rows) for name, rows in mesh.side_sets.items()} == {"in": 12, "top": 6, "outlet": 1}
-    assert (faces_of(mesh, "in")[..., 0] == 0).all()
-    assert (faces_of(mesh, "top")[..., 2] == 4).all()
-    np.testing.assert_array_equal(faces_of(mesh, "outlet")[0].mean(axis=0), [2, 1.5, 0.5])
+    assert (faces_from_cells(mesh, "in")[..., 0] == 0).all()
+    assert (faces_from_cells(mesh, "top")[..., 2] == 4).all()
+    np.testing.assert_array_equal(faces_from_cells(mesh, "outlet")[0].mean(axis=0), [2, 1.5, 0.5])
     assert mesh.points[mesh.node_sets["edge"]][:, :2].max() == 0
     assert len(points_of_vtk(tmp_path / "s.cgns")) == 24
 
 
-def test_a_zone_whose_indices_are_left_handed_is_turned(tmp_path):
+def test_a_left_handed_zone_is_reoriented(tmp_path):
     with cgns(tmp_path / "l.cgns") as base:
         zone = structured(base, "left", lattice(3, 3, 3)[:, :, ::-1].astype(float))
         condition(zone, "first k", "PointRange", [[1, 3], [1, 3], [1, 1]])
     mesh = io.read(tmp_path / "l.cgns")
     assert summarise(mesh).inverted == 0
-    assert (faces_of(mesh, "first k")[..., 2] == 2).all()
+    assert (faces_from_cells(mesh, "first k")[..., 2] == 2).all()
 
 
-def test_structured_zones_are_joined_where_they_meet(tmp_path):
+def test_structured_zones_are_merged_at_their_interfaces(tmp_path):
     """The second zone's i runs along -y, its j along z and its k along x."""
     second = lattice(3, 4, 5, (2, 0, 0)).astype(float).transpose(1, 2, 0, 3)[::-1]
     with cgns(tmp_path / "j.cgns") as base:
@@ -158,11 +159,11 @@ def test_structured_zones_are_joined_where_they_meet(tmp_path):
     assert len(np.unique(mesh.points, axis=0)) == mesh.n_nodes
     assert summarise(mesh).inverted == 0
     assert {name: len(members) for name, members in mesh.hex_sets.items()} == {"one": 24, "two": 24}
-    assert (faces_of(mesh, "end")[..., 0] == 4).all()
+    assert (faces_from_cells(mesh, "end")[..., 0] == 4).all()
     assert "joined at 20 nodes" in " ".join(mesh.notes)
 
 
-def test_periodic_interfaces_join_nothing(tmp_path):
+def test_periodic_interfaces_merge_no_nodes(tmp_path):
     with cgns(tmp_path / "p.cgns") as base:
         zone = structured(base, "ring", lattice(3, 3, 3).astype(float))
         join = zone.add("ZoneGridConnectivity", "ZoneGridConnectivity_t").add("own", "GridConnectivity1to1_t", "ring")
@@ -172,7 +173,7 @@ def test_periodic_interfaces_join_nothing(tmp_path):
     assert io.read(tmp_path / "p.cgns").n_nodes == 27
 
 
-def test_unstructured_zones_are_joined_by_lists_of_nodes(tmp_path):
+def test_unstructured_zones_are_merged_by_lists_of_nodes(tmp_path):
     with cgns(tmp_path / "u.cgns") as base:
         for name, shift in (("a", 0.0), ("b", 1.0)):
             zone = unstructured(base, name, UNIT_CUBE + [shift, 0, 0], 1)
@@ -211,7 +212,7 @@ def test_a_real_file_has_its_faces_on_the_boundary(real_mesh):
         ("surface", "no zone of three dimensions"),
     ],
 )
-def test_what_is_wrong_is_named(how, words, tmp_path):
+def test_errors_name_the_problem(how, words, tmp_path):
     with cgns(tmp_path / "bad.cgns", (2, 3) if how == "surface" else (3, 3)) as base:
         zone = unstructured(base, "z", UNIT_CUBE[: 4 if how == "coordinates" else 8], 1)
         nodes = [1, 2, 3, 4, 5, 6, 7, 99 if how == "nodes" else 8]
@@ -227,7 +228,7 @@ def test_what_is_wrong_is_named(how, words, tmp_path):
         io.read(tmp_path / "bad.cgns")
 
 
-def test_the_older_kind_of_files_is_named(tmp_path):
+def test_adf_files_are_refused_with_a_hint(tmp_path):
     (tmp_path / "old.cgns").write_bytes(b"\x00@(#)ADF Database Version B02012>" + bytes(200))
     with pytest.raises(FileError) as caught:
         io.read(tmp_path / "old.cgns")
@@ -244,7 +245,7 @@ def test_hdf5_that_is_no_cgns_is_not_called_damaged(tmp_path):
 
 
 @pytest.mark.parametrize("length", [600, 3000, 6000])
-def test_cut_files_are_refused(length, tmp_path):
+def test_truncated_files_are_refused(length, tmp_path):
     with cgns(tmp_path / "good.cgns") as base:
         structured(base, "block", lattice(9, 9, 9).astype(float))
     data = (tmp_path / "good.cgns").read_bytes()

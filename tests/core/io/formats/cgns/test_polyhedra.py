@@ -1,4 +1,4 @@
-"""Cells that CGNS files give by their faces (NGON_n, NFACE_n)."""
+"""Polyhedra of CGNS files (NGON_n, NFACE_n)."""
 
 import h5py
 import numpy as np
@@ -13,10 +13,12 @@ from tests.core.io.formats.cgns.cgns_files import cgns, condition, section, unst
 
 
 def written(path, points, blocks, offsets=True, change=lambda faces, cells: None):
-    """A file of cells by their faces, with a result and a boundary condition."""
+    """Write a file of polyhedra, with a solution and a boundary condition."""
     loops, halves = faces_from_cells(blocks)
     faces = [(row[row >= 0] + 1).tolist() for row in loops]
-    signed = np.where(halves.values & 1, 1, -1) * ((halves.values >> 1) + 1)  # a loop from inside has its normal inside
+    signed = np.where(halves.values & 1, 1, -1) * (
+        (halves.values >> 1) + 1
+    )  # seen from inside, the normal of a face points into the cell
     cells = [part.tolist() for part in np.split(signed, halves.start[1:-1])]
     bottom = [k + 1 for k, face in enumerate(faces) if (points[np.array(face) - 1, 2] == 0).all()]
     change(faces, cells)
@@ -50,7 +52,7 @@ def test_polyhedra_of_six_quads_are_hexes(offsets, tmp_path):
     assert back.notes == ()
 
 
-def test_what_vtk_makes_of_the_file_are_the_same_cells(tmp_path):
+def test_vtk_reads_the_same_cells(tmp_path):
     reader = pytest.importorskip("vtkmodules.vtkIOCGNSReader").vtkCGNSReader()
     mesh = grid(2)
     reader.SetFileName(str(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)])))
@@ -63,7 +65,7 @@ def test_what_vtk_makes_of_the_file_are_the_same_cells(tmp_path):
         assert {ids.GetId(i) for i in range(ids.GetNumberOfIds())} == set(hex_.tolist())
 
 
-def test_other_kinds_are_kept_beside_them(tmp_path):
+def test_other_kinds_are_kept_too(tmp_path):
     points = np.vstack([grid(1).points, [[0.5, 0.5, 2], [0.5, 0.5, 3], [2, 0, 0], [2, 0, 1]]])
     corners = grid(1).hexes[0]
     kinds = {
@@ -82,7 +84,7 @@ def without_a_face(faces, cells):
     cells[0].pop()
 
 
-def test_polyhedra_of_other_kinds_are_left_out_and_said(tmp_path):
+def test_polyhedra_of_other_kinds_are_left_out_with_a_note(tmp_path):
     mesh = grid(2)
     back = io.read(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)], change=without_a_face))
     assert back.n_hexes == 7
@@ -107,14 +109,14 @@ def wrong_node(faces, cells):
         (wrong_node, "faces use the nodes 1 to 99: expected 1 to 8"),
     ],
 )
-def test_what_is_wrong_is_named(change, words, tmp_path):
+def test_errors_name_the_problem(change, words, tmp_path):
     mesh = grid(1)
     with pytest.raises(FileError, match=words):
         io.read(written(tmp_path / "a.cgns", mesh.points, [("hex", mesh.hexes)], change=change))
 
 
 @pytest.mark.parametrize("offsets", [[0, 4, 8, 12, 16, 20], [0, 4, 8, 12, 16, 20, 25], [0, 4, 3, 12, 16, 20, 24]])
-def test_rows_that_do_not_add_up_are_named(offsets, tmp_path):
+def test_inconsistent_rows_are_reported(offsets, tmp_path):
     path = written(tmp_path / "a.cgns", grid(1).points, [("hex", grid(1).hexes)])
     with h5py.File(path, "a") as file:
         data = file["Base/Zone/Faces/ElementStartOffset"]
@@ -124,7 +126,7 @@ def test_rows_that_do_not_add_up_are_named(offsets, tmp_path):
         io.read(path)
 
 
-def test_polygons_that_are_left_out_are_told(tmp_path):
+def test_polygons_left_out_are_noted(tmp_path):
     mesh = grid(2)
 
     def with_more(faces, cells):

@@ -1,4 +1,4 @@
-"""ExodusII files for tests: by SciPy's NetCDF, and a mesh that has something of everything."""
+"""ExodusII files for tests, written by SciPy, and a mesh with all kinds of data."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
-#: Twice the places of a HEX27's nodes in the unit cube, as the manual's figure has them, from node 1 on.
+#: Twice the coordinates of a HEX27's nodes in the unit cube, from the manual's figure, from node 1.
 HEX27 = np.array(
     [
         [0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2],
@@ -24,7 +24,7 @@ def letters(words):
 
 
 def written(path, points, blocks, more=(), title="by another library"):
-    """An Exodus file by SciPy's NetCDF: blocks are (type, name, nodes from 1), more (name, dimensions, values)."""
+    """Write a file by SciPy's NetCDF: blocks are (type, name, nodes from 1), more (name, dimensions, values)."""
     from scipy.io import netcdf_file
 
     with netcdf_file(path, "w", version=2) as file:

@@ -1,4 +1,4 @@
-"""ExodusII files that are cut, lie about their size, or are none: one clear error each."""
+"""Truncated or inconsistent ExodusII files, and other NetCDF files, give one clear error each."""
 
 import struct
 
@@ -9,7 +9,7 @@ from hexmend.errors import FileError
 from tests.core.grids import grid
 
 
-def test_every_cut_of_a_file_is_refused(tmp_path):
+def test_a_file_truncated_anywhere_is_refused(tmp_path):
     io.write(tmp_path / "good.exo", grid(2))
     data = (tmp_path / "good.exo").read_bytes()
     for length in range(4, len(data), 37):
@@ -27,8 +27,8 @@ def test_counts_larger_than_the_file_are_refused_before_anything_is_allocated(tm
         io.read(tmp_path / "bad.exo")
 
 
-def test_dimensions_on_hdf5_that_nothing_fills_are_refused(tmp_path):
-    """HDF5 keeps an array of any size that nobody has written to in no space at all."""
+def test_huge_dimensions_on_hdf5_without_values_are_refused(tmp_path):
+    """HDF5 allocates no space for an array without values, whatever its size."""
     netCDF4 = pytest.importorskip("netCDF4")
     for name, dimension in (
         ("nodes.exo", "num_nodes"),

@@ -1,4 +1,4 @@
-"""ExodusII: files of other programs, node by node and side by side."""
+"""Reading ExodusII files of other programs."""
 
 import shutil
 
@@ -14,7 +14,7 @@ from tests.core.io.formats.exodus.exodus_files import HEX27, SIDES, letters, wri
 
 
 @pytest.mark.parametrize("width", [8, 20, 27])
-def test_nodes_of_every_order_are_where_vtk_has_them(width, tmp_path):
+def test_nodes_of_every_order_have_vtks_order(width, tmp_path):
     path = written(tmp_path / "one.exo", HEX27[:width] / 2, [(f"HEX{width}", "", [range(1, width + 1)])])
     mesh = io.read(path)
     np.testing.assert_array_equal(mesh.points[mesh.hexes[0]], UNIT_CUBE)
@@ -26,7 +26,7 @@ def test_nodes_of_every_order_are_where_vtk_has_them(width, tmp_path):
     np.testing.assert_array_equal(again.mid_nodes, mesh.mid_nodes)
 
 
-def test_nodes_of_a_wedge_of_second_order_are_where_vtk_has_them(tmp_path):
+def test_nodes_of_a_wedge_of_second_order_have_vtks_order(tmp_path):
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]]) + [3.0, 0, 0]
     ends = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5), (3, 4), (4, 5), (5, 3)]  # the manual's nodes 7 to 15
     points = np.concatenate([UNIT_CUBE, corners, [corners[list(pair)].mean(axis=0) for pair in ends]])
@@ -103,10 +103,10 @@ def test_a_real_file_has_its_sides_on_the_boundary(name, real_mesh, tmp_path):
         faces = np.sort(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]], axis=1)
         assert outside.issuperset(map(tuple, faces.tolist()))
     shutil.copy(real_mesh(name), tmp_path / "other.dat")
-    np.testing.assert_array_equal(io.read(tmp_path / "other.dat").hexes, mesh.hexes)  # whatever it is called
+    np.testing.assert_array_equal(io.read(tmp_path / "other.dat").hexes, mesh.hexes)  # whatever its suffix
 
 
-def test_cells_of_unknown_types_are_left_out_and_that_is_said(tmp_path):
+def test_cells_of_unknown_types_are_left_out_with_a_note(tmp_path):
     blocks = [("HEX8", "", [range(1, 9)]), ("RICH", "", [range(1, 8)])]
     mesh = io.read(written(tmp_path / "u.exo", UNIT_CUBE, blocks))
     assert mesh.n_hexes == 1
@@ -122,11 +122,11 @@ def test_a_file_without_hexes_is_refused_with_the_types_that_it_has(kind, tmp_pa
 
 
 @pytest.mark.parametrize("kind", ["HEX", "hex8", "HEXA", "Hexahedron", "HEX_8"])
-def test_hexes_are_known_by_every_name_that_they_have(kind, tmp_path):
+def test_hexes_are_recognised_by_all_names_of_their_type(kind, tmp_path):
     assert io.read(written(tmp_path / "h.exo", UNIT_CUBE, [(kind, "", [range(1, 9)])])).n_hexes == 1
 
 
-def test_what_is_not_kept_of_a_file_is_said(tmp_path):
+def test_data_that_are_not_kept_are_noted(tmp_path):
     more = [
         ("node_ns1", ("num_nod_ns1",), np.array([1, 3], np.int32)),
         ("dist_fact_ns1", ("num_nod_ns1",), np.array([1.0, 1])),
@@ -138,7 +138,7 @@ def test_what_is_not_kept_of_a_file_is_said(tmp_path):
     blocks = [("HEX8", "", [range(1, 9)])]
     factors = [("dist_fact_ss1", ("num_df_ss1",), np.array([1, 1, 0.5, 1]))]
     globals_ = [("name_glo_var", ("num_glo_var", "len_name"), letters(["energy"]))]
-    assert io.read(written(tmp_path / "a.exo", UNIT_CUBE, blocks, more)).notes == ()  # factors of 1 say nothing
+    assert io.read(written(tmp_path / "a.exo", UNIT_CUBE, blocks, more)).notes == ()  # factors of 1 are the default
     mesh = io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks, [*more, *factors, *globals_]))
     words = "What Hexmend does not keep is left out: distribution factors other than 1, global variables."
     assert mesh.notes == (words,)
@@ -160,7 +160,7 @@ def test_records_of_the_programs_that_made_a_file_are_kept(tmp_path):
     assert back.field_data["exodus:information"] == ["begin sierra", "", "end"]
 
 
-def test_a_set_of_nodes_called_fixed_makes_pins_and_stays_a_set(tmp_path):
+def test_a_node_set_named_fixed_pins_its_nodes_and_stays_a_set(tmp_path):
     more = [
         ("ns_names", ("num_node_sets", "len_name"), letters(["Fixed", "FIXED"])),
         ("node_ns1", ("num_nod_ns1",), np.array([1, 3], np.int32)),
@@ -172,7 +172,7 @@ def test_a_set_of_nodes_called_fixed_makes_pins_and_stays_a_set(tmp_path):
 
 
 @pytest.mark.parametrize("steps", [1, 3])
-def test_that_one_of_several_time_steps_is_read_is_said(steps, tmp_path):
+def test_a_note_says_that_the_last_of_several_time_steps_is_read(steps, tmp_path):
     more = [
         ("name_nod_var", ("num_nod_var", "len_name"), letters(["T"])),
         ("vals_nod_var1", ("time_step", "num_nodes"), np.arange(steps * 8.0).reshape(steps, 8)),

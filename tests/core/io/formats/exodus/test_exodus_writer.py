@@ -1,4 +1,4 @@
-"""ExodusII as it is written: read again, read by VTK, on HDF5 too; ids, pins and sets are kept."""
+"""Written ExodusII files: read again, read by VTK, converted to HDF5; ids, pins and sets are kept."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from tests.core.grids import grid
 from tests.core.io.formats.exodus.exodus_files import HEX27, letters, rich, written
 
 
-def test_all_that_is_held_is_read_again(tmp_path):
+def test_all_data_of_the_capabilities_are_read_again(tmp_path):
     mesh = rich()
     assert io.unsupported_data(tmp_path / "r.exo", mesh) == []
     io.write(tmp_path / "r.exo", mesh)
@@ -27,7 +27,7 @@ def test_all_that_is_held_is_read_again(tmp_path):
     assert back.cells[0].data["t"].tolist() == [1.5, 2]
 
 
-def test_hexes_of_both_orders_keep_what_is_said_of_each(tmp_path):
+def test_hexes_of_both_orders_keep_their_data_and_sets(tmp_path):
     bare = grid(3, 1, 1)
     mids = np.full((3, 19), -1)
     mids[0, :12] = np.arange(16, 28)
@@ -45,7 +45,7 @@ def test_hexes_of_both_orders_keep_what_is_said_of_each(tmp_path):
 
 
 def of_vtk(path):
-    """Blocks of a file by VTK: name, type, points of each cell."""
+    """Blocks of a file, read by VTK: name, type, points of each cell."""
     vtk = pytest.importorskip("vtk")
     from vtk.util.numpy_support import vtk_to_numpy
 
@@ -60,7 +60,7 @@ def of_vtk(path):
         yield name, grid_.GetCellType(0), points[cells]
 
 
-def test_vtk_reads_what_is_written(tmp_path):
+def test_vtk_reads_written_files(tmp_path):
     mesh = rich()
     io.write(tmp_path / "r.exo", mesh)
     found = list(of_vtk(tmp_path / "r.exo"))
@@ -75,7 +75,7 @@ def test_vtk_reads_what_is_written(tmp_path):
     np.testing.assert_array_equal(cells[0], np.concatenate([UNIT_CUBE, MID_NODE_POSITIONS]))
 
 
-def test_a_file_on_hdf5_is_read_as_one_of_the_classic_format(tmp_path):
+def test_a_file_on_hdf5_is_read_like_one_of_the_classic_format(tmp_path):
     netCDF4 = pytest.importorskip("netCDF4")
     io.write(tmp_path / "classic.exo", rich())
     with netCDF4.Dataset(tmp_path / "classic.exo") as one, netCDF4.Dataset(tmp_path / "new.exo", "w") as other:
@@ -96,7 +96,7 @@ def test_a_file_on_hdf5_is_read_as_one_of_the_classic_format(tmp_path):
 
 @pytest.mark.parametrize("pins", [[], [1, 4]])
 @pytest.mark.parametrize("name", ["fixed", "Fixed"])
-def test_pins_and_sets_called_fixed_are_kept_apart(name, pins, tmp_path):
+def test_pins_and_sets_named_fixed_stay_distinct(name, pins, tmp_path):
     mesh = grid(2).replace(node_sets={name: np.array([0, 9])}, pinned=np.isin(np.arange(27), pins))
     io.write(tmp_path / "f.exo", mesh)
     back = io.read(tmp_path / "f.exo")
@@ -126,7 +126,7 @@ def test_ids_of_blocks_and_sets_are_kept(tmp_path):
     assert ids == {"eb": [300, 20], "ns": [101, 100], "ss": [200]}
 
 
-def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+def test_rounded_whole_numbers_are_reported(tmp_path):
     large = np.arange(8) + 2**53
     mesh = grid(2).replace(hex_data={"exact": large - 8, "key": large, "low": -large}, node_data={"u": np.arange(27)})
     told = ["whole numbers of cell data above 2^53, which are rounded (key, low)"]
@@ -137,7 +137,7 @@ def test_whole_numbers_that_are_rounded_are_told(tmp_path):
     np.testing.assert_array_equal(io.read(tmp_path / "a.exo").hex_data["id"], large)
 
 
-def test_columns_that_have_the_names_of_other_data_are_renamed_together_and_that_is_said(tmp_path):
+def test_columns_with_the_names_of_other_data_are_renamed_together_and_that_is_reported(tmp_path):
     rng = np.random.default_rng(0)
     vector, pair, scalar = rng.normal(size=(27, 3)), rng.normal(size=(27, 2)), rng.normal(size=27)
     nodes = {"v": vector, "v_x": scalar, "w": pair, "w_3": scalar, "free": vector}
@@ -155,7 +155,7 @@ def test_columns_that_have_the_names_of_other_data_are_renamed_together_and_that
     np.testing.assert_array_equal(back.hex_data["s_2"], mesh.hex_data["s"])
 
 
-def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
+def test_unsupported_data_and_names_are_reported(tmp_path):
     names = [" lead", "lead", "S", "s", ""]
     mesh = grid(2).replace(
         node_data={"phase": np.arange(27) * 1j, " t": np.arange(27.0), "v": np.ones((27, 3)), "v_x": np.arange(27.0)},
@@ -181,7 +181,7 @@ def test_data_and_names_that_the_format_cannot_have_are_told(tmp_path):
 
 
 @pytest.mark.parametrize(("most", "status"), [(9, 0), (2**31 - 1, 0), (2**31, 0x2000)])
-def test_the_head_says_how_wide_numbers_are(most, status, tmp_path):
+def test_the_header_gives_the_width_of_ids(most, status, tmp_path):
     netCDF4 = pytest.importorskip("netCDF4")
     io.write(tmp_path / "a.exo", grid(2).replace(hex_data={"id": np.arange(8) + most - 7}))
     with netCDF4.Dataset(tmp_path / "a.exo") as file:

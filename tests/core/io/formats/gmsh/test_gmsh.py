@@ -1,4 +1,4 @@
-"""Gmsh's files: those that Gmsh 4.15 itself wrote, and what is written and read again."""
+"""Gmsh's files: written by Gmsh 4.15, and written and read again."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ VERSIONS = ("2.2-a", "2.2-b", "4.1-a", "4.1-b")
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_a_file_of_gmsh_is_read_whole(version):
+def test_a_file_of_gmsh_is_read_completely(version):
     mesh = io.read(FILES / f"gmsh-o1-{version}.msh")
     assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted) == (2, 15, 0)
     assert {name: members.tolist() for name, members in mesh.hex_sets.items()} == {"block one": [0, 1]}
@@ -35,7 +35,7 @@ def test_a_file_of_gmsh_is_read_whole(version):
 
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize(("file", "nodes"), [("o2", 27), ("o2i", 20)])
-def test_nodes_of_second_order_are_where_they_belong(file, nodes, version):
+def test_nodes_of_second_order_have_vtks_order(file, nodes, version):
     mesh = io.read(FILES / f"gmsh-{file}-{version}.msh")
     assert ((mesh.mid_nodes >= 0).sum(axis=1) == nodes - 8).all()
     assert {"line3", "triangle6", "quad9" if nodes == 27 else "quad8"} < {one.kind for one in mesh.cells}
@@ -45,7 +45,7 @@ def test_nodes_of_second_order_are_where_they_belong(file, nodes, version):
 
 @pytest.mark.parametrize("encoding", ["binary", "ascii"])
 @pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_what_is_written_is_read_again(nodes, encoding, tmp_path):
+def test_a_written_mesh_is_read_again(nodes, encoding, tmp_path):
     mesh = with_everything(nodes)
     io.write(tmp_path / "a.msh", mesh, encoding=encoding)
     assert_same(mesh, io.read(tmp_path / "a.msh"), without=("node_sets", "side_sets"))
@@ -62,7 +62,7 @@ def test_a_file_of_gmsh_survives(file, version, encoding, tmp_path):
     assert sorted(again.field_data["gmsh:physical"]) == sorted(mesh.field_data["gmsh:physical"])
 
 
-def test_both_versions_and_encodings_say_the_same():
+def test_both_versions_and_encodings_give_the_same_mesh():
     first = io.read(FILES / "gmsh-o2i-4.1-b.msh")
     other = io.read(FILES / "gmsh-o2i-4.1-a.msh")
     np.testing.assert_allclose(first.points, other.points, rtol=1e-12)  # Gmsh writes 16 digits, of which some need 17
@@ -86,7 +86,7 @@ def test_a_mesh_without_ids_is_numbered_from_1_and_ids_that_clash_are_not_used(t
     assert io.read(tmp_path / "b.msh").hex_data["id"].tolist() == list(range(1, 9))
 
 
-def test_the_content_tells_where_the_suffix_does_not(tmp_path):
+def test_a_file_is_recognised_by_its_content(tmp_path):
     (tmp_path / "a.inp").write_bytes((FILES / "gmsh-o1-4.1-b.msh").read_bytes())
     assert io.read(tmp_path / "a.inp").n_hexes == 2
 
@@ -119,14 +119,14 @@ NODES = "$Nodes\n8\n" + "".join(f"{k + 1} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k
         ),
     ],
 )
-def test_what_is_wrong_is_named(text, words, tmp_path):
+def test_errors_name_the_problem(text, words, tmp_path):
     (tmp_path / "a.msh").write_text(text)
     with pytest.raises(FileError) as error:
         io.read(tmp_path / "a.msh")
     assert words in str(error.value)
 
 
-def test_a_hex_that_stands_in_two_groups_is_one_hex_and_counts_are_not_believed(tmp_path):
+def test_a_hex_in_two_groups_is_one_hex_and_claimed_counts_are_checked(tmp_path):
     elements = "$Elements\n2\n1 5 2 1 1 1 2 4 3 5 6 8 7\n2 5 2 2 1 1 2 4 3 5 6 8 7\n$EndElements\n"
     (tmp_path / "a.msh").write_text(HEAD + NODES + elements)
     mesh = io.read(tmp_path / "a.msh")
@@ -161,7 +161,7 @@ def test_data_and_pins_survive(encoding, tmp_path):
     assert again.pinned[pinned].all()
 
 
-def test_data_of_some_nodes_is_no_number_for_the_others(tmp_path):
+def test_data_of_some_nodes_are_nan_for_the_others(tmp_path):
     elements = "$Elements\n1\n7 5 2 1 1 1 2 4 3 5 6 8 7\n$EndElements\n"
     data = '$NodeData\n1\n"heat"\n1\n0.5\n3\n0\n1\n2\n3 1.5\n1 2.5\n$EndNodeData\n'
     data += '$ElementData\n1\n"flow"\n1\n0.5\n3\n0\n3\n1\n7 1 2 3\n$EndElementData\n'
@@ -192,7 +192,7 @@ def test_data_of_any_width_are_read(tmp_path):
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "binary"])
-def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_said(encoding, tmp_path):
+def test_data_of_other_widths_are_padded_or_left_out_and_that_is_reported(encoding, tmp_path):
     data = {"two": np.ones((8, 2)), "six": np.full((8, 6), 6), "ten": np.ones((8, 10)), "tensor": np.ones((8, 3, 3))}
     mesh = grid(1).replace(node_data={**data, "a b": np.zeros(8), "a  b": np.ones(8)}, hex_data={"word": ["x"]})
     assert io.unsupported_data(tmp_path / "a.msh", mesh) == [
@@ -209,7 +209,7 @@ def test_data_of_other_widths_than_gmsh_s_are_filled_up_or_left_out_and_that_is_
     }  # fmt: skip
 
 
-def test_a_row_of_data_that_all_nodes_would_be_given_is_refused(tmp_path):
+def test_data_that_would_fill_the_memory_are_refused(tmp_path):
     """A thousand values of one node, in many sections."""
     path = tmp_path / "a.msh"
     io.write(path, grid(20), encoding="ascii")
@@ -226,14 +226,14 @@ def test_no_cells_have_no_data(tmp_path):
     assert io.read(tmp_path / "a.msh").n_hexes == 8
 
 
-def test_whole_numbers_that_are_rounded_are_told(tmp_path):
+def test_rounded_whole_numbers_are_reported(tmp_path):
     mesh = grid(2).replace(hex_data={"exact": np.arange(8) + 2**53 - 8, "key": np.arange(8) + 2**53})
     assert "whole numbers of cell data above 2^53, which are rounded (key)" in io.unsupported_data(
         tmp_path / "a.msh", mesh
     )
 
 
-def test_data_of_one_name_and_several_widths_are_told(tmp_path):
+def test_data_of_one_name_and_several_widths_are_reported(tmp_path):
     quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"d": np.ones((2, 3)), "e": np.ones(2)})
     mesh = grid(2).replace(hex_data={"d": np.ones(8), "e": np.ones(8)}, cells=(quads,))
     path = tmp_path / "a.msh"
@@ -244,7 +244,7 @@ def test_data_of_one_name_and_several_widths_are_told(tmp_path):
     assert set(back.cells[0].data) == {"d_2", "e", "id"}
 
 
-def test_sections_that_are_not_kept_are_said(tmp_path):
+def test_skipped_sections_are_noted(tmp_path):
     io.write(tmp_path / "a.msh", grid(2), encoding="ascii")
     with open(tmp_path / "a.msh", "a", encoding="ascii") as file:
         file.write("$Periodic\n1\n0 1 2\n0\n1\n1 2\n$EndPeriodic\n")

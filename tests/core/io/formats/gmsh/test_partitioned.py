@@ -8,7 +8,7 @@ from tests.core.grids import grid
 
 
 def partitioned(version, binary):
-    """Three cubes in a row, of which each belongs to a partition, and a face on top of each; the last in two groups."""
+    """Three cubes in a row, each in a partition of its own, with a face on top of each; the last is in two groups."""
     mesh = grid(3, 1, 1)
     named = '$PhysicalNames\n3\n2 8 "in"\n3 7 "vol"\n3 9 "end"\n$EndPhysicalNames\n'
     if version == 2:
@@ -50,7 +50,7 @@ def partitioned(version, binary):
 
 
 @pytest.mark.parametrize(("version", "binary"), [(2, False), (4, False), (4, True)])
-def test_a_partitioned_mesh_keeps_its_groups_and_says_which_cell_is_in_which_part(version, binary, tmp_path):
+def test_a_partitioned_mesh_keeps_its_groups_and_the_partition_of_each_cell(version, binary, tmp_path):
     (tmp_path / "a.msh").write_bytes(partitioned(version, binary))
     mesh = io.read(tmp_path / "a.msh")
     (quads,) = mesh.cells
@@ -67,7 +67,7 @@ def test_a_partitioned_mesh_keeps_its_groups_and_says_which_cell_is_in_which_par
 
 
 @pytest.mark.parametrize("own", [[], [b"partition_2"]], ids=["partition", "both"])
-def test_data_of_the_file_called_partition_are_kept_beside_the_partition_numbers(own, tmp_path):
+def test_data_named_partition_are_kept_together_with_the_partition_numbers(own, tmp_path):
     data = b"".join(
         b'$ElementData\n1\n"%s"\n1\n0\n3\n0\n1\n3\n4 42\n5 43\n6 44\n$EndElementData\n' % name
         for name in [b"partition", *own]

@@ -1,4 +1,4 @@
-"""Gmsh's format of version 1, as it is read."""
+"""Reading Gmsh's format of version 1."""
 
 import pytest
 
@@ -30,7 +30,7 @@ $ENDELM
 
 def test_the_first_version_of_the_format_is_read(tmp_path):
     (tmp_path / "a.msh").write_text(FIRST_VERSION)
-    (tmp_path / "b.txt").write_text(FIRST_VERSION)  # and known by its content
+    (tmp_path / "b.txt").write_text(FIRST_VERSION)  # recognised by its content
     for name in ("a.msh", "b.txt"):
         mesh = io.read(tmp_path / name)
         assert mesh.hexes.tolist() == [list(range(8))]
@@ -51,7 +51,7 @@ def test_the_first_version_of_the_format_is_read(tmp_path):
         (("$ENDELM", ""), "ends without"),
     ],
 )
-def test_what_is_wrong_in_the_first_version_is_named(change, words, tmp_path):
+def test_errors_in_the_first_version_name_the_problem(change, words, tmp_path):
     (tmp_path / "a.msh").write_text(FIRST_VERSION.replace(*change))
     with pytest.raises(FileError, match=words):
         io.read(tmp_path / "a.msh")

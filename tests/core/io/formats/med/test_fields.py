@@ -1,4 +1,4 @@
-"""MED's fields: of a file that MEDCoupling 9.15 wrote, and what is written and read again."""
+"""Fields of MED: written by MEDCoupling 9.15, and written and read again."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ h5py = pytest.importorskip("h5py")
 FILE = Path(__file__).parents[2] / "files" / "medcoupling-fields.med"
 
 
-def test_fields_of_a_file_of_others_are_data():
+def test_fields_of_medcoupling_are_read_as_data():
     mesh = io.read(FILE)
     np.testing.assert_array_equal(mesh.node_data["temp"], np.arange(12))
     np.testing.assert_array_equal(mesh.node_data["velo"][5], [5, 5.5, -5])
@@ -29,7 +29,7 @@ def test_fields_of_a_file_of_others_are_data():
 
 
 def attributes(path, field):
-    """What MED's library asks of a field and its parts, without times and names of components, by their depth."""
+    """Attributes of a field and its groups by depth, without times and names of components."""
     with h5py.File(path) as file:
         groups, found = [file["CHA"][field]], []
         while groups and isinstance(groups[0], h5py.Group):
@@ -40,12 +40,12 @@ def attributes(path, field):
 
 
 @pytest.mark.parametrize("field", ["temp", "velo", "stress", "ints"])
-def test_a_field_says_of_itself_what_the_library_says(field, tmp_path):
+def test_a_field_has_the_attributes_that_the_library_writes(field, tmp_path):
     io.write(tmp_path / "a.med", io.read(FILE))
     assert attributes(tmp_path / "a.med", field) == attributes(FILE, field)
 
 
-def test_fields_of_nodes_and_several_kinds_are_one_where_they_are_alike(tmp_path):
+def test_data_of_nodes_and_cells_with_one_name_and_type_become_one_field(tmp_path):
     mesh = grid(2).replace(node_data={"both": np.arange(27.0), "many": np.arange(54.0).reshape(27, 2)})
     quads = Cells("quad", grid(2).topology.boundary_faces[:2], {"both": np.ones(2), "many": np.array([2**40, 3])})
     mesh = mesh.replace(hex_data={"both": np.arange(8) / 2}, cells=(quads,))
@@ -62,7 +62,7 @@ def test_fields_of_nodes_and_several_kinds_are_one_where_they_are_alike(tmp_path
     assert back.cells[0].data["many_2"].tolist() == [2**40, 3]
 
 
-def test_names_and_values_that_fields_cannot_have_are_named(tmp_path):
+def test_unsupported_names_and_values_are_reported(tmp_path):
     names = ["a/b", "a_b", ".", "é" * 40 + "1", "é" * 40 + "2"]
     data = {name: np.full(8, k) for k, name in enumerate(names)}
     mesh = grid(1).replace(node_data={**data, "words": np.array(["x"] * 8)})
@@ -103,20 +103,20 @@ def wrong_profile(file, part):
         (lambda file, part: file["PROFILS"].__delitem__("pfl1"), "cannot be read as HDF5"),
     ],
 )
-def test_what_is_wrong_is_named(change, words, tmp_path):
+def test_errors_name_the_problem(change, words, tmp_path):
     with pytest.raises(FileError) as error:
         io.read(changed(tmp_path, change))
     assert words in str(error.value)
 
 
-def test_fields_of_other_meshes_are_left_out_and_said(tmp_path):
+def test_fields_of_other_meshes_are_left_out_with_a_note(tmp_path):
     path = changed(tmp_path, lambda file, part: file["CHA/temp"].attrs.__setitem__("MAI", np.bytes_("other")))
     mesh = io.read(path)
     assert "temp" not in mesh.node_data
     assert "Fields of other meshes are left out: temp." in mesh.notes
 
 
-def test_fields_that_get_another_name_for_their_type_are_told(tmp_path):
+def test_fields_renamed_for_their_type_are_reported(tmp_path):
     mesh = grid(2).replace(node_data={"a": np.zeros(27)}, hex_data={"a": np.arange(8)})
     assert "names of data as they are (a)" in io.unsupported_data(tmp_path / "a.med", mesh)
 
@@ -129,7 +129,7 @@ def test_no_cells_have_no_values(tmp_path):
 
 @pytest.mark.parametrize("profiles", [0, 1])
 def test_a_field_of_far_more_components_than_the_file_has_is_refused(profiles, tmp_path):
-    """Values of one node alone, of which all nodes would have as many."""
+    """Values of a single node, which would need an array for all nodes."""
     width = 100_000
     io.write(tmp_path / "a.med", grid(10).replace(node_data={"a": np.zeros(1331)}))
     with h5py.File(tmp_path / "a.med", "r+") as file:

@@ -1,4 +1,4 @@
-"""MED says which ids it does not hold."""
+"""Ids that a MED file cannot hold are reported."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from tests.core.grids import grid
 
 @pytest.mark.parametrize("where", ["node_data", "hex_data"])
 @pytest.mark.parametrize("whole", [True, False])
-def test_ids_that_are_no_whole_numbers_are_left_out_and_said_to_be(where, whole, tmp_path):
+def test_ids_other_than_whole_numbers_are_left_out_and_reported(where, whole, tmp_path):
     mesh = grid(2)
     count = mesh.n_nodes if where == "node_data" else mesh.n_hexes
     mesh = mesh.replace(**{where: {"id": np.arange(1, count + 1) + (0 if whole else 0.5)}})
@@ -17,8 +17,8 @@ def test_ids_that_are_no_whole_numbers_are_left_out_and_said_to_be(where, whole,
     assert io.unsupported_data(tmp_path / "a.med", mesh) == ([] if whole else [f"ids of {sort} (no whole numbers)"])
 
 
-def test_a_file_says_that_it_is_of_med_4_1_and_holds_an_unstructured_mesh_of_three_dimensions(tmp_path):
-    """As the MED library itself writes such a mesh."""
+def test_the_header_states_med_4_1_and_an_unstructured_mesh_of_three_dimensions(tmp_path):
+    """The values are those that the MED library writes."""
     import h5py
 
     io.write(tmp_path / "a.med", grid(2))

@@ -1,4 +1,4 @@
-"""MED files: those that Gmsh 4.15 and MEDCoupling 9.15 wrote, and what is written and read again."""
+"""MED files: written by Gmsh 4.15 and MEDCoupling 9.15, and written and read again."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ def sets_of(mesh):
     return cells | {"hex": {name: members.tolist() for name, members in mesh.hex_sets.items()}}
 
 
-def test_a_file_of_gmsh_is_read_whole():
+def test_a_file_of_gmsh_is_read_completely():
     mesh = io.read(FILES / "gmsh-o1.med")
     assert (mesh.n_hexes, mesh.n_nodes, summarise(mesh).inverted) == (2, 15, 0)
     assert sets_of(mesh) == {
@@ -35,7 +35,7 @@ def test_a_file_of_gmsh_is_read_whole():
 
 
 @pytest.mark.parametrize(("file", "nodes"), [("gmsh-o2", 27), ("medcoupling-o2i", 20)])
-def test_nodes_of_second_order_are_where_they_belong(file, nodes):
+def test_nodes_of_second_order_have_vtks_order(file, nodes):
     mesh = io.read(FILES / f"{file}.med")
     assert ((mesh.mid_nodes >= 0).sum(axis=1) == nodes - 8).all()
     assert summarise(mesh).inverted == 0
@@ -44,7 +44,7 @@ def test_nodes_of_second_order_are_where_they_belong(file, nodes):
 
 
 @pytest.mark.parametrize("file", ["gmsh-o1", "gmsh-o2", "medcoupling-o2i"])
-def test_a_file_of_others_survives(file, tmp_path):
+def test_a_file_of_another_program_survives(file, tmp_path):
     mesh = io.read(FILES / f"{file}.med")
     io.write(tmp_path / "a.med", mesh)
     again = io.read(tmp_path / "a.med")
@@ -53,7 +53,7 @@ def test_a_file_of_others_survives(file, tmp_path):
 
 
 @pytest.mark.parametrize("nodes", [8, 20, 27])
-def test_what_is_written_is_read_again(nodes, tmp_path):
+def test_a_written_mesh_is_read_again(nodes, tmp_path):
     mesh = with_everything(nodes)
     io.write(tmp_path / "a.med", mesh)
     assert io.unsupported_data(tmp_path / "a.med", mesh) == ["side sets (inlet, outlet)"]
@@ -126,13 +126,13 @@ def structured(file, step):
         (structured, "is structured"),
     ],
 )
-def test_what_is_wrong_is_named(change, words, tmp_path):
+def test_errors_name_the_problem(change, words, tmp_path):
     with pytest.raises(FileError) as error:
         io.read(changed(tmp_path, change))
     assert words in str(error.value)
 
 
-def test_a_file_cut_short_is_one_clear_error(tmp_path):
+def test_a_truncated_file_gives_one_clear_error(tmp_path):
     data = (FILES / "gmsh-o1.med").read_bytes()
     for end in np.linspace(1, len(data) - 1, 12).astype(int):
         (tmp_path / "a.med").write_bytes(data[:end])
@@ -140,8 +140,8 @@ def test_a_file_cut_short_is_one_clear_error(tmp_path):
             io.read(tmp_path / "a.med")
 
 
-def test_each_group_and_array_has_the_attributes_that_others_look_for(tmp_path):
-    """As in files that MED's own library writes: what comes next, how much there is, and that no step is meant."""
+def test_each_group_and_array_has_the_attributes_that_the_library_writes(tmp_path):
+    """Steps, sizes and "no step" as in files of the MED library."""
     h5py = pytest.importorskip("h5py")
     mesh = with_everything()
     io.write(tmp_path / "a.med", mesh)

@@ -1,4 +1,4 @@
-"""Long stretches of Nastran's cards are read as they are card by card, and what is wrong in them is told where it is."""
+"""Blocks of Nastran cards give the same mesh as single cards, and errors in them name the line."""
 
 import numpy as np
 import pytest
@@ -15,8 +15,8 @@ from tests.core.io.kept import assert_same
 NAMES = {"GRID", "CHEXA", "CQUAD4"}
 
 
-def many():
-    """The text of a file of hexes and quads of several properties, with exponents that lack their letter."""
+def many_cards():
+    """Mesh of hexes and quads with several properties, whose coordinates have exponents without a letter."""
     bare = scrambled(grid(4), 0.3)
     quads = Cells("quad", bare.topology.boundary_faces, {}, {"property 9": np.arange(40)})
     mesh = bare.with_points(bare.points * 1e-7).replace(hex_sets={"property 5": np.arange(20)}, cells=(quads,))
@@ -25,7 +25,7 @@ def many():
 
 @pytest.fixture
 def text(tmp_path):
-    io.write(tmp_path / "a.bdf", many())
+    io.write(tmp_path / "a.bdf", many_cards())
     return (tmp_path / "a.bdf").read_text()
 
 
@@ -35,16 +35,16 @@ def read(tmp_path, text):
 
 
 def commented(text):
-    """The same cards, none of which stands in plain columns."""
+    """The same cards with comments, so that none is regular."""
     return "".join(f"{line} $\n" for line in text.splitlines())
 
 
-def spread(text):
-    return "".join(f"{line}\n$ said between\n\n" for line in text.splitlines())
+def with_blank_lines(text):
+    return "".join(f"{line}\n$ a comment between\n\n" for line in text.splitlines())
 
 
 def small(text):
-    """Lines that are continued without a sign, and end with spaces."""
+    """Continuation lines without a sign, and trailing spaces."""
     return "".join(f"{line.replace('+       ', '        '):<72}behind\n" for line in text.splitlines())
 
 
@@ -52,22 +52,22 @@ def ended(text):
     return text + "GRID    99\n" * 50
 
 
-@pytest.mark.parametrize("change", [commented, spread, small, ended, lambda text: text.replace("\n", "\r\n")])
+@pytest.mark.parametrize("change", [commented, with_blank_lines, small, ended, lambda text: text.replace("\n", "\r\n")])
 def test_the_same_cards_give_the_same_mesh(change, text, tmp_path):
     assert_same(read(tmp_path, change(text)), read(tmp_path, text))
 
 
-def test_plain_cards_are_taken_many_at_a_time_and_others_are_not(text):
+def test_only_regular_cards_are_read_in_blocks(text):
     found = Lines(text.encode()).card_blocks(2, NAMES)
     assert [(one.name, one.fields.shape) for one in found] == [
         ("GRID", (125, 8)), ("CHEXA", (64, 16)), ("CQUAD4", (96, 8))
     ]  # fmt: skip
     assert (found[0].first, found[0].last, found[1].first) == (2, 252, 252)
     assert Lines(commented(text).encode()).card_blocks(2, NAMES) == []
-    assert Lines(spread(text).encode()).card_blocks(2, NAMES) == []
+    assert Lines(with_blank_lines(text).encode()).card_blocks(2, NAMES) == []
 
 
-def test_hexes_of_some_and_of_all_mid_nodes_are_told_apart(tmp_path):
+def test_hexes_with_some_mid_nodes_are_distinguished_from_those_with_all(tmp_path):
     mesh = quadratic(20)
     io.write(tmp_path / "a.bdf", mesh)
     head, element = (tmp_path / "a.bdf").read_text().split("CHEXA", 1)
@@ -93,14 +93,14 @@ def test_hexes_of_some_and_of_all_mid_nodes_are_told_apart(tmp_path):
         ("CHEXA   1000    ", "CHEXA   -1-0    ", "CHEXA in line 253 holds '-1-0': expected a whole number"),
     ],
 )
-def test_what_is_wrong_is_told_by_its_line(old, new, words, text, tmp_path):
+def test_errors_name_the_line(old, new, words, text, tmp_path):
     assert old in text
     with pytest.raises(FileError) as error:
         read(tmp_path, text.replace(old, new))
     assert words in str(error.value)
 
 
-def test_a_coordinate_that_is_no_number_is_told_by_its_line(text, tmp_path):
+def test_an_invalid_coordinate_is_reported_with_its_line(text, tmp_path):
     lines = text.splitlines(keepends=True)
     lines[65] = "*       far\n"
     with pytest.raises(FileError, match="GRID in line 65 holds 'far': expected a number"):
@@ -108,12 +108,12 @@ def test_a_coordinate_that_is_no_number_is_told_by_its_line(text, tmp_path):
 
 
 @pytest.mark.parametrize("word", [b"1 2", b"-1", b"1.", b"x", b"12-"])
-def test_what_is_no_natural_number_is_none(word):
+def test_fields_other_than_natural_numbers_give_none(word):
     assert natural_numbers(np.array([b"1", word], "S8")) is None
 
 
 @pytest.mark.parametrize("text", ["BEGIN BULK", "BEGIN BULK\n", "SOL 101\nBEGIN BULK\n"])
-def test_a_file_that_ends_where_it_begins_has_no_grid_points(text, tmp_path):
+def test_a_file_without_cards_has_no_grid_points(text, tmp_path):
     with pytest.raises(FileError, match="has no GRID"):
         read(tmp_path, text)
 
@@ -121,7 +121,7 @@ def test_a_file_that_ends_where_it_begins_has_no_grid_points(text, tmp_path):
 @pytest.mark.parametrize(("word", "value"), [
     ("1.5D1", 15), ("1.5d+1", 15), ("-1.5D-1", -0.15), ("1.5E1", 15), (".15+2", 15), ("-.15-1", -0.015), ("15.", 15),
 ])  # fmt: skip
-def test_exponents_have_their_letter_or_none(word, value, tmp_path):
+def test_exponents_may_lack_their_letter(word, value, tmp_path):
     nodes = [f"GRID,{tag},,{x},{y},{z}" for tag, (x, y, z) in enumerate(UNIT_CUBE + 100.0, 1)]
     nodes[0] = f"GRID,1,,{word},0.,0."
     mesh = read(tmp_path, "\n".join([*nodes, "CHEXA,1,1,1,2,3,4,5,6", "+,7,8"]))
@@ -129,6 +129,6 @@ def test_exponents_have_their_letter_or_none(word, value, tmp_path):
 
 
 @pytest.mark.parametrize("word", ["1.5DE1", "1.5E", "D1", "1.5+-1"])
-def test_numbers_that_are_none_are_told(word, tmp_path):
+def test_invalid_numbers_are_reported(word, tmp_path):
     with pytest.raises(FileError, match="expected a number"):
         read(tmp_path, f"GRID,1,,{word},0.,0.\n")

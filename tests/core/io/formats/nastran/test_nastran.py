@@ -1,4 +1,4 @@
-"""Nastran's bulk data: files that Gmsh 4.15 wrote in all three kinds of fields, and what is written and read again."""
+"""Nastran's bulk data: files that Gmsh 4.15 wrote in all three field formats, and meshes written and read again."""
 
 from pathlib import Path
 
@@ -41,7 +41,7 @@ def test_a_file_of_gmsh_is_read(file):
 
 
 @pytest.mark.parametrize("nodes", [8, 20])
-def test_what_is_written_is_read_again(nodes, tmp_path):
+def test_a_written_mesh_is_read_again(nodes, tmp_path):
     mesh = with_everything(nodes)
     mesh = mesh.replace(
         hex_sets={"property 12": np.array([1, 2]), "property 7": np.array([0, *range(3, mesh.n_hexes)])}
@@ -54,7 +54,7 @@ def test_what_is_written_is_read_again(nodes, tmp_path):
     assert not any("property" in words for words in io.unsupported_data(tmp_path / "a.nas", mesh))
 
 
-def test_of_27_nodes_20_are_written(tmp_path):
+def test_hexes_of_27_nodes_are_written_with_20(tmp_path):
     io.write(tmp_path / "a.bdf", with_everything(27))
     mesh = io.read(tmp_path / "a.bdf")
     assert ((mesh.mid_nodes >= 0).sum(axis=1) == 12).all()
@@ -63,7 +63,7 @@ def test_of_27_nodes_20_are_written(tmp_path):
 
 
 @given(value=st.floats(-1e300, 1e300))
-def test_a_column_holds_a_number_as_well_as_it_can(value):
+def test_a_field_holds_a_number_to_at_least_12_digits(value):
     text = real_field(value)
     assert len(text) <= 16
     assert "." in text
@@ -73,7 +73,7 @@ def test_a_column_holds_a_number_as_well_as_it_can(value):
     assert number == pytest.approx(value, rel=1e-8, abs=0)
 
 
-def test_numbers_as_nastran_writes_them(tmp_path):
+def test_real_numbers_in_the_formats_of_nastran_are_read(tmp_path):
     text = CUBE.replace("GRID,2,,1.0,0.0", "GRID,2,,10.-1,0.0").replace("GRID,3,,1.0,1.0", "GRID,3,,+.1+1,1.D0")
     text = "SOL 101\nCEND\nTITLE = cube $ none\n" + text + "GRID,99,,x,y,z\n"
     mesh = read(text.replace("BEGIN BULK", "BEGIN BULK\nMAT1,1,2.1+5,,.3"), tmp_path)
@@ -102,7 +102,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
         (GRIDS, "", "has no GRID"),
     ],
 )
-def test_what_is_wrong_is_named(old, new, words, tmp_path):
+def test_errors_name_the_problem(old, new, words, tmp_path):
     assert old in CUBE
     with pytest.raises(FileError) as error:
         read(CUBE.replace(old, new), tmp_path)
@@ -126,14 +126,14 @@ def test_what_is_wrong_is_named(old, new, words, tmp_path):
         ),
     ],
 )
-def test_elements_are_in_the_properties_they_were_in_or_it_is_said(sets, members, said, tmp_path):
+def test_elements_keep_their_properties_or_the_loss_is_reported(sets, members, said, tmp_path):
     mesh = grid(2, 1, 1).replace(hex_sets={name: np.array(rows) for name, rows in sets.items()})
     assert io.unsupported_data(tmp_path / "a.bdf", mesh) == said
     io.write(tmp_path / "a.bdf", mesh)
     assert {name: rows.tolist() for name, rows in io.read(tmp_path / "a.bdf").hex_sets.items()} == members
 
 
-def test_digits_that_columns_have_no_place_for_are_said(tmp_path):
+def test_rounded_digits_are_reported(tmp_path):
     words = "last digits of coordinates (a column has a place for 12 to 14)"
     fine = grid(2)
     for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
@@ -143,7 +143,7 @@ def test_digits_that_columns_have_no_place_for_are_said(tmp_path):
         assert np.array_equal(io.read(tmp_path / "a.bdf").points, mesh.points) == (not said)
 
 
-def test_ids_of_more_than_eight_digits_do_not_keep_a_mesh_from_being_written(tmp_path):
+def test_a_mesh_with_ids_of_more_than_eight_digits_is_written_with_new_ids(tmp_path):
     mesh = grid(2).replace(node_data={"id": np.arange(27) + 10**8 - 26}, hex_data={"id": np.arange(8) + 10**8 - 8})
     assert io.unsupported_data(tmp_path / "a.bdf", mesh) == ["ids of nodes (some of 100,000,000 and above)"]
     io.write(tmp_path / "a.bdf", mesh)
