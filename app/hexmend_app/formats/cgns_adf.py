@@ -1,4 +1,4 @@
-"""CGNS files of the ADF kind, read by VTK; those on HDF5 the core reads itself, and more of them."""
+"""CGNS files of the ADF kind, read by VTK; the core itself reads those on HDF5, with more of their data."""
 
 from __future__ import annotations
 
@@ -13,18 +13,17 @@ from hexmend.io.formats.cgns import ADF_MARK
 from hexmend.io.formats.cgns.reader import JOIN_HINT
 from hexmend.io.formats.cgns.structured import structured_hexes
 from hexmend.io.formats.vtk.grid import KIND_BY_TYPE, WIDTH_BY_TYPE
-from hexmend.io.storage.subprocess_reader import run_reader
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
 
 
 def read(path: Path) -> Mesh:
-    """Read a CGNS file by VTK, in a process of its own: on a damaged file the library can end that."""
-    return to_mesh(path, run_reader("hexmend_app.formats.cgns_adf:content", path))
+    """Read a CGNS file by VTK, in a subprocess, since the library may crash on a damaged one."""
+    return to_mesh(path, in_child("hexmend_app.formats.cgns_adf:content", path))
 
 
 def content(path: Path) -> Content:
-    """What VTK's reader finds in a file: zones of three dimensions, with their results."""
+    """Read the content of a file by VTK: zones of three dimensions, with their solutions."""
     from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
 
     check_links(path)
@@ -42,7 +41,7 @@ def content(path: Path) -> Content:
         )
     notes = ["Of a CGNS file of the ADF kind, boundary conditions are left out; adf2hdf makes a file that has them."]
     if len(zones) > 1:
-        notes.append(f"{len(zones)} zones are one mesh; VTK does not tell where they meet. {JOIN_HINT}")
+        notes.append(f"{len(zones)} zones are read as one mesh; VTK does not report where they meet. {JOIN_HINT}")
     points, blocks, data, first = [], [], [], 0
     for name, zone in zones:
         here = _array(zone.GetPoints().GetData()).astype(np.float64)
@@ -56,13 +55,13 @@ def content(path: Path) -> Content:
     return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
 
 
-def matches(head: bytes) -> bool:
-    """Whether a file begins as those of the ADF kind do."""
+def recognised(head: bytes) -> bool:
+    """Return True if a file begins like CGNS of the ADF kind."""
     return ADF_MARK in head[:64]
 
 
 def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
-    """Names and grids below a block of blocks."""
+    """Names and grids of the leaves of a multi-block dataset."""
     if not data.IsA("vtkMultiBlockDataSet"):
         return [(name, data)]
     found = []
@@ -74,7 +73,7 @@ def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
 
 
 def _blocks(zone: object, points: np.ndarray) -> list[Block]:
-    """The cells of a grid by their kinds."""
+    """Blocks of the cells of a grid, one for each kind."""
     data = _arrays(zone.GetCellData())
     if zone.IsA("vtkStructuredGrid"):
         count = np.zeros(3, np.int32)
@@ -93,7 +92,7 @@ def _blocks(zone: object, points: np.ndarray) -> list[Block]:
 
 
 def _arrays(of: object) -> dict[str, np.ndarray]:
-    """Numeric arrays of points or cells, but for those that VTK adds for itself."""
+    """Numeric arrays of point or cell data, without those that VTK adds."""
     arrays = [of.GetArray(k) for k in range(of.GetNumberOfArrays())]
     return {one.GetName(): _array(one) for one in arrays if one is not None and not one.GetName().startswith("vtk")}
 

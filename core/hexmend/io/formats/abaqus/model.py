@@ -106,18 +106,20 @@ def placement(deck: Deck, lines: list[list[str]]) -> tuple[np.ndarray, np.ndarra
     try:
         values = [[float(word) if word else 0.0 for word in line] for line in lines[:2]]
     except ValueError:
-        raise deck.error("an *INSTANCE has a line that holds something else than numbers") from None
+        raise deck.error("an *INSTANCE has a data line with other words than numbers") from None
     translation, rotation = np.zeros(3), np.eye(3)
     if values:
         translation[: len(values[0][:3])] = values[0][:3]
     if len(values) > 1:
         if len(values[1]) != 7:
-            raise deck.error(f"an *INSTANCE is turned by {len(values[1])} numbers: expected two points and an angle")
+            raise deck.error(
+                f"an *INSTANCE has a rotation of {len(values[1])} numbers: expected two points and an angle"
+            )
         begin, end, angle = np.array(values[1][:3]), np.array(values[1][3:6]), np.deg2rad(values[1][6])
         axis = end - begin
         length = np.linalg.norm(axis)
         if not (np.isfinite(values[1]).all() and length > 0):
-            raise deck.error("an *INSTANCE is turned about an axis without a direction")
+            raise deck.error("an *INSTANCE has a rotation about an axis without a direction")
         x, y, z = axis / length
         cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
         rotation = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross  # Rodrigues's formula

@@ -90,10 +90,10 @@ class _Reader:
         if card.name == "INCLUDE" or "INPUT" in card.options:
             where = quoted(card.options.get("INPUT", ""))
             raise self.deck.error(
-                f"*{card.name} in line {card.line} takes what follows from another file, {where}",
-                "Put its content in the place of the line: one file is read at a time.",
+                f"*{card.name} in line {card.line} reads its data from another file, {where}",
+                "Insert its content in place of the line: one file is read at a time.",
             )
-        raise self.deck.error(f"*{card.name} in line {card.line} makes nodes or elements out of others", _EXPAND)
+        raise self.deck.error(f"*{card.name} in line {card.line} generates nodes or elements from others", _EXPAND)
 
     def read_node(self, card: Card) -> None:
         """*NODE, NSET=..."""
@@ -175,14 +175,16 @@ class _Reader:
         part = self.parts.get(name_key(card.options.get("PART", "")))
         if part is None:
             name = quoted(card.options.get("PART", ""))
-            raise self.deck.error(f"*INSTANCE in line {card.line} is of the part {name}, which is not there")
+            raise self.deck.error(f"*INSTANCE in line {card.line} refers to the part {name}, which does not exist")
         self.part = Part(part.name)
         translation, rotation = placement(self.deck, self.deck.fields(card))
         name = unquoted(card.options.get("NAME", ""))
         self.instances.append(Instance(name, part, translation, rotation, self.part))
         n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
         if n_nodes > _ALWAYS_ALLOWED + len(self.deck.data):
-            raise self.deck.error(f"its {len(self.instances)} instances have more nodes than so small a file can mean")
+            raise self.deck.error(
+                f"its {len(self.instances)} instances have more nodes than a file of its size can define"
+            )
 
     def end(self, card: Card) -> None:
         """*END PART, *END INSTANCE: the next cards belong to the assembly."""

@@ -77,7 +77,7 @@ class MemberBudget:
         """Count members; raise `FileError` above the limit."""
         self.left -= members
         if self.left < 0:
-            raise self.deck.error("its sets have far more members than so small a file can mean")
+            raise self.deck.error("its sets have far more members than a file of its size can define")
 
 
 class SetLookup:
@@ -131,7 +131,7 @@ class SetLookup:
         """Positions of the members of a set, (k,) int64 ascending; `parents` are the sets whose entry it is."""
         if key not in self._members:
             if key not in self.sets:
-                raise self.deck.error(f"names the set {quoted(key)}, which is not there")
+                raise self.deck.error(f"refers to the set {quoted(key)}, which does not exist")
             if key in parents or len(parents) > _MAX_DEPTH:
                 raise self.deck.error(f"the set {quoted(key)} is a member of itself")
             self._members[key] = self._evaluate(self.sets[key], (*parents, key))
@@ -151,7 +151,7 @@ class SetLookup:
                 self.budget.spend(len(found[-1]))
         for instance, lines in definition.by_instance.items():
             if instance not in self.instances:
-                raise self.deck.error(f"a set is of the instance {quoted(instance)}, which is not there")
+                raise self.deck.error(f"a set refers to the instance {quoted(instance)}, which does not exist")
             found.append(self.instances[instance]._evaluate(lines))
         positions = np.unique(np.concatenate(found))
         self.budget.spend(len(positions))

@@ -39,9 +39,9 @@ def content(path: Path) -> Content:
     notes += [note for zone in zones for note in zone.notes]
     if len(zones) > 1:
         notes.append(
-            f"{len(zones)} zones are one mesh, joined at {len(points) - len(kept):,} nodes."
+            f"{len(zones)} zones are read as one mesh, joined at {len(points) - len(kept):,} nodes."
             if n_pairs
-            else f"{len(zones)} zones are one mesh; the file does not say where they meet. {JOIN_HINT}"
+            else f"{len(zones)} zones are read as one mesh; the file does not say where they meet. {JOIN_HINT}"
         )
     blocks, node_sets, side_sets, n_hexes = [], {}, {}, 0
     for k, zone in enumerate(zones):

@@ -89,8 +89,8 @@ class CGNSSection:
             lengths = values[begins] if at == len(flat) else np.empty(0, np.int64)
             start, values = np.concatenate([[0], np.cumsum(lengths)]), np.delete(values, begins)
         if len(start) != len(self) + 1 or start[0] != 0 or (np.diff(start) < 0).any() or start[-1] != values.size:
-            raise self.error(f"does not name {len(self)} rows")
-        return RaggedArray(start, values)
+            raise self.error(f"does not have {len(self)} rows")
+        return Lists(start, values)
 
     def cell_groups(self, notes: list[str]) -> list[CellGroup]:
         """Elements by kind; none for faces known by their parents alone, and for polygons and polyhedra.
@@ -131,7 +131,7 @@ class CGNSSection:
         if offsets is not None:
             starts = offsets.integers().ravel()[:-1]
             if len(starts) != len(self) or (len(starts) and (starts.min() < 0 or starts.max() >= nodes.size)):
-                raise self.error("has wrong ElementStartOffset")
+                raise self.error("has a wrong ElementStartOffset")
         else:  # before version 4 elements follow one another
             starts, at, flat = [], 0, nodes.tolist()
             while len(starts) < len(self) and at < len(flat) and flat[at] in TYPES:
@@ -141,7 +141,7 @@ class CGNSSection:
         types = nodes[starts]
         widths = np.array([TYPES.get(type, ("", nodes.size))[1] for type in types.tolist()], np.int64)
         if len(starts) != len(self) or (len(starts) and (starts + 1 + widths > nodes.size).any()):
-            raise self.error("names elements of types that are not known")
+            raise self.error("has elements of unknown types")
         return types, starts + 1
 
     def _read_parents(self) -> np.ndarray | None:

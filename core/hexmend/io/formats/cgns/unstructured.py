@@ -115,7 +115,7 @@ def _add_condition(
     numbers = members[0].integers().ravel()
     of_nodes = grid_location(condition) == "Vertex" and not members[0].name.startswith("Element")
     if of_nodes and numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
-        raise FileError(condition.path, f"boundary condition {name!r} names nodes that there are not", DAMAGED)
+        raise FileError(condition.path, f"boundary condition {name!r} refers to nodes that do not exist", DAMAGED)
     if members[0].name.endswith("Range"):
         if numbers.size != 2 or numbers[1] < numbers[0]:
             raise FileError(condition.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)
@@ -157,7 +157,7 @@ def _add_cell_data(zone: Zone, numbers_of: list[np.ndarray], data: dict[str, np.
     volumes = [(block, numbers) for block, numbers in blocks if dimension(block.kind) == 3]
     numbers = np.sort(np.concatenate([numbers for _, numbers in volumes] or [[]]))
     if len(numbers) != n_cells:
-        zone.notes += ["Results of cells are left out, as some of the cells are."] if data else []
+        zone.notes += ["Cell data are left out because some cells are."] if data else []
         return
     for block, own in volumes:
         block.data.update({name: values[np.searchsorted(numbers, own)] for name, values in data.items()})

@@ -140,7 +140,9 @@ class _Reader:
                 DAMAGED,
             )
         if kind is None:
-            self.notes.append(f"Cells of type {type_} with {width} nodes in block {number} are read by their corners.")
+            self.notes.append(
+                f"Cells of type {type_} with {width} nodes in block {number} are read with their corners only."
+            )
             kind = kinds[0]
             nodes = nodes[:, : node_count(kind)]
         return Block(kind, to_vtk_order(nodes, kind, ORDER), self.attributes(k, count))

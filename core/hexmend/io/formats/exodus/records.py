@@ -57,7 +57,7 @@ def unread_notes(store: ExodusStore) -> list[str]:
         _has_factors(store, f"{entity}{k}") for entity in ("ns", "ss") for k in range(1, _set_count(store, entity) + 1)
     ):
         left.insert(0, "distribution factors other than 1")
-    return [f"What Hexmend does not keep is left out: {', '.join(left)}."] if left else []
+    return [f"Data that Hexmend does not keep are left out: {', '.join(left)}."] if left else []
 
 
 def _set_count(store: ExodusStore, entity: str) -> int:

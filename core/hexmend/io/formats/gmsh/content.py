@@ -86,8 +86,8 @@ def _block(
         first, row = _unique_rows(nodes)
         if len(first) < len(nodes):
             notes.append(
-                f"{len(nodes) - len(first):,} {kind} elements stand in the file once for each of their physical "
-                "groups: they are read as one each."
+                f"{len(nodes) - len(first):,} {kind} elements repeat others of the file in another physical group: "
+                "each element is read once."
             )
             nodes, tags, partitions = nodes[first], tags[first], partitions[first]
         else:

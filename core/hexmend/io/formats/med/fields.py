@@ -97,7 +97,9 @@ def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -
                 path, f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}", DAMAGED
             )
         if len(rows) and (rows.min() < 0 or rows.max() >= count):
-            raise FileError(path, f"the profile {profile} names what there is not: expected 1 to {count}", DAMAGED)
+            raise FileError(
+                path, f"the profile {profile} refers to entries that do not exist: expected 1 to {count}", DAMAGED
+            )
         found.append((rows, values.reshape(width, -1).T))
     dtype = np.result_type(*(values.dtype for _, values in found)) if found else np.dtype(np.float64)
     filled = np.full((count, width), np.nan if dtype.kind == "f" else 0, dtype)

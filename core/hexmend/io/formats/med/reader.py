@@ -42,7 +42,7 @@ def _open(path: Path) -> Iterator[Mapping]:
         words = " ".join(str(error).strip("'\"").split())[:120]
         raise FileError(path, f"cannot be read as HDF5 ({words})", DAMAGED) from None
     except (TypeError, AttributeError, OverflowError):  # a link to nothing, an attribute of another type
-        raise FileError(path, "holds parts that are not what MED puts there", DAMAGED) from None
+        raise FileError(path, "holds groups or attributes that MED does not have", DAMAGED) from None
 
 
 def _content(path: Path, file: Mapping) -> Content:
@@ -125,7 +125,7 @@ def _sets(path: Path, group: Mapping, count: int, families: Mapping) -> dict[str
         names = decode_names(read_array(path, family["GRO"], "NOM")) if end > begin else []
         n_members += len(names) * int(end - begin)
         if n_members > max_bytes(path):
-            raise FileError(path, "its groups have far more members than so small a file can mean", DAMAGED)
+            raise FileError(path, "its groups have far more members than a file of its size can define", DAMAGED)
         for name in names:
             found.setdefault(name, []).append(order[begin:end])
     return {name: np.sort(np.concatenate(members)) for name, members in found.items()}

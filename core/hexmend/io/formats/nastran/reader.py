@@ -99,7 +99,7 @@ class _Model:
         elif name in KINDS_OF_CARD:
             self._add_element(line, name, fields)
         elif name.startswith("INCLUDE"):
-            raise bulk.error(f"INCLUDE in line {line} takes what follows from another file", "Put its content there.")
+            raise bulk.error(f"INCLUDE in line {line} reads cards from another file", "Insert its content there.")
         elif name != "ENDDATA":
             self.other_cards[name] = self.other_cards.get(name, 0) + 1
 
@@ -169,7 +169,7 @@ class _Model:
             raise self.bulk.error("has no GRID", "Is it a file of Nastran's bulk data? Check its suffix.")
         if self.n_partial:
             notes.append(
-                f"{self.n_partial:,} elements have some of their mid-nodes only: they are read with their corners."
+                f"{self.n_partial:,} elements have some of their mid-nodes only: they are read with their corners only."
             )
         if self.other_cards:
             words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other_cards.items())[:6])

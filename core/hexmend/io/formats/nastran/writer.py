@@ -72,7 +72,7 @@ def limitations(mesh: Mesh) -> list[str]:
     words = ", ".join(f"property {number}" for number in sorted(overlapping))
     left = numbering.unsupported_ids(mesh, _ID_LIMIT) + ([f"element sets that overlap ({words})"] if words else [])
     if not all(map(is_exact, mesh.points.ravel().tolist())):
-        left.append("last digits of coordinates (a column has a place for 12 to 14)")
+        left.append("last digits of coordinates (a field holds 12 to 14)")
     return left + lost_mid_nodes(mesh, CARD_OF_KIND)
 
 

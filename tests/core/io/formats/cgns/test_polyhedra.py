@@ -90,7 +90,7 @@ def test_polyhedra_of_other_kinds_are_left_out_with_a_note(tmp_path):
     assert back.n_hexes == 7
     assert back.notes == (
         "1 polyhedra of section 'Cells' are left out.",
-        "Results of cells are left out, as some of the cells are.",
+        "Cell data are left out because some cells are.",
     )
 
 
@@ -105,7 +105,7 @@ def wrong_node(faces, cells):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (wrong_face, "section 'Cells' names faces that there are not"),
+        (wrong_face, "section 'Cells' refers to faces that do not exist"),
         (wrong_node, "faces use the nodes 1 to 99: expected 1 to 8"),
     ],
 )
@@ -122,7 +122,7 @@ def test_inconsistent_rows_are_reported(offsets, tmp_path):
         data = file["Base/Zone/Faces/ElementStartOffset"]
         del data[" data"]
         data[" data"] = offsets
-    with pytest.raises(FileError, match="section 'Faces' does not name 6 rows"):
+    with pytest.raises(FileError, match="section 'Faces' does not have 6 rows"):
         io.read(path)
 
 

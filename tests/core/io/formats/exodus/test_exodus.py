@@ -140,7 +140,7 @@ def test_data_that_are_not_kept_are_noted(tmp_path):
     globals_ = [("name_glo_var", ("num_glo_var", "len_name"), letters(["energy"]))]
     assert io.read(written(tmp_path / "a.exo", UNIT_CUBE, blocks, more)).notes == ()  # factors of 1 are the default
     mesh = io.read(written(tmp_path / "b.exo", UNIT_CUBE, blocks, [*more, *factors, *globals_]))
-    words = "What Hexmend does not keep is left out: distribution factors other than 1, global variables."
+    words = "Data that Hexmend does not keep are left out: distribution factors other than 1, global variables."
     assert mesh.notes == (words,)
 
 

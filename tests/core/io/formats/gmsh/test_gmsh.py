@@ -101,7 +101,7 @@ NODES = "$Nodes\n8\n" + "".join(f"{k + 1} {k & 1} {k >> 1 & 1} {k >> 2}\n" for k
         ("hello", "does not begin with $MeshFormat"),
         ("$MeshFormat\n1 0 8\n$EndMeshFormat\n", "is of version '1'"),
         ("$MeshFormat\n4 0 8\n$EndMeshFormat\n", "Save it as 4.1 with Gmsh"),
-        ("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n", "tells the order of bytes"),
+        ("$MeshFormat\n4.1 1 8\nabcd\n$EndMeshFormat\n", "gives the byte order"),
         (HEAD, "has no section $Nodes"),
         (HEAD + NODES, "has no section $Elements"),
         (HEAD + "$Nodes\n8\n1 0 0 0\n", "$Nodes ends without $EndNodes"),

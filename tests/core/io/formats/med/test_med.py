@@ -121,7 +121,7 @@ def structured(file, step):
         (remove_connectivity, "MAI/HE8 has no NOD"),
         (cut_connectivity, "HE8/NOD holds 15 numbers: expected 8 a cell"),
         (wrong_node, "HE8/NOD names the node 99: expected 1 to 15"),
-        (huge, "announced larger than so small a file can mean"),
+        (huge, "claims to be larger than a file of its size can hold"),
         (plane, "is not in space"),
         (structured, "is structured"),
     ],

@@ -97,7 +97,7 @@ def test_hexes_with_some_mid_nodes_are_read_with_their_corners(tmp_path):
         (",7,8\n", ",7\n", "CHEXA in line 10 has 7 nodes: expected 8"),
         (",7,8\n", ",7,77\n", "node 77 is used"),
         (",7,8\n", ",7,8.5\n", "CHEXA in line 10 holds '8.5': expected a whole number"),
-        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 takes what follows from another file"),
+        ("CHEXA,9", "INCLUDE 'more.bdf'\nCHEXA,9", "INCLUDE in line 10 reads cards from another file"),
         ("CHEXA", "CGAP", "holds no hexahedra"),
         (GRIDS, "", "has no GRID"),
     ],
@@ -134,7 +134,7 @@ def test_elements_keep_their_properties_or_the_loss_is_reported(sets, members, s
 
 
 def test_rounded_digits_are_reported(tmp_path):
-    words = "last digits of coordinates (a column has a place for 12 to 14)"
+    words = "last digits of coordinates (a field holds 12 to 14)"
     fine = grid(2)
     for scale, said in ((0.25, []), (1e-60, []), (1 / 3, [words]), (1e-9 / 3, [words])):
         mesh = Mesh(fine.points * scale, fine.hexes)
