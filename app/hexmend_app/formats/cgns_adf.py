@@ -13,13 +13,14 @@ from hexmend.io.formats.cgns import ADF_MARK
 from hexmend.io.formats.cgns.reader import JOIN_HINT
 from hexmend.io.formats.cgns.structured import structured_hexes
 from hexmend.io.formats.vtk.grid import KIND_BY_TYPE, WIDTH_BY_TYPE
+from hexmend.io.storage import subprocess_reader
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.formats.adf_links import check_links
 
 
 def read(path: Path) -> Mesh:
     """Read a CGNS file by VTK, in a subprocess, since the library may crash on a damaged one."""
-    return to_mesh(path, in_child("hexmend_app.formats.cgns_adf:content", path))
+    return to_mesh(path, subprocess_reader.in_child("hexmend_app.formats.cgns_adf:content", path))
 
 
 def content(path: Path) -> Content:

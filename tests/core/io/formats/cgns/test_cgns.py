@@ -228,7 +228,7 @@ def test_errors_name_the_problem(how, words, tmp_path):
         io.read(tmp_path / "bad.cgns")
 
 
-def test_adf_files_are_refused_with_a_hint(tmp_path):
+def test_an_error_in_an_adf_file_names_its_kind(tmp_path):
     (tmp_path / "old.cgns").write_bytes(b"\x00@(#)ADF Database Version B02012>" + bytes(200))
     with pytest.raises(FileError) as caught:
         io.read(tmp_path / "old.cgns")
