@@ -1,6 +1,6 @@
 """Tree of CGNS's nodes in HDF5: a node is a group with a label, its data are the dataset " data".
 
-*CGNS HDF5 Storage*, "CGNS File Mapping Manual".
+*CGNS File Mapping Manual*, part "HDF5".
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class CGNSNode:
             exists = " data" in self._group
             data = self._group[" data"] if exists else None
         except _FAILURES as error:
-            raise hdf5.damaged(self.path, error) from None
-        return hdf5.values_of(self.path, data) if exists else np.empty(0)
+            raise hdf5.damaged_file(self.path, error) from None
+        return hdf5.read_dataset(self.path, data) if exists else np.empty(0)
 
     def integers(self) -> np.ndarray:
         """Data of the node as int64.

@@ -133,54 +133,59 @@ class _Header:
 
     def __init__(self, source: ByteCursor):
         self.source = source
-        version = source.read_bytes(4, "the head")[3]
+        version = source.take(4, "the header")[3]
         self.width = 8 if version == 5 else 4  # bytes of a count
         self.offset = 4 if version == 1 else 8  # bytes of an offset
 
     def count(self, width: int = 0) -> int:
         """Take a number, of the width of a count unless given."""
-        return int.from_bytes(self.source.take(width or self.width, "the head"), "big")
+        return int.from_bytes(self.source.take(width or self.width, "the header"), "big")
 
     def length(self, kind: int, each: int) -> int:
         """Take the number of entries of a list with the tag `kind`, of at least `each` bytes an entry."""
         here = self.source.here
         tag, count = self.count(4), self.count()
         if tag not in (0, kind) or (tag == 0 and count) or count * each > len(self.source.data):
-            raise self.source.error(f"the head's list at {here} has the kind {tag} and {count} entries")
+            raise self.source.error(f"the header's list at {here} has the kind {tag} and {count} entries")
         return count
 
     def padded(self, size: int) -> bytes:
         """Take bytes and their padding to 4."""
-        data = self.source.take(size, "the head")
-        self.source.take(-size % 4, "the head")
+        data = self.source.take(size, "the header")
+        self.source.take(-size % 4, "the header")
         return data
 
     def name(self) -> str:
+        """Take a name."""
         return self.padded(self.count()).decode("utf-8", errors="replace")
 
     def type(self) -> np.dtype:
-        here, number = self.source.location, self.count(4)
+        """Take the type of values."""
+        here, number = self.source.here, self.count(4)
         if number not in TYPES:
             raise self.source.error(f"values at {here} are of type {number}: expected 1 to 11")
         return TYPES[number]
 
     def dimensions(self) -> list[tuple[str, int]]:
+        """Take the names and lengths of all dimensions."""
         return [(self.name(), self.count()) for _ in range(self.length(DIMENSIONS, 8))]
 
     def attributes(self) -> dict[str, object]:
-        answer = {}
+        """Take a list of attributes."""
+        found = {}
         for _ in range(self.length(ATTRIBUTES, 12)):
             name, dtype, count = self.name(), self.type(), self.count()
             data = self.padded(count * dtype.itemsize)
             text = dtype.kind == "S"
-            answer[name] = data.decode("utf-8", errors="replace").rstrip("\0 ") if text else np.frombuffer(data, dtype)
-        return answer
+            found[name] = data.decode("utf-8", errors="replace").rstrip("\0 ") if text else np.frombuffer(data, dtype)
+        return found
 
     def variables(self, dimensions: list[tuple[str, int]]) -> dict[str, Variable]:
-        answer = {}
+        """Take the list of variables."""
+        found = {}
         for _ in range(self.length(VARIABLES, 20)):
             name = self.name()
-            numbers = [self.count() for _ in range(self.length_of_shape())]
+            numbers = [self.count() for _ in range(self.rank())]
             if any(number >= len(dimensions) for number in numbers):
                 raise self.source.error(f"variable {name!r} has the dimensions {numbers} of {len(dimensions)}")
             attributes, dtype, _ = self.attributes(), self.type(), self.count()
@@ -188,10 +193,11 @@ class _Header:
             is_record = bool(shape) and shape[0] == 0 and dimensions[numbers[0]][1] == 0
             shape = tuple(shape[1:] if is_record else shape)
             size = int(np.prod(shape, dtype=object)) * dtype.itemsize
-            answer[name] = Variable(shape, dtype, self.count(self.offset), is_record, size + -size % 4, attributes)
-        return answer
+            found[name] = Variable(shape, dtype, self.count(self.offset), is_record, size + -size % 4, attributes)
+        return found
 
-    def length_of_shape(self) -> int:
+    def rank(self) -> int:
+        """Take the number of dimensions of a variable."""
         count = self.count()
         if count * self.width > len(self.source.data):
             raise self.source.error(f"a variable has {count} dimensions before {self.source.location}")
@@ -200,5 +206,7 @@ class _Header:
 
 def _record_size(variables: list[Variable]) -> int:
     """Bytes from one record to the next."""
-    parts = [variable for variable in variables if variable.is_record]
-    return parts[0].data_size if len(parts) == 1 else sum(variable.size for variable in parts)  # one is not padded
+    records = [variable for variable in variables if variable.is_record]
+    if len(records) == 1:  # a single record variable is not padded
+        return records[0].data_size
+    return sum(variable.size for variable in records)

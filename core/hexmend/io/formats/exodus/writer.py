@@ -21,7 +21,7 @@ from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.records import add_records
 from hexmend.mesh.mesh import Mesh
 
-#: Flag of `int64_status` for maps of ids of 64 bits (EX_MAPS_INT64_DB).
+#: Value of `int64_status` where the maps hold ids of 64 bits.
 _MAPS_INT64 = 0x2000
 
 
