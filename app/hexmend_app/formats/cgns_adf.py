@@ -20,7 +20,7 @@ from hexmend_app.formats.adf_links import check_links
 
 def read(path: Path) -> Mesh:
     """Read a CGNS file by VTK, in a subprocess, since the library may crash on a damaged one."""
-    return to_mesh(path, subprocess_reader.in_child("hexmend_app.formats.cgns_adf:content", path))
+    return to_mesh(path, subprocess_reader.run_reader("hexmend_app.formats.cgns_adf:content", path))
 
 
 def content(path: Path) -> Content:
@@ -102,6 +102,11 @@ def _array(values: object) -> np.ndarray:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     return np.array(vtk_to_numpy(values))
+
+
+def matches(head: bytes) -> bool:
+    """Return True if a file begins as CGNS files of the ADF kind do."""
+    return ADF_MARK in head[:32]
 
 
 FORMAT = Format(name="cgns-adf", title="CGNS (ADF)", suffixes=(".cgns",), encodings=(), read=read, matches=matches)

@@ -50,7 +50,7 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
         if cells.values.size and (not len(numbers) or (numbers[index] != np.abs(cells.values)).any()):
             raise section.error("refers to faces that do not exist")
         found = cells_from_faces(
-            faces, Lists(cells.start, index), cells.values > 0
+            faces, RaggedArray(cells.start, index), cells.values > 0
         )  # the face's normal points out of the cell
         n_other = len(section) - sum(len(which) for which, _ in found.values())
         if n_other:

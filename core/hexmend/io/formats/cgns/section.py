@@ -90,7 +90,7 @@ class CGNSSection:
             start, values = np.concatenate([[0], np.cumsum(lengths)]), np.delete(values, begins)
         if len(start) != len(self) + 1 or start[0] != 0 or (np.diff(start) < 0).any() or start[-1] != values.size:
             raise self.error(f"does not have {len(self)} rows")
-        return Lists(start, values)
+        return RaggedArray(start, values)
 
     def cell_groups(self, notes: list[str]) -> list[CellGroup]:
         """Elements by kind; none for faces known by their parents alone, and for polygons and polyhedra.

@@ -84,7 +84,7 @@ def test_the_sides_of_a_hex_are_those_of_the_manual(side, tmp_path):
 
 
 def test_the_27_nodes_of_a_hex_have_the_order_of_the_manual(tmp_path):
-    places = [*UNIT_CUBE, *MID_PLACES[:12], [0.5, 0.5, 0.5]]
+    places = [*UNIT_CUBE, *MID_NODE_POSITIONS[:12], [0.5, 0.5, 0.5]]
     places += [UNIT_CUBE[[int(k) - 1 for k in side.split()]].mean(axis=0) for side in SIDES]
     nodes = "".join(f"{k + 1}, {x}, {y}, {z}\n" for k, (x, y, z) in enumerate(places))
     row = ", ".join(map(str, range(1, 16))) + ",\n" + ", ".join(map(str, range(16, 28)))
