@@ -117,11 +117,14 @@ PARAMETERS: dict[str, dict[str, str]] = {
 }
 
 ATTRIBUTES: dict[str, dict[str, str]] = {
+    "Advice": {"loose": "unlocked", "nothing": "no_suggestion"},
     "Format": {"cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches"},
     "Iteration": {"figures": "quality", "notes": "diagnostics"},
     "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},
-    "Run": {"reached": "best"},
+    "NodeStep": {"verdict": "status", "whole": "is_global"},
+    "Run": {"go_on_with": "switch_method", "reached": "best"},
     "Step": {"detour": "infeasible", "figures": "quality", "more": "intermediate", "notes": "diagnostics"},
+    "Sweep": {"look": "preview", "over": "finished", "place": "position"},
 }
 
 KEYWORDS: dict[str, dict[str, str]] = {"read": {"nodes_without_place": "interpolate_missing"}}

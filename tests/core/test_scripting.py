@@ -57,9 +57,9 @@ def test_settings_that_nobody_has_are_refused(smoother, settings, words):
 
 
 def test_what_is_no_mesh_or_no_method_is_said(tmp_path):
-    with pytest.raises(TypeError, match=r"int is no mesh: expected a hexmend.Mesh or the path of a file"):
+    with pytest.raises(TypeError, match=r"int is not a mesh: expected a hexmend.Mesh or the path of a file"):
         hx.smooth(3)
-    with pytest.raises(TypeError, match=r"int is no method: expected a hexmend.Smoother, a Recipe or a name"):
+    with pytest.raises(TypeError, match=r"int is not a method: expected a hexmend.Smoother, a Recipe or a name"):
         hx.smooth(MESH, 3)
     with pytest.raises(FileError, match=r"nowhere\.vtu"):
         hx.smooth(tmp_path / "nowhere.vtu")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.advice import Advice
+from hexmend.aliases import ATTRIBUTES
 from hexmend.errors import FileError, MeshError
 from hexmend.io.formats.session import SUFFIX, is_session
 from hexmend.io.formats.session.session_file import SessionFolder, read_session, write_session
@@ -39,7 +40,7 @@ from hexmend_app.state.views import ViewsData
 #: Bytes from which a file's kind is told.
 _HEAD = 64
 #: What fields are called in files from before they were renamed.
-_FORMER = {Advice: {"limiting": "holding"}}
+_FORMER = {Advice: {"limiting": "holding"} | {now: old for old, now in ATTRIBUTES["Advice"].items()}}
 #: The last version in which a surface tolerance of 0 meant that there is no limit.
 _ZERO_FOR_NO_LIMIT = 3
 

@@ -9,11 +9,13 @@ import numpy as np
 from hexmend.advice.rules import RULES
 from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
+from hexmend.aliases import reads_old_names
 from hexmend.iteration import Outcome, Result
 from hexmend.quality import describe_regressions
 from hexmend.run.messages import kept_message
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Advice:
     """Explanation of a run that ended.

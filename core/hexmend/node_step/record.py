@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from hexmend.aliases import reads_old_names
 from hexmend.energy import ObjectiveNorm
 
 
@@ -47,6 +48,7 @@ class Pull(NamedTuple):
     weight: float | None
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class NodeStep:
     """The step of one node by a method.

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hexmend.aliases import reads_old_names
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
@@ -15,6 +16,7 @@ from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS
 
 
+@reads_old_names
 class Sweep(Iterator[NodeStep]):
     """Iterator that moves one free node after the other, in the order in which `LocalDescent` visits them.
 

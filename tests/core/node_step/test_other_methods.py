@@ -30,7 +30,7 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
     for node in np.flatnonzero(mesh.free)[::5].tolist():
         step = explain(mesh, smoother, node)
         np.testing.assert_array_equal(step.after, step_of_all.points[node])
-        assert step.whole
+        assert step.is_global
         assert step.delta == step_of_all.diagnostics["delta"]
         assert (step.alpha, step.cuts) == (step_of_all.diagnostics["step_length"], step_of_all.diagnostics["cuts"])
         assert step.shift == step_of_all.diagnostics["shift"]

@@ -54,7 +54,7 @@ def release_from_surface(
     for step in islice(optimiser.return_to_band(max_deviation), 0, None, config.programs):
         yield step.step(infeasible=True)
     envelope.flips_allowed = False
-    flipped = envelope.sliding.turned(envelope.sliding.points, optimiser.points).size > 0
+    flipped = envelope.sliding.flipped_quads(envelope.sliding.points, optimiser.points).size > 0
     outside = envelope.largest_deviation(optimiser.points) > max_deviation * (1 + config.band_rounding)
     least_on_surface = on_surface.optimiser.corners.least_of_all
     if flipped or outside or corners.least_of_all < least_on_surface:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend.cli.arguments import checks
 from hexmend.cli.main import main
+from hexmend.run import memory
 
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
@@ -36,7 +36,7 @@ def test_what_cannot_be_filmed_is_said_before_the_run(mesh_file, tmp_path, monke
 
 
 def test_a_film_for_which_memory_will_not_suffice_is_refused(mesh_file, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(checks, "available", lambda: 1000)
+    monkeypatch.setattr(memory, "available", lambda: 1000)
     assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.gif"), "--method", "laplacian"]) == 3
     assert capsys.readouterr().err.startswith("hexmend: Laplacian on ")
     assert not (tmp_path / "run.gif").exists()

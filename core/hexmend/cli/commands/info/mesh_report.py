@@ -85,7 +85,7 @@ def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:
         print("The doctor finds no problems. Use hexmend smooth to improve the shape of hexes.")
     for finding in findings:
         print(f"note: {finding.message} {finding.remedy}".rstrip())
-        if args.doctor and finding.places():
-            print(f"      {finding.places(_MAX_PLACES)}")
+        if args.doctor and finding.location_text():
+            print(f"      {finding.location_text(_MAX_PLACES)}")
         if args.doctor and finding.mendable:
             print(f"      hexmend repair {args.mesh} -o OUT --only {finding.kind}")

@@ -26,7 +26,7 @@ def read(path: Path) -> Mesh:
         raise FileError(
             path, "is a CGNS file of the ADF kind", "pip install hexmend[app] reads it; or adf2hdf converts it."
         )
-    return to_mesh(path, hdf5.content_by("hexmend.io.formats.cgns.reader:content", path))
+    return to_mesh(path, hdf5.read_content("hexmend.io.formats.cgns.reader:content", path))
 
 
 def matches(head: bytes) -> bool:

@@ -89,7 +89,7 @@ class ClassicReader:
         self.path = path
         self._length = os.path.getsize(path)
         with open(path, "rb") as file:
-            header = _Header(ByteCursor(path, file.read(_HEADER_SIZE), text=False))
+            header = _Header(ByteCursor(path, file.read(_HEADER_SIZE), is_text=False))
         records = header.count()
         dimensions = header.dimensions()
         self.attributes = header.attributes()
@@ -133,17 +133,17 @@ class _Header:
 
     def __init__(self, source: ByteCursor):
         self.source = source
-        version = source.take(4, "the header")[3]
+        version = source.read_bytes(4, "the header")[3]
         self.width = 8 if version == 5 else 4  # bytes of a count
         self.offset = 4 if version == 1 else 8  # bytes of an offset
 
     def count(self, width: int = 0) -> int:
         """Take a number, of the width of a count unless given."""
-        return int.from_bytes(self.source.take(width or self.width, "the header"), "big")
+        return int.from_bytes(self.source.read_bytes(width or self.width, "the header"), "big")
 
     def length(self, kind: int, each: int) -> int:
         """Take the number of entries of a list with the tag `kind`, of at least `each` bytes an entry."""
-        here = self.source.here
+        here = self.source.location
         tag, count = self.count(4), self.count()
         if tag not in (0, kind) or (tag == 0 and count) or count * each > len(self.source.data):
             raise self.source.error(f"the header's list at {here} has the kind {tag} and {count} entries")
@@ -151,8 +151,8 @@ class _Header:
 
     def padded(self, size: int) -> bytes:
         """Take bytes and their padding to 4."""
-        data = self.source.take(size, "the header")
-        self.source.take(-size % 4, "the header")
+        data = self.source.read_bytes(size, "the header")
+        self.source.read_bytes(-size % 4, "the header")
         return data
 
     def name(self) -> str:
@@ -161,7 +161,7 @@ class _Header:
 
     def type(self) -> np.dtype:
         """Take the type of values."""
-        here, number = self.source.here, self.count(4)
+        here, number = self.source.location, self.count(4)
         if number not in TYPES:
             raise self.source.error(f"values at {here} are of type {number}: expected 1 to 11")
         return TYPES[number]

@@ -88,7 +88,7 @@ class HDF5Store:
 
 
 class _StepView:
-    """One time step of a dataset, with the interface that `hdf5.values_of` reads."""
+    """One time step of a dataset, with the interface that `hdf5.read_dataset` reads."""
 
     def __init__(self, dataset: object, record: int):
         self.name, self.dtype = dataset.name, dataset.dtype

@@ -66,7 +66,7 @@ def read(path: Path) -> Mesh:
         elif not version:
             raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
         else:
-            raise source.error(f"{quoted(key)} was found where a section should begin, before {source.here}")
+            raise source.error(f"{quoted(key)} was found where a section should begin, before {source.location}")
     if not version:
         raise source.error("has no section $MeshFormat")
     if skipped:
@@ -90,12 +90,12 @@ def _read_format(source: ByteCursor) -> tuple[int, str]:
         )
     order = ""
     if file_type == "1":
-        one = source.take(4, "the number 1 that gives the byte order")
+        one = source.read_bytes(4, "the number 1 that gives the byte order")
         order = "<" if struct.unpack("<i", one) == (1,) else ">"
         if struct.unpack(f"{order}i", one) != (1,):
             raise source.error("the number 1 that gives the byte order has another value")
         source.text = False
-    if source.line() != "$EndMeshFormat":
+    if source.next_line() != "$EndMeshFormat":
         raise source.error("$MeshFormat ends without $EndMeshFormat")
     return int(version[0]), order
 

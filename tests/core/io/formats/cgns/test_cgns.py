@@ -5,7 +5,6 @@ import pytest
 
 from hexmend import io
 from hexmend.errors import FileError
-from hexmend.io.base.polyhedra import faces_from_cells
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
 from hexmend.mesh.second_order import MID_NODE_POSITIONS
 from hexmend.quality import summarise
@@ -123,9 +122,9 @@ def test_a_structured_zone_is_read_with_its_faces_and_results(tmp_path):
     low = mesh.points[mesh.hexes].min(axis=1)
     np.testing.assert_array_equal(mesh.hex_data["p"], low @ [1.0, 10.0, 100.0])
     assert {name: len(rows) for name, rows in mesh.side_sets.items()} == {"in": 12, "top": 6, "outlet": 1}
-    assert (faces_from_cells(mesh, "in")[..., 0] == 0).all()
-    assert (faces_from_cells(mesh, "top")[..., 2] == 4).all()
-    np.testing.assert_array_equal(faces_from_cells(mesh, "outlet")[0].mean(axis=0), [2, 1.5, 0.5])
+    assert (faces_of(mesh, "in")[..., 0] == 0).all()
+    assert (faces_of(mesh, "top")[..., 2] == 4).all()
+    np.testing.assert_array_equal(faces_of(mesh, "outlet")[0].mean(axis=0), [2, 1.5, 0.5])
     assert mesh.points[mesh.node_sets["edge"]][:, :2].max() == 0
     assert len(points_of_vtk(tmp_path / "s.cgns")) == 24
 
@@ -136,7 +135,7 @@ def test_a_left_handed_zone_is_reoriented(tmp_path):
         condition(zone, "first k", "PointRange", [[1, 3], [1, 3], [1, 1]])
     mesh = io.read(tmp_path / "l.cgns")
     assert summarise(mesh).inverted == 0
-    assert (faces_from_cells(mesh, "first k")[..., 2] == 2).all()
+    assert (faces_of(mesh, "first k")[..., 2] == 2).all()
 
 
 def test_structured_zones_are_merged_at_their_interfaces(tmp_path):
@@ -159,7 +158,7 @@ def test_structured_zones_are_merged_at_their_interfaces(tmp_path):
     assert len(np.unique(mesh.points, axis=0)) == mesh.n_nodes
     assert summarise(mesh).inverted == 0
     assert {name: len(members) for name, members in mesh.hex_sets.items()} == {"one": 24, "two": 24}
-    assert (faces_from_cells(mesh, "end")[..., 0] == 4).all()
+    assert (faces_of(mesh, "end")[..., 0] == 4).all()
     assert "joined at 20 nodes" in " ".join(mesh.notes)
 
 
