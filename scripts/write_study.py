@@ -39,7 +39,7 @@ def main() -> None:
         preface.strip() + "\n",
         "## Claims\n\n" + "\n".join(claims) + "\n",
         OWN + own,
-        "## Beside the thesis, cell by cell\n" + chapter["## Beside the thesis, cell by cell\n"],
+        "## Compared with the thesis, cell by cell\n" + chapter["## Compared with the thesis, cell by cell\n"],
         '## The "-1" of (B.20)\n' + ABOUT_OFFSETS + "\n" + table + "\n",
         "## Figures\n" + chapter["## Figures\n"],
         "## Tables\n" + ABOUT_OBJECTIVE + chapter["## Tables\n"],

@@ -74,7 +74,6 @@ MESSAGES = {
     "go(es)? on with": "continue with",
     "put back": "projected, restored",
     "surgery": "removal",
-    "tangled": "inverted",
     "told": "reported, written",
     "the same again": "a second one",
 }
@@ -196,7 +195,7 @@ def test_words_that_are_out_are_in_no(package):
     ('def f():\n    """What an iterate is kept for."""', 1),
     ('def f():\n    """Return what is kept."""\n    x = "goes on with the next one"', 1),
     ('x = {"told": 1}', 0),
-    ('raise ValueError(f"{n} hexes are tangled, it seems")', 1),
+    ('raise ValueError(f"{n} hexes are told to move")', 1),
 ])  # fmt: skip
 def test_a_word_that_is_out_is_seen_in_python(source, count):
     assert len(list(faults_of_python(source))) == count
@@ -206,7 +205,7 @@ def test_a_word_that_is_out_is_seen_in_python(source, count):
     ("double put_back(int way);", 2),
     ("// What a node is.\n// What follows.\nint x;", 1),
     ("// Where corners are one node, the first counts.\nint x;", 0),
-    ('throw std::invalid_argument("hexes are tangled here");', 1),
+    ('throw std::invalid_argument("hexes are told to move");', 1),
     ('int x = index("told");  // way', 0),
 ])  # fmt: skip
 def test_a_word_that_is_out_is_seen_in_cpp(source, count):

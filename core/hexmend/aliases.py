@@ -117,7 +117,7 @@ PARAMETERS: dict[str, dict[str, str]] = {
 }
 
 ATTRIBUTES: dict[str, dict[str, str]] = {
-    "Advice": {"loose": "unlocked", "nothing": "no_suggestion"},
+    "Advice": {"held": "locked_below", "loose": "unlocked", "nothing": "no_suggestion", "why": "reason"},
     "Format": {"cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches"},
     "Iteration": {"figures": "quality", "notes": "diagnostics"},
     "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},

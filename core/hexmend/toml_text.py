@@ -24,13 +24,13 @@ _STRING_OR_COMMENT = re.compile(
 _DEEP_KEY = re.compile(rf'(?:\.[ \t]*+(?:[\w-]++|"")?[ \t]*+){{{MAX_KEY_PARTS + 1}}}')
 
 
-def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str, Any]:
+def parse_toml(text: str, label: str, largest: int = MAX_CHARACTERS) -> dict[str, Any]:
     """Parse a TOML text.
 
     Parameters
     ----------
     text : str
-    what : str
+    label : str
         Name of the expected content in messages, such as "a recipe".
     largest : int
         Largest number of characters.
@@ -54,21 +54,21 @@ def parse_toml(text: str, what: str, largest: int = MAX_CHARACTERS) -> dict[str,
     """
     import tomllib
 
-    _check_size(text, what, largest)
+    _check_size(text, label, largest)
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise ParameterError(f"is nested too deeply to be {what}") from None
+        raise ParameterError(f"is nested too deeply to be {label}") from None
     except ValueError as error:  # tomllib's error, or that of a number with thousands of digits
         lines = text.splitlines() or [""]
         end = f"at line {len(lines)}, column {len(lines[-1]) + 1}, the end"
-        said = str(error).replace("at end of document", end)
-        raise ParameterError(f"is not TOML: {said[:1].lower()}{said[1:]}") from None
+        message = str(error).replace("at end of document", end)
+        raise ParameterError(f"is not TOML: {message[:1].lower()}{message[1:]}") from None
 
 
-def _check_size(text: str, what: str, largest: int) -> None:
+def _check_size(text: str, label: str, largest: int) -> None:
     if len(text) > largest:
-        raise ParameterError(f"has {len(text):,} letters: expected {what}, of {largest:,} at most")
+        raise ParameterError(f"has {len(text):,} letters: expected {label}, of {largest:,} at most")
     # Strings may contain anything and may be keys: each is replaced by an empty one with as many lines.
     bare = _STRING_OR_COMMENT.sub(lambda found: '""' + "\n" * found[0].count("\n"), text)
     if deep := _DEEP_KEY.search(bare):

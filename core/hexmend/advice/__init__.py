@@ -3,7 +3,7 @@
 >>> from hexmend.gallery import make
 >>> from hexmend.run import StoppingCriteria, smooth
 >>> advice = advise(smooth(make("bridge-sharp", size=864), "laplacian", StoppingCriteria(keep_last=True)))
->>> print(advice.why)
+>>> print(advice.reason)
 Converged: in the last of 48 iterations no node moved further than 0.0001 mean edge lengths.
 >>> print(advice.left)
 12 of 864 hexes are inverted. None was at the start.

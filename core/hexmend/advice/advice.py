@@ -22,7 +22,7 @@ class Advice:
 
     Parameters
     ----------
-    why : str
+    reason : str
         Reason of the end, as sentences, with the iteration that was kept if it is not the last.
     left : str
         State of the mesh after the run, as sentences.
@@ -32,7 +32,7 @@ class Advice:
         Numbers, from 0, of the inverted hexes that no move of free nodes can repair, and of the other inverted ones.
     surface : str
         Change of the boundary, as a sentence; empty if no method let it slide.
-    limiting, held : (k,) int64
+    limiting, locked_below : (k,) int64
         Hexes whose corners prevent the least scaled Jacobian from rising further, and hexes with a lower corner whose
         nodes are all fixed.
     suggestions : tuple of Suggestion
@@ -41,14 +41,14 @@ class Advice:
         Text for the place of suggestions if there is none; empty after a run without an iteration.
     """
 
-    why: str
+    reason: str
     left: str
     worse: str
     locked: np.ndarray
     unlocked: np.ndarray
     surface: str
     limiting: np.ndarray
-    held: np.ndarray
+    locked_below: np.ndarray
     suggestions: tuple[Suggestion, ...]
     no_suggestion: str
 
@@ -73,23 +73,23 @@ def advise(result: Result) -> Advice:
     fallen = describe_regressions(result.before, result.after)
     limits, none = result.limits, np.empty(0, dtype=np.int64)
     return Advice(
-        why=_why(now),
+        reason=_reason(now),
         left=_left(now),
         worse=fallen,
         locked=now.locked,
         unlocked=now.unlocked,
         surface="" if result.surface is None else result.surface.sentence,
         limiting=none if limits is None else np.unique(limits.hexes),
-        held=none if limits is None else limits.locked[~now.figures.inverted[limits.locked]],
+        locked_below=none if limits is None else limits.locked[~now.quality.inverted[limits.locked]],
         suggestions=tuple(suggestions),
         no_suggestion=no_suggestion,
     )
 
 
-def _why(now: Situation) -> str:
+def _reason(now: Situation) -> str:
     several = len({stage.stage for stage in now.result.stages}) > 1
-    why = f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
-    return why if now.result.kept == now.result.iterations else f"{why} {kept_message(now.result.kept)}"
+    reason = f"The last stage, {now.smoother.title}: {_end(now)}" if several else _end(now)
+    return reason if now.result.kept == now.result.iterations else f"{reason} {kept_message(now.result.kept)}"
 
 
 def _end(now: Situation) -> str:
@@ -143,21 +143,21 @@ def _locked(now: Situation) -> str:
     many, one = now.locked.size, now.locked.size == 1
     every = many == now.result.after.inverted
     which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
-    said = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
+    text = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
     if now.result.surface is None:
         freed = now.freed
         if not freed:
-            said += f", and sliding alone does not free {'it' if one else 'them'}."
+            text += f", and sliding alone does not free {'it' if one else 'them'}."
             remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide:"
             remedy += " it also moves nodes off the surface within the tolerance."
         else:
-            said += ", and no method moves these unless the boundary slides: "
+            text += ", and no method moves these unless the boundary slides: "
             rest = f", {many - freed:,} cannot" if freed < many else ""
-            said += f"then {freed:,} can be freed by sliding alone{rest}."
+            text += f"then {freed:,} can be freed by sliding alone{rest}."
             remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
     else:
-        said += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
+        text += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
     if not now.pinned_nodes(now.locked).size:
-        said += remedy
-    return said
+        text += remedy
+    return text

@@ -1,4 +1,4 @@
-"""What to try next: one rule for each thing that helps, the most urgent first.
+"""Rules for suggestions: one for each remedy, the most urgent first.
 
 Each rule says nothing unless what it suggests betters the mesh; the tests follow every suggestion on gallery meshes.
 """
@@ -107,7 +107,7 @@ def continue_run(now: Situation) -> Suggestion | None:
         "energy": "nodes moved down the energy",
         "q_norm": "the quality rose",
     }
-    text = f"Run the same again{more}: it continues from here, and {gained[gain]} up to its last iterations.{keeping}"
+    text = f"Run it once more{more}: it continues from here, and {gained[gain]} up to its last iterations.{keeping}"
     return Suggestion("Continue", text, gain, now.smoother, stop)
 
 
@@ -151,8 +151,7 @@ def tighten_tolerance(now: Situation) -> Suggestion | None:
     stop, keeping = with_last_kept(now, replace(now.stop, tolerance=usual))
     return Suggestion(
         "Tighter tolerance",
-        f"Run the same again with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained."
-        f"{keeping}",
+        f"Run it once more with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained.{keeping}",
         now.aim,
         now.smoother,
         stop,

@@ -49,10 +49,10 @@ class Situation:
         self.mesh: Mesh = result.mesh
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
-        self.figures: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
-        held = locked(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.figures.inverted)
-        self.locked = np.flatnonzero(held)
-        self.unlocked = np.flatnonzero(self.figures.inverted & ~held)
+        self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
+        is_locked = locked(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
+        self.locked = np.flatnonzero(is_locked)
+        self.unlocked = np.flatnonzero(self.quality.inverted & ~is_locked)
 
     @property
     def cut_short(self) -> bool:
@@ -77,7 +77,7 @@ class Situation:
     @property
     def aim(self) -> str:
         """Name of the figure that an optimiser improves; q_norm if the objective is infinite."""
-        if objective(self.figures, *self.smoother.power) is None:
+        if objective(self.quality, *self.smoother.power) is None:
             return "q_norm"
         return "objective" if self.smoother.power == SQUARES else "energy"
 
@@ -99,7 +99,7 @@ class Situation:
     @cached_property
     def worst_can_move(self) -> bool:
         """True if the worst hex that is not inverted has a free node."""
-        q = np.where(self.figures.inverted, np.inf, self.figures.q)
+        q = np.where(self.quality.inverted, np.inf, self.quality.q)
         return bool(self.mesh.free[self.mesh.hexes[int(q.argmin())]].any())
 
     @cached_property

@@ -27,10 +27,10 @@ def sliding_boundary(mesh: Mesh, degrees: float = FEATURE_ANGLE) -> Boundary:
     """
     original = mesh.with_points(mesh.surface_points)
     boundary = boundary_of(original, degrees)
-    bends = bend_corners(original, boundary)
-    if not bends.size:
+    corners = bend_corners(original, boundary)
+    if not corners.size:
         return boundary
-    return boundary_of(original, degrees, corners=np.concatenate([marked_corners(mesh), bends]))
+    return boundary_of(original, degrees, corners=np.concatenate([marked_corners(mesh), corners]))
 
 
 def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:

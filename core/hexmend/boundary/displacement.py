@@ -195,11 +195,11 @@ class Displacement:
     @cached_property
     def off_surface(self) -> np.ndarray:
         """Distance of boundary nodes from the reference boundary, (n,) float64, in the mesh's unit; 0 inside."""
-        off = np.zeros(len(self.points))
+        distance = np.zeros(len(self.points))
         moved = np.flatnonzero(self.mesh.topology.boundary & (self.distances > 0))
         if moved.size:
-            off[moved] = self.before.skin(self.mesh).distances(self.points[moved])
-        return off
+            distance[moved] = self.before.skin(self.mesh).distances(self.points[moved])
+        return distance
 
     @cached_property
     def unit(self) -> float:

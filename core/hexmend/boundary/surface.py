@@ -58,9 +58,9 @@ class Surface:
             np.concatenate([triangles, segments[:, [0, 1, 1]]]),
             np.concatenate([patch, self.n_patches + boundary.curve_of_segment]),
         )
-        plain = triangle_normals(vertices, triangles), segment_tangents(points, segments)
+        flat = triangle_normals(vertices, triangles), segment_tangents(points, segments)
         smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
-        self._plain, self._smooth = (np.concatenate(both)[self.trees.order] for both in (plain, smooth))
+        self._flat, self._smooth = (np.concatenate(both)[self.trees.order] for both in (flat, smooth))
         self._group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])[self.trees.order]
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
@@ -101,12 +101,12 @@ class Surface:
         (k, 3) float64
             Unit vectors: outward normals, tangents in either direction; 0 on a degenerate triangle or segment.
         """
-        plain = self._plain[found.pieces]
+        flat = self._flat[found.pieces]
         if not smooth:
-            return plain
+            return flat
         mean = np.einsum("ki,kij->kj", found.weights, self._smooth[found.pieces])
         size = np.linalg.norm(mean, axis=1, keepdims=True)
-        return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), plain)
+        return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), flat)
 
     def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> Surface:
         """Return this surface for the nodes of another boundary, which slide on its nearest curves and patches.

@@ -39,13 +39,13 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_AN
         return freed
     sliding = SlidingBoundary(mesh, degrees)
     tetrahedra = mesh.hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
-    held = sliding.mesh.fixed[tetrahedra].all(axis=2)
+    blocked = sliding.mesh.fixed[tetrahedra].all(axis=2)
     for nodes, most in _flat_parts(mesh, sliding.boundary):
         on = np.zeros(mesh.n_nodes, dtype=bool)
         on[nodes] = True
-        held |= on[tetrahedra].sum(axis=2) > most
+        blocked |= on[tetrahedra].sum(axis=2) > most
     inverted = ~(corner_determinants(mesh.points, mesh.hexes, where) > 0)
-    freed[where] = ~(held & inverted).any(axis=1)
+    freed[where] = ~(blocked & inverted).any(axis=1)
     return freed
 
 

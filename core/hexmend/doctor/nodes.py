@@ -136,5 +136,5 @@ def _merge_targets(mesh: Mesh) -> np.ndarray:
     np.minimum.at(first, group, np.arange(n))
     target = first[group]
     broken = has_repeated_node(target[mesh.hexes]) & ~has_repeated_node(mesh.hexes)
-    apart = np.isin(target, target[mesh.hexes[broken]])
-    return np.where(apart, np.arange(n), target)
+    excluded = np.isin(target, target[mesh.hexes[broken]])
+    return np.where(excluded, np.arange(n), target)

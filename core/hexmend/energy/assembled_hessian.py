@@ -44,7 +44,7 @@ class AssembledHessian(SymmetricOperator):
     Parameters
     ----------
     couplings : BlockSparsity
-    off : (blocks + 1, 9) float32 or float64
+    off_diagonal : (blocks + 1, 9) float32 or float64
         Blocks above the diagonal, by rows; the last row is unused (see `hexmend.kernels.conjugate_gradients`).
     diagonal : (k, 6) of the same
         Diagonal block of each slot: xx xy xz yy yz zz.
@@ -52,15 +52,15 @@ class AssembledHessian(SymmetricOperator):
         Scale: the matrix is 2^exponent times the blocks.
     """
 
-    def __init__(self, couplings: BlockSparsity, off: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
+    def __init__(self, couplings: BlockSparsity, off_diagonal: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
         super().__init__(3 * couplings.nodes.size)
-        self.couplings, self.off, self.diagonal, self.exponent = couplings, off, diagonal, exponent
+        self.couplings, self.off_diagonal, self.diagonal, self.exponent = couplings, off_diagonal, diagonal, exponent
         self.order = couplings.order
-        self._work = np.empty(64 * couplings.nodes.size + 16, off.dtype)
+        self._work = np.empty(64 * couplings.nodes.size + 16, off_diagonal.dtype)
 
     def reset(self) -> AssembledHessian:
         """Zero the storage for reuse; the old matrix becomes invalid."""
-        self.off.fill(0)
+        self.off_diagonal.fill(0)
         self.diagonal.fill(0)
         self.exponent = 0
         return self
@@ -68,8 +68,8 @@ class AssembledHessian(SymmetricOperator):
     @classmethod
     def zero(cls, couplings: BlockSparsity, dtype: type) -> AssembledHessian:
         """Make a zero matrix of a sparsity pattern."""
-        off = np.zeros((couplings.blocks + 1, 9), dtype)
-        return cls(couplings, off, np.zeros((couplings.nodes.size, 6), dtype))
+        off_diagonal = np.zeros((couplings.blocks + 1, 9), dtype)
+        return cls(couplings, off_diagonal, np.zeros((couplings.nodes.size, 6), dtype))
 
     def underflows(self) -> bool:
         """Return True if the blocks are so small that single precision loses digits of them."""
@@ -78,18 +78,20 @@ class AssembledHessian(SymmetricOperator):
     def normalised(self, dtype: type) -> AssembledHessian:
         """Return the matrix in another precision, scaled so that its largest diagonal entry lies in [1/2, 1)."""
         exponent = int(np.frexp(np.abs(self.diagonal).max(initial=0.0))[1])
-        off, diagonal = (np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off, self.diagonal))
-        return AssembledHessian(self.couplings, off, diagonal, self.exponent + exponent)
+        off_diagonal, diagonal = (
+            np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off_diagonal, self.diagonal)
+        )
+        return AssembledHessian(self.couplings, off_diagonal, diagonal, self.exponent + exponent)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         x = v.reshape(-1, 3)
         y = np.empty_like(x)
-        kernels.product(self.couplings.pattern, self.off, self.diagonal, self.order, x, y)
+        kernels.product(self.couplings.pattern, self.off_diagonal, self.diagonal, self.order, x, y)
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
     def _slotted(self, v: np.ndarray) -> np.ndarray:
         """Rearrange v (3 k,) by slots, (k, 4), in the matrix's precision; the fourth column is 0."""
-        x = np.zeros((self.order.size, 4), self.off.dtype)
+        x = np.zeros((self.order.size, 4), self.off_diagonal.dtype)
         x[self.order, :3] = v.reshape(-1, 3)
         return x
 
@@ -130,7 +132,7 @@ class AssembledHessian(SymmetricOperator):
         b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
         x = np.empty_like(b)
         count, end = kernels.solve(
-            self.couplings.pattern, self.off, self.diagonal, damping, b, tolerance, iterations, x, self._work
+            self.couplings.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
@@ -147,9 +149,9 @@ class AssembledHessian(SymmetricOperator):
 
         start, columns = self.couplings.row_start, self.couplings.columns
         slots = np.arange(self.order.size)
-        rows, off = np.repeat(slots, np.diff(start)), self.off[:-1].reshape(-1, 3, 3)
+        rows, off_diagonal = np.repeat(slots, np.diff(start)), self.off_diagonal[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])
-        blocks = np.concatenate([unpack_symmetric(self.diagonal), off, off.transpose(0, 2, 1)])
+        blocks = np.concatenate([unpack_symmetric(self.diagonal), off_diagonal, off_diagonal.transpose(0, 2, 1)])
         free = np.argsort(self.order)  # the number of each slot's node among the free nodes
         row = 3 * free[i][:, None, None] + np.arange(3)[:, None]
         column = 3 * free[j][:, None, None] + np.arange(3)

@@ -38,11 +38,11 @@ class SymmetricOperator(ABC):
     def _product(self, v: np.ndarray) -> np.ndarray:
         """Return the product with a checked vector v (size,): float64, contiguous."""
 
-    def _vector(self, v: object, what: str = "the vector") -> np.ndarray:
+    def _vector(self, v: object, label: str = "the vector") -> np.ndarray:
         """Convert a vector to contiguous (size,) float64; raises `MeshError` for another shape or type."""
-        array = as_reals(v, what)
+        array = as_reals(v, label)
         if array.shape != self.shape[1:]:
-            raise MeshError(f"{what} has shape {array.shape}: expected {self.shape[1:]}")
+            raise MeshError(f"{label} has shape {array.shape}: expected {self.shape[1:]}")
         return array
 
     def __matmul__(self, v: np.ndarray) -> np.ndarray:

@@ -132,7 +132,7 @@ class MeshEnergy:
         return dot(step, gradient)
 
     def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
-        """Which nodes may not go from x (n, 3) to `there`, whatever their energy, (n,) bool; None where all may."""
+        """Return True for nodes that may not move from x (n, 3) to `there` (n, 3), (n,) bool; None if all may."""
         return None
 
     @property
@@ -202,7 +202,7 @@ class Hessian(SymmetricOperator):
         AssembledHessian
         """
         couplings = self.energy.couplings
-        fits = reuse is not None and reuse.couplings is couplings and reuse.off.dtype == dtype
+        fits = reuse is not None and reuse.couplings is couplings and reuse.off_diagonal.dtype == dtype
         matrix = reuse.reset() if fits else AssembledHessian.zero(couplings, dtype)
         self._assemble(matrix)
         if dtype == np.float32 and matrix.underflows():
@@ -214,5 +214,7 @@ class Hessian(SymmetricOperator):
     def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
         energy, shares = self.energy, self.energy.couplings.shares(threads())
-        assembly.assemble(self.x, self.delta, energy.power, energy.left_out, shares, matrix.off, matrix.diagonal)
+        assembly.assemble(
+            self.x, self.delta, energy.power, energy.left_out, shares, matrix.off_diagonal, matrix.diagonal
+        )
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+_SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class ObjectiveNorm(NamedTuple):
@@ -47,7 +47,7 @@ class ObjectiveNorm(NamedTuple):
         ('Σ η²', 'Σ η⁴, offset 0', 'Σ η^1.5')
         """
         number = f"{self.p:g}"
-        power = "" if number == "1" else number.translate(_RAISED) if number.isdigit() else f"^{number}"
+        power = "" if number == "1" else number.translate(_SUPERSCRIPTS) if number.isdigit() else f"^{number}"
         return f"Σ η{power}" + ("" if self.offset == 1 else f", offset {self.offset:g}")
 
 

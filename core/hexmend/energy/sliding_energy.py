@@ -65,9 +65,9 @@ class SlidingEnergy(MeshEnergy):
         nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
         if not nodes.size:
             return None
-        strayed = np.zeros(len(x), dtype=bool)
-        strayed[nodes] = True
-        return strayed
+        infeasible = np.zeros(len(x), dtype=bool)
+        infeasible[nodes] = True
+        return infeasible
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)
@@ -110,11 +110,11 @@ class SlidingHessian(Hessian):
         energy = self.energy
         rows, along = energy._rows, energy.projectors(self.x)
         v = v.reshape(-1, 3).copy()
-        off = v[rows]
-        v[rows] = np.einsum("kij,kj->ki", along, off)
-        off -= v[rows]
+        normal = v[rows]
+        v[rows] = np.einsum("kij,kj->ki", along, normal)
+        normal -= v[rows]
         product = super()._product(v.ravel()).reshape(-1, 3)
-        product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + off
+        product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + normal
         return product.ravel()
 
     def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
@@ -125,8 +125,8 @@ class SlidingHessian(Hessian):
         of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()
         of_slot[slots] = along
         at, row, column = energy.sliding_blocks
-        blocks = of_slot[row] @ matrix.off[at].reshape(-1, 3, 3) @ of_slot[column]
-        matrix.off[at] = blocks.reshape(-1, 9)
+        blocks = of_slot[row] @ matrix.off_diagonal[at].reshape(-1, 3, 3) @ of_slot[column]
+        matrix.off_diagonal[at] = blocks.reshape(-1, 9)
         own = along @ unpack_symmetric(matrix.diagonal[slots]) @ along
         size = np.abs(np.trace(own, axis1=1, axis2=2) / np.maximum(np.trace(along, axis1=1, axis2=2), 1))
         size = np.where(size > 0, size, 1)[:, None, None]  # a scale between the extreme eigenvalues

@@ -63,13 +63,13 @@ def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
-def as_set(values: object, what: str, count: int) -> np.ndarray:
+def as_set(values: object, label: str, count: int) -> np.ndarray:
     """Convert a named set to an array of integers (k,), each from 0 to `count` - 1.
 
     Parameters
     ----------
     values : (k,) array-like of whole numbers
-    what : str
+    label : str
         Name of the set in messages.
     count : int
         Number of items of which the set is a part.
@@ -83,20 +83,20 @@ def as_set(values: object, what: str, count: int) -> np.ndarray:
     MeshError
         For another shape or type, and naming the first member that does not exist.
     """
-    array = as_integers(values, what, ("member",))
+    array = as_integers(values, label, ("member",))
     if array.ndim != 1:
-        raise MeshError(f"{what} has shape {array.shape}: expected (k,)")
-    _check_members(array, what, ("member",), (count,))
+        raise MeshError(f"{label} has shape {array.shape}: expected (k,)")
+    _check_members(array, label, ("member",), (count,))
     return array
 
 
-def as_side_set(values: object, what: str, hexes: int) -> np.ndarray:
+def as_side_set(values: object, label: str, hexes: int) -> np.ndarray:
     """Convert a named set of faces to an array of integers: in each row a hex and one of its six faces.
 
     Parameters
     ----------
     values : (k, 2) array-like of whole numbers
-    what : str
+    label : str
         Name of the set in messages.
     hexes : int
         Number of hexes of the mesh.
@@ -110,32 +110,32 @@ def as_side_set(values: object, what: str, hexes: int) -> np.ndarray:
     MeshError
         For another shape or type, and naming the first side that does not exist.
     """
-    array = as_integers(values, what, ("side", "column"))
+    array = as_integers(values, label, ("side", "column"))
     if not array.size:
         return array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
-        raise MeshError(f"{what} has shape {array.shape}: expected (k, 2), a hex and one of its faces in each row")
-    _check_members(array, what, ("side", "column"), (hexes, 6))
+        raise MeshError(f"{label} has shape {array.shape}: expected (k, 2), a hex and one of its faces in each row")
+    _check_members(array, label, ("side", "column"), (hexes, 6))
     return array
 
 
-def _check_members(array: np.ndarray, what: str, places: tuple[str, ...], counts: tuple[int, ...]) -> None:
+def _check_members(array: np.ndarray, label: str, places: tuple[str, ...], counts: tuple[int, ...]) -> None:
     for column, count in enumerate(counts):
         numbers = array if array.ndim == 1 else array[:, column]
         if numbers.size and (numbers.min() < 0 or numbers.max() >= count):
             at = int(np.flatnonzero((numbers < 0) | (numbers >= count))[0])
             raise MeshError(
-                f"{what} has {numbers[at]} at {location(places, (at, column))}: expected numbers from 0 to {count - 1}"
+                f"{label} has {numbers[at]} at {location(places, (at, column))}: expected numbers from 0 to {count - 1}"
             )
 
 
-def as_rows(values: object, what: str, count: int) -> np.ndarray:
+def as_rows(values: object, label: str, count: int) -> np.ndarray:
     """Convert data to an array of `count` rows; raises `MeshError` for another number of rows."""
-    array = as_array(values, what)
+    array = as_array(values, label)
     if array.ndim == 0:
-        raise MeshError(f"{what} is a single value: expected {count} rows")
+        raise MeshError(f"{label} is a single value: expected {count} rows")
     if len(array) != count:
-        raise MeshError(f"{what} has {len(array)} rows: expected {count}")
+        raise MeshError(f"{label} has {len(array)} rows: expected {count}")
     return array
 
 
@@ -190,16 +190,16 @@ def _cells(value: object, nodes: int, hexes: int) -> tuple[Cells, ...]:
     return tuple(check_cells(cells, nodes) for cells in value)
 
 
-def _arrays(value: object, what: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
+def _arrays(value: object, label: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
     """Check named arrays by a function of the array, its name in messages and a count; they become immutable."""
     if not isinstance(value, Mapping):
-        raise MeshError(f"{what}: found {type(value).__name__}, expected a mapping of names to arrays")
-    return {name: as_immutable(check(array, f"{what} {name!r}", count)) for name, array in value.items()}
+        raise MeshError(f"{label}: found {type(value).__name__}, expected a mapping of names to arrays")
+    return {name: as_immutable(check(array, f"{label} {name!r}", count)) for name, array in value.items()}
 
 
-def _table(what: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
+def _table(label: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
     """Make a check of named arrays of the nodes or of the hexes."""
-    return lambda value, nodes, hexes: _arrays(value, what, nodes if of_nodes else hexes, check)
+    return lambda value, nodes, hexes: _arrays(value, label, nodes if of_nodes else hexes, check)
 
 
 _CHECKS: dict[str, Callable[..., object]] = {

@@ -21,12 +21,14 @@ MAX_ITEMS = MAX_NODES
 
 
 @contextmanager
-def overflow_as_mesh_error(what: str) -> Iterator[None]:
+def overflow_as_mesh_error(label: str) -> Iterator[None]:
     """Turn a kernel's `OverflowError` about too many items into a `MeshError` that names them."""
     try:
         yield
     except OverflowError as error:
-        raise MeshError(f"the mesh has too many {what}, whose numbers have 32 bits: {error}; divide the mesh") from None
+        raise MeshError(
+            f"the mesh has too many {label}, whose numbers have 32 bits: {error}; divide the mesh"
+        ) from None
 
 
 def check_size(points: np.ndarray) -> None:

@@ -15,21 +15,21 @@ from hexmend.mesh.size_limits import MAX_HEXES, MAX_NODES
 _known_ranges: dict[int, tuple[weakref.ref, int, int]] = {}
 
 
-def as_array(values: object, what: str) -> np.ndarray:
+def as_array(values: object, label: str) -> np.ndarray:
     """Convert values to an array of any type; raises `MeshError` if that fails, as for rows of different lengths."""
     try:
         return np.asarray(values)
     except (TypeError, ValueError, OverflowError) as error:
-        raise MeshError(f"{what} cannot be made an array ({error}): expected rows of numbers of one length") from None
+        raise MeshError(f"{label} cannot be made an array ({error}): expected rows of numbers of one length") from None
 
 
-def as_reals(values: object, what: str) -> np.ndarray:
+def as_reals(values: object, label: str) -> np.ndarray:
     """Convert values to contiguous float64; an array that is that already is returned itself.
 
     Parameters
     ----------
     values : array-like of real numbers
-    what : str
+    label : str
         Name of the values in messages.
 
     Returns
@@ -41,21 +41,21 @@ def as_reals(values: object, what: str) -> np.ndarray:
     MeshError
         For booleans, complex numbers, text and objects.
     """
-    array = as_array(values, what)
+    array = as_array(values, label)
     if not array.size:
         return np.zeros(array.shape)
     if array.dtype.kind not in "iuf":
-        raise MeshError(f"{what} are of type {array.dtype}: expected real numbers, such as float64")
+        raise MeshError(f"{label} are of type {array.dtype}: expected real numbers, such as float64")
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def as_integers(values: object, what: str, places: tuple[str, ...]) -> np.ndarray:
+def as_integers(values: object, label: str, places: tuple[str, ...]) -> np.ndarray:
     """Convert values to an array of integers; real numbers are accepted if all are whole.
 
     Parameters
     ----------
     values : array-like
-    what : str
+    label : str
         Name of the values in messages.
     places : tuple of str
         Names of their rows and columns in messages, such as ("hex", "corner").
@@ -69,18 +69,18 @@ def as_integers(values: object, what: str, places: tuple[str, ...]) -> np.ndarra
     MeshError
         For booleans, complex numbers, text and objects, and naming the first number that is not whole.
     """
-    array = as_array(values, what)
+    array = as_array(values, label)
     if array.dtype.kind in "iu":
         return array
     if not array.size:
         return np.zeros(array.shape, np.int64)
     if array.dtype.kind != "f":
-        raise MeshError(f"{what} are of type {array.dtype}: expected whole numbers, such as int32")
+        raise MeshError(f"{label} are of type {array.dtype}: expected whole numbers, such as int32")
     array = array.astype(np.float64)
     wrong = ~(np.abs(array) < 2.0**53) | (array != np.trunc(array))  # nan and inf too
     if wrong.any():
         at = tuple(np.argwhere(wrong)[0].tolist())
-        raise MeshError(f"{location(places, at)} is {array[at]:g} in {what}: expected a whole number")
+        raise MeshError(f"{location(places, at)} is {array[at]:g} in {label}: expected a whole number")
     return array.astype(np.int64)
 
 
@@ -93,13 +93,13 @@ def location(names: tuple[str, ...], at: tuple[int, ...]) -> str:
     return ", ".join(f"{name} {i}" for name, i in zip(names, at, strict=False)) + " (counted from 0)"
 
 
-def as_bools(values: object, what: str, count: int) -> np.ndarray:
+def as_bools(values: object, label: str, count: int) -> np.ndarray:
     """Convert values to (count,) bool; zeros and ones are accepted.
 
     Parameters
     ----------
     values : (count,) array-like
-    what : str
+    label : str
         Name of the values in messages.
     count : int
 
@@ -112,25 +112,27 @@ def as_bools(values: object, what: str, count: int) -> np.ndarray:
     MeshError
         For another length and other values.
     """
-    array = as_array(values, what)
+    array = as_array(values, label)
     if array.shape != (count,):
-        raise MeshError(f"{what} has shape {array.shape}: expected ({count},)")
+        raise MeshError(f"{label} has shape {array.shape}: expected ({count},)")
     if array.dtype.kind != "b" and count:
         if array.dtype.kind not in "iuf":
-            raise MeshError(f"{what} is of type {array.dtype}: expected true or false")
+            raise MeshError(f"{label} is of type {array.dtype}: expected true or false")
         wrong = np.flatnonzero((array != 0) & (array != 1))
         if wrong.size:
-            raise MeshError(f"{what} is {array[wrong[0]]} at {location(('row',), (wrong[0],))}: expected true or false")
+            raise MeshError(
+                f"{label} is {array[wrong[0]]} at {location(('row',), (wrong[0],))}: expected true or false"
+            )
     return np.ascontiguousarray(array, dtype=bool)
 
 
-def as_points(points: object, what: str = "points") -> np.ndarray:
+def as_points(points: object, label: str = "points") -> np.ndarray:
     """Convert points to contiguous (n, 3) float64; an array that is that already is returned itself.
 
     Parameters
     ----------
     points : (n, 3) array-like of real numbers
-    what : str
+    label : str
         Name of the points in messages.
 
     Returns
@@ -142,22 +144,22 @@ def as_points(points: object, what: str = "points") -> np.ndarray:
     MeshError
         For another shape or type, and for more nodes than 32 bits can number.
     """
-    array = as_array(points, what)
+    array = as_array(points, label)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise MeshError(f"{what} have shape {array.shape}: expected (n, 3)")
+        raise MeshError(f"{label} have shape {array.shape}: expected (n, 3)")
     if len(array) > MAX_NODES:
         raise MeshError(
             f"there are {len(array):,} nodes: expected {MAX_NODES:,} at most, because their numbers have 32 bits; "
             "divide the mesh"
         )
-    return as_reals(array, what)
+    return as_reals(array, label)
 
 
-def points_like(points: object, shape: tuple[int, ...], what: str = "points") -> np.ndarray:
+def points_like(points: object, shape: tuple[int, ...], label: str = "points") -> np.ndarray:
     """Convert points as `as_points` does; raises `MeshError` if they do not have the given shape (n, 3)."""
-    array = as_points(points, what)
+    array = as_points(points, label)
     if array.shape != shape:
-        raise MeshError(f"{what} have shape {array.shape}: expected {shape}")
+        raise MeshError(f"{label} have shape {array.shape}: expected {shape}")
     return array
 
 
@@ -261,7 +263,7 @@ def _range(numbers: np.ndarray) -> tuple[int, int]:
     return lowest, highest
 
 
-def as_index(value: object, count: int, what: str) -> int:
+def as_index(value: object, count: int, label: str) -> int:
     """Convert the number of a node or hex to an int.
 
     Parameters
@@ -269,7 +271,7 @@ def as_index(value: object, count: int, what: str) -> int:
     value : int
     count : int
         Number of nodes or hexes.
-    what : str
+    label : str
         "node" or "hex", for messages.
 
     Raises
@@ -281,9 +283,9 @@ def as_index(value: object, count: int, what: str) -> int:
     try:
         found = operator.index(value)  # type: ignore[arg-type]
     except TypeError:
-        raise MeshError(f"{type(value).__name__} is no number of a {what}: {expected}") from None
+        raise MeshError(f"{type(value).__name__} is no number of a {label}: {expected}") from None
     if isinstance(value, bool | np.bool_) or not 0 <= found < count:
-        raise MeshError(f"there is no {what} {value}: {expected}")
+        raise MeshError(f"there is no {label} {value}: {expected}")
     return found
 
 

@@ -29,10 +29,10 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         The delta of the sweep, (3.2).
     """
     patch, before = Patch(mesh, points, node, smoother.power, delta), points[node].copy()
-    status, way, slope, fallback, shift, alpha, place, trials = local.recorded_step(
+    status, direction_of_step, slope, fallback, shift, alpha, place, trials = local.recorded_step(
         points, mesh.hexes, mesh.topology.node_corners[node], smoother.step_settings(delta)
     )
-    moved, searched, direction = status == local.MOVED, len(trials) > 0, np.array(way)
+    moved, searched, direction = status == local.MOVED, len(trials) > 0, np.array(direction_of_step)
     return NodeStep(
         method=smoother.name,
         node=node,

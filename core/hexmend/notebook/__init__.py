@@ -76,10 +76,10 @@ def _still(mesh: Mesh) -> tuple[bytes | None, str]:
 def _provided(name: str) -> Callable[..., Any]:
     from importlib.metadata import entry_points
 
-    why = "the viewer, which draws meshes, is not installed"
+    reason = "the viewer, which draws meshes, is not installed"
     for entry in entry_points(group="hexmend.pictures", name=name):
         try:
             return entry.load()
         except ImportError as error:  # the libraries that it draws with are an extra
-            why = f"{why} ({error})"
-    raise HexmendError(f'{why}: pip install "hexmend[app,notebook]"')
+            reason = f"{reason} ({error})"
+    raise HexmendError(f'{reason}: pip install "hexmend[app,notebook]"')

@@ -46,7 +46,7 @@ def minres(
         return x, 0
     last, now = np.zeros(right.size), right / beta  # Lanczos's vectors
     before, direction = np.zeros(right.size), np.zeros(right.size)  # columns of V R^-1
-    below = off = epsilon = 0.0
+    below = off_diagonal = epsilon = 0.0
     c, s = -1.0, 0.0  # the last Givens rotation
     for count in range(1, iterations + 1):
         # Lanczos: A now = below last + alpha now + beta next.
@@ -59,8 +59,8 @@ def minres(
         if not np.isfinite(beta):  # overflow: no later iterate is finite
             return x, count
         # A column of the tridiagonal matrix becomes one of R = Q T.
-        upper, delta, gamma = epsilon, c * off + s * alpha, s * off - c * alpha
-        epsilon, off = s * beta, -c * beta
+        upper, delta, gamma = epsilon, c * off_diagonal + s * alpha, s * off_diagonal - c * alpha
+        epsilon, off_diagonal = s * beta, -c * beta
         length = float(np.hypot(gamma, beta)) or np.finfo(float).tiny
         c, s = gamma / length, beta / length
         before, direction = direction, (now - upper * before - delta * direction) / length

@@ -37,11 +37,11 @@ def write_batch_study(folder: Path, study: Mapping[str, Any], machine: Mapping[s
     tables = [cases_table(study), meshes_table(rows)]
     paths = [folder / f"study{suffix}" for suffix in (".csv", ".md", ".tex")]
     write_csv(paths[0], rows)
-    said = [f"# {escape(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
+    lines = [f"# {escape(study['title'])}", f"{len(rows):,} of {study['tasks']:,} tasks are done. {_words(machine)}"]
     if study["interrupted"]:
-        said.append("The study was interrupted: run the same command again to continue.")
+        lines.append("The study was interrupted: run the same command again to continue.")
     failures = failures_table(rows)
-    write_text(paths[1], "\n\n".join([*said, *map(markdown, [*tables, *([failures] if failures else [])])]))
+    write_text(paths[1], "\n\n".join([*lines, *map(markdown, [*tables, *([failures] if failures else [])])]))
     write_text(paths[2], "\n".join(map(latex, tables)))
     return paths
 
@@ -156,13 +156,13 @@ def _names(rows: Rows) -> dict[str, str]:
 
 def _line(rows: Rows) -> list[str]:
     done = [row for row in rows if row["status"] == "done"]
-    tangled = [row for row in done if row["inverted_before"]]
+    inverted = [row for row in done if row["inverted_before"]]
     seconds = [row["seconds"] for row in done]
     peaks = [row["peak_mb"] for row in rows if row["peak_mb"] is not None]
     cells = [
         f"{len(done)} of {len(rows)}",
         str(sum(not row["inverted_after"] for row in done)),
-        f"{sum(not row['inverted_after'] for row in tangled)} of {len(tangled)}",
+        f"{sum(not row['inverted_after'] for row in inverted)} of {len(inverted)}",
         str(sum(bool(row["worse"]) for row in done)),
     ]
     for key in ("q_min", "q_mean", "scaled_jacobian_min"):

@@ -81,11 +81,11 @@ class ChartStyle(Parametrised):
 
     def name(self, own: str) -> str:
         """Return the name to be printed for a curve, as plain text."""
-        return plain(self.names.get(own) or own)
+        return plain_text(self.names.get(own) or own)
 
     def heading(self, own: str) -> str:
         """Return the title to be printed, as plain text."""
-        return plain(own if self.title is None else self.title)
+        return plain_text(own if self.title is None else self.title)
 
     def figure(self, shape: float) -> Figure:
         """Make an empty figure of this size; `shape` is height over width, used if the height is 0.
@@ -166,7 +166,7 @@ def _font_size(style: ChartStyle) -> Iterator[None]:
         yield
 
 
-def plain(text: str) -> str:
+def plain_text(text: str) -> str:
     """Escape a text from outside, so that matplotlib finds no formula in it and SVG no control characters."""
     return printable(text).replace("$", r"\$")
 

@@ -97,7 +97,7 @@ def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str
     """Return the text of `study.md`; `figures` have number, caption and file."""
     parts = ["# The thesis's Chapter 4, measured again", _preface(study), "## Claims", _claims(study["claims"])]
     differences = differences_table(study["experiments"])
-    parts += ["## Beside the thesis, cell by cell", markdown(differences)] if differences else []
+    parts += ["## Compared with the thesis, cell by cell", markdown(differences)] if differences else []
     missing = study.get("missing", "")
     if figures or missing:
         parts += ["## Figures", *map(_figure, sorted(figures, key=_number))] + ([escape(missing)] if missing else [])

@@ -172,13 +172,13 @@ class Run(Iterator[Iteration]):
 
     def _message(self, before: Summary, after: Summary) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
-        said = self.outcome.value if self.outcome is not None else "Running."
+        text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
         decided = self.decisions
         if not self._kept_last and decided and decided[-1] == self._stage_run.decision:
             decided = decided[:-1]  # it is about the last iteration, which is not the result
-        words = [said, f"{format_iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
+        words = [text, f"{format_iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))

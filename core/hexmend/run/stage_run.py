@@ -108,8 +108,8 @@ class StageRun:
             return None
         seconds = self.last.seconds + perf_counter() - began
         before = self.at
-        what = f"{self.smoother.name}: the points of a step"
-        points = as_immutable(points_like(step.points, before.points.shape, what))
+        label = f"{self.smoother.name}: the points of a step"
+        points = as_immutable(points_like(step.points, before.points.shape, label))
         moves = points - before.points
         move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
         if not np.isfinite(move):

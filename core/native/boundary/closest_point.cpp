@@ -68,8 +68,8 @@ struct TreeBuilder {
 double square_to(const Box &box, const Point &x) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-        double off = std::max({box[k] - x[k], 0.0, x[k] - box[k + 3]});
-        sum += off * off;
+        double distance = std::max({box[k] - x[k], 0.0, x[k] - box[k + 3]});
+        sum += distance * distance;
     }
     return sum;
 }

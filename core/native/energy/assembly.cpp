@@ -45,7 +45,7 @@ template <class Real> void add_with_transpose(const Real *block, std::array<Real
 // Add the values of a hex to the blocks of slots from `low` to `high`.
 template <class Real>
 void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t, PAIRS> &target, std::int32_t low,
-             std::int32_t high, std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
+             std::int32_t high, std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
     int pair = 0;
     for (int a = 0; a < 8; ++a) {
         auto i = slots[a];
@@ -53,7 +53,7 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
         for (int b = a + 1; b < 8; ++b, ++pair) {
             auto s = target[pair], j = slots[b];
             auto row = std::min(i, j);
-            if (s >= 0 && low <= row && row < high) add_block(values + 9 * pair, i > j, off[s]);
+            if (s >= 0 && low <= row && row < high) add_block(values + 9 * pair, i > j, off_diagonal[s]);
             else if (s < -1 && mine) add_with_transpose(values + 9 * pair, diagonal[i]);
         }
         if (mine) add_diagonal(values + DIAGONAL_OFFSET + 6 * a, diagonal[i]);
@@ -62,7 +62,7 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
 
 template <bool soft, class Real>
 void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-                 std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
+                 std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
         auto sums = std::make_unique<HessianSums>();
@@ -75,12 +75,13 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
             // The target blocks are scattered in memory: prefetch them while the values are computed.
             for (int i = 0; i < count; ++i)
                 for (auto s : shared.target[first + i])
-                    if (s >= 0) __builtin_prefetch(&off[s], 1), __builtin_prefetch(&off[s][8], 1);
+                    if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
             *sums = HessianSums{};
             unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
             weigh_hessian<Real>(*sums, norm, values.get());
             for (int i = 0; i < count; ++i)
-                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off, diagonal);
+                scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,
+                              diagonal);
         }
     });
 }
@@ -89,12 +90,12 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
 
 template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal) {
+              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
     // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
     const auto [bounds, start, numbers, hexes, slots, target] = shared;
     const HexShares local{bounds, start, numbers, hexes, slots, target};
-    if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off, diagonal);
-    else assemble_of<false, Real>(points, delta, norm, omitted, local, off, diagonal);
+    if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal);
+    else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal);
 }
 
 #define FOR_REAL(Real)                                                                             \

@@ -20,12 +20,12 @@ struct HexShares {
     BlockTargets target;  // (.., 28): block of each pair of corners: -1 if one is fixed, -2 - slot if both are one node
 };
 
-// Add the Hessian of sum eta(H)^p to the blocks off (blocks + 1, 9) and diagonal (k, 6).
+// Add the Hessian of sum eta(H)^p to the blocks off_diagonal (blocks + 1, 9) and diagonal (k, 6).
 //
 // Each share computes all its hexes, so that each block is summed in one order for any number of shares. omitted (m,)
 // omits corner tetrahedra.
 template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-              std::span<std::array<Real, 9>> off, std::span<std::array<Real, 6>> diagonal);
+              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal);
 
 }  // namespace hexmend

@@ -53,11 +53,11 @@ template <class Real, class Number = Real> class BlockMatrix {
   public:
     using V = Vec4<Number>;
 
-    BlockMatrix(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off)
+    BlockMatrix(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal)
         : bounds_(pattern.bounds),
           row_start_(pattern.row_start),
           columns_(pattern.columns),
-          off_(off.data()->data()),
+          off_diagonal_(off_diagonal.data()->data()),
           parts_(static_cast<int>(bounds_.size()) / 2),
           size_(bounds_.back()) {}
 
@@ -115,13 +115,13 @@ template <class Real, class Number = Real> class BlockMatrix {
 
   private:
     Indices bounds_, row_start_, columns_;
-    const Real *off_;
+    const Real *off_diagonal_;
     int parts_;
     std::int64_t size_;
     std::vector<double> sums_ = std::vector<double>(2 * parts_);
 
     V row(std::int32_t s, int k) const {
-        auto four = load(off_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
+        auto four = load(off_diagonal_ + 9 * static_cast<std::int64_t>(s) + 3 * k);
         if constexpr (std::is_same_v<Real, Number>) return four;
         else return __builtin_convertvector(four, V);
     }

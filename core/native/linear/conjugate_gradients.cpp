@@ -145,11 +145,11 @@ template <class Real> class PreconditionedCG {
 }  // namespace
 
 template <class Real>
-std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off,
+std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
                           std::span<const std::array<Real, 6>> diagonal, double damping,
                           std::span<const std::array<Real, 4>> right, double tolerance, int max_iterations,
                           std::span<std::array<Real, 4>> x, std::span<Real> work) {
-    BlockMatrix<Real> system(pattern, off);
+    BlockMatrix<Real> system(pattern, off_diagonal);
     if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
         throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
     PreconditionedCG<Real> solver(system, diagonal, damping, work);
@@ -173,11 +173,11 @@ std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::arra
 }
 
 template <class Real>
-void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off,
+void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
              std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
              std::span<Point> y) {
     using V = Vec4<double>;
-    BlockMatrix<Real, double> system(pattern, off);
+    BlockMatrix<Real, double> system(pattern, off_diagonal);
     std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
     V *const w[2] = {below[0].data(), below[1].data()};
     for (std::size_t k = 0; k < x.size(); ++k) of[order[k]] = V{x[k][0], x[k][1], x[k][2], 0};

@@ -25,8 +25,8 @@ using Numbers = std::span<const double>;
 using CornerVectors = std::span<std::array<double, 24>>;
 
 // Throw std::invalid_argument if the caller's arrays do not fit each other.
-inline void expect(bool fits, const char *what) {
-    if (!fits) throw std::invalid_argument(what);
+inline void expect(bool fits, const char *message) {
+    if (!fits) throw std::invalid_argument(message);
 }
 
 // One byte per hex: bit t is set if corner tetrahedron t is omitted, that is, counts as perfect.

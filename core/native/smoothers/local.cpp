@@ -26,7 +26,7 @@ struct StepRecord {
     void on_trial(int, double alpha, double value, double bound) {
         for (double number : {alpha, value, bound}) trials.values.push_back(number);
     }
-    void on_rejected(StepStatus why, const SearchDirection &direction = {}) { status = why, chosen = direction; }
+    void on_rejected(StepStatus reason, const SearchDirection &direction = {}) { status = reason, chosen = direction; }
     void on_moved(Node, const Point &there, const SearchDirection &direction, double step) {
         status = MOVED, chosen = direction, alpha = step, place = there;
     }

@@ -24,14 +24,14 @@ def test_a_session_of_an_earlier_version_is_read_with_its_run(version):
     (record,) = data.history.records
     assert record.rows[-1]["iteration"] == 3
     assert record.advice.limiting.dtype == np.int64
-    assert record.advice.why.startswith("Stopped at the limit of 3 iterations")
+    assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
 
 
 def test_a_session_that_is_read_is_written_as_it_was(tmp_path):
     data = session_data.read(_FILES / "version_2.hexmend")
     session_data.write(tmp_path / "again.hexmend", data)
     again = session_data.read(tmp_path / "again.hexmend")
-    assert again.history.records[0].advice.why == data.history.records[0].advice.why
+    assert again.history.records[0].advice.reason == data.history.records[0].advice.reason
     np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
 
 

@@ -166,7 +166,7 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
 def test_of_a_recipe_the_last_stage_is_explained():
     stages = [Stage(METHODS["getme"](), SHORT), Stage(METHODS["local-sd"](), SHORT)]
     advice = advise(smooth(make("bridge-sharp", size=500), Recipe("two", tuple(stages))))
-    assert advice.why.startswith("The last stage, Local steepest descent: Stopped at the limit of 12 iterations")
+    assert advice.reason.startswith("The last stage, Local steepest descent: Stopped at the limit of 12 iterations")
 
 
 def test_a_perfect_mesh_wants_nothing():
@@ -177,7 +177,7 @@ def test_a_perfect_mesh_wants_nothing():
 
 def test_a_mesh_with_nothing_free_is_explained():
     advice = advise(smooth(grid(1), "mend"))
-    assert advice.why == "Nothing to do: every node is fixed."
+    assert advice.reason == "Nothing to do: every node is fixed."
     assert advice.suggestions == ()
 
 
@@ -187,7 +187,7 @@ def test_a_mesh_with_nothing_free_is_explained():
     (StoppingCriteria(tolerance=0.01), "no node moved further than 0.01 mean edge lengths."),
 ])  # fmt: skip
 def test_why_it_ended_is_said_with_its_limits(stop, said):
-    assert said in advise(smooth(make("bridge-sharp", size=500), "local-sd", stop)).why
+    assert said in advise(smooth(make("bridge-sharp", size=500), "local-sd", stop)).reason
 
 
 def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
@@ -195,7 +195,7 @@ def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
     next(run)
     run.close()
     advice = advise(run.result())
-    assert advice.why.startswith("Stopped by you after 1 iteration.")
+    assert advice.reason.startswith("Stopped by you after 1 iteration.")
     assert advice.left.startswith(f"{advice.unlocked.size} of 500 hexes are inverted. 369 were at the start.")
     assert [one.title for one in advice.suggestions] == ["Mend"]
 
@@ -205,7 +205,7 @@ def test_a_run_that_was_stopped_before_it_began_is_said_to_be_and_not_judged(met
     run = iterate(make("plane", size=200), method)
     run.close()
     advice = advise(run.result())
-    assert advice.why == "Stopped by you before its first iteration: no node has moved. Press Run to start again."
+    assert advice.reason == "Stopped by you before its first iteration: no node has moved. Press Run to start again."
     assert advice.no_suggestion == ""
     finished = advise(smooth(make("cube", size=27), "mend"))
     assert (finished.suggestions, finished.no_suggestion) == ((), "No further suggestions.")

@@ -58,7 +58,7 @@ def test_the_matrix_is_the_same_to_the_last_bit_however_many_threads_share_it(mo
     one = hessian.assembled()
     monkeypatch.setattr("hexmend.energy.mesh_energy.threads", lambda: shares)
     other = hessian.assembled()
-    np.testing.assert_array_equal(one.off, other.off)
+    np.testing.assert_array_equal(one.off_diagonal, other.off_diagonal)
     np.testing.assert_array_equal(one.diagonal, other.diagonal)
 
 
@@ -89,8 +89,8 @@ def test_what_single_precision_cannot_hold_is_cut():
     points = mesh.points.copy()
     points[mesh.hexes[21, 4:], 2] = points[mesh.hexes[21, :4], 2] + 1e-13  # all but flat
     assembled = hessian_of(mesh.with_points(points)).assembled()
-    assert np.abs(assembled.off).max() > 1e30
-    assert np.isfinite(assembled.off).all()
+    assert np.abs(assembled.off_diagonal).max() > 1e30
+    assert np.isfinite(assembled.off_diagonal).all()
     assert np.isfinite(assembled.diagonal).all()
 
 
@@ -180,7 +180,7 @@ def test_the_end_of_a_solve_is_reported():
         right = np.ones((assembled.order.size, 4), np.float32) * np.float32([1, 1, 1, 0])
         return conjugate_gradients.solve(
             assembled.couplings.pattern,
-            assembled.off,
+            assembled.off_diagonal,
             assembled.diagonal,
             0.0,
             right,
@@ -223,9 +223,9 @@ def test_the_solution_is_as_large_as_the_right_hand_side(size, precision):
 
 def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_0():
     assembled = hessian_of(scrambled(grid(4), 0.15, 3)).assembled(np.float64)
-    tiny = AssembledHessian(assembled.couplings, assembled.off, assembled.diagonal, -100)
+    tiny = AssembledHessian(assembled.couplings, assembled.off_diagonal, assembled.diagonal, -100)
     assert np.isinf(tiny.solve(np.full(tiny.shape[0], 2.0**1000), 1e-3, 100).x).any()
-    huge = AssembledHessian(assembled.couplings, assembled.off, assembled.diagonal, 1000)
+    huge = AssembledHessian(assembled.couplings, assembled.off_diagonal, assembled.diagonal, 1000)
     assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()
 
 

@@ -121,7 +121,7 @@ class OutcomePanel(QWidget):
     def show_advice(self, title: str, advice: Advice) -> None:
         """Explain the end of a run."""
         self._title.setText(title)
-        self._why.setText(advice.why)
+        self._why.setText(advice.reason)
         self._left.setText(advice.left)
         tint(self._left, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
         self._worse.setText(advice.worse)
@@ -130,7 +130,7 @@ class OutcomePanel(QWidget):
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.unlocked)
         self._limiting.show_elements(advice.limiting)
-        self._held.show_elements(advice.held)
+        self._held.show_elements(advice.locked_below)
         self._surface.setText(advice.surface)
         self._surface.setVisible(bool(advice.surface))
         self._nothing.setText(advice.no_suggestion)

@@ -51,14 +51,14 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
 
     On a terminal with colours a cell that is a `WorsenedText` is red.
     """
-    red, plain = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
+    red, reset = ("\x1b[31m", "\x1b[0m") if shows_colours() else ("", "")
     every = [*([head] if head else []), *rows]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]
 
     def line(row: Sequence[str]) -> str:
         cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
         painted = (
-            f"{red}{text}{plain}" if isinstance(cell, WorsenedText) else text
+            f"{red}{text}{reset}" if isinstance(cell, WorsenedText) else text
             for cell, text in zip(row[1:], cells, strict=True)
         )
         return "  " + "   ".join([row[0].ljust(widths[0]), *painted])

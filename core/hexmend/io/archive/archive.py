@@ -145,8 +145,8 @@ def _check(path: Path, description: Any, format: str, version: int) -> tuple[int
         raise FileError(path, f"is of version {number}: this Hexmend reads up to {version}", "Use a newer Hexmend.")
     unknown = description.keys() - {"format", "version", "data"}
     if unknown or "data" not in description:
-        what = f"has an unknown field {min(unknown)[:80]!r}" if unknown else "has no data"
-        raise FileError(path, what, "Use a newer Hexmend." if unknown else REMEDY)
+        label = f"has an unknown field {min(unknown)[:80]!r}" if unknown else "has no data"
+        raise FileError(path, label, "Use a newer Hexmend." if unknown else REMEDY)
     return number, description["data"]
 
 

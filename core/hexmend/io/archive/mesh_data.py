@@ -92,12 +92,12 @@ class MeshDecoder:
         return self._targets[key]
 
 
-def check_fields(what: str, data: Any, known: set[str]) -> None:
-    """Raise `MeshError` unless `data` is a dict with exactly the fields `known`; `what` names it in the error."""
+def check_fields(label: str, data: Any, known: set[str]) -> None:
+    """Raise `MeshError` unless `data` is a dict with exactly the fields `known`; `label` names it in the error."""
     if not isinstance(data, dict):
-        raise MeshError(f"{what} is no table: expected the fields {', '.join(sorted(known))}")
+        raise MeshError(f"{label} is no table: expected the fields {', '.join(sorted(known))}")
     for name in sorted(data.keys() ^ known):
-        raise MeshError(f"{what} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
+        raise MeshError(f"{label} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
 
 
 def _key(value: Any) -> Any:

@@ -87,13 +87,13 @@ class ByteCursor:
         self.pos = found.end() if found else len(self.data)
         return found.group().decode("utf-8", errors="replace") if found else ""
 
-    def parse_count(self, word: str, what: str) -> int:
+    def parse_count(self, word: str, label: str) -> int:
         """Convert a word that has been read to a count.
 
         Parameters
         ----------
         word : str
-        what : str
+        label : str
             Meaning of the number, for errors.
 
         Raises
@@ -102,7 +102,7 @@ class ByteCursor:
             Where the word is not a natural number.
         """
         if not (word.isascii() and word.isdigit() and len(word) < 19):
-            raise self.error(f"{what} is {quoted(word)} before {self.location}: expected a natural number")
+            raise self.error(f"{label} is {quoted(word)} before {self.location}: expected a natural number")
         return int(word)
 
     def read_numbers(self, section: str, rows: int, width: int, dtype: np.dtype | type) -> np.ndarray:
@@ -183,10 +183,10 @@ class ByteCursor:
         self.pos += size
         return values.reshape(rows, width)
 
-    def read_bytes(self, size: int, what: str) -> bytes:
-        """Read `size` bytes; `what` names them in errors."""
+    def read_bytes(self, size: int, label: str) -> bytes:
+        """Read `size` bytes; `label` names them in errors."""
         if size > len(self.data) - self.pos:
-            raise self.error(f"{what} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
+            raise self.error(f"{label} needs {size} bytes at byte {self.pos}: the file ends at byte {len(self.data)}")
         self.pos += size
         return self.data[self.pos - size : self.pos]
 
@@ -220,7 +220,7 @@ class ByteCursor:
                 location, shown = self.location_of(found.start()), quoted(word.decode("utf-8", errors="replace"))
                 if _KEYWORD.match(word):
                     raise self.error(
-                        f"{section} ends after {k // width} of {rows} rows: {location} goes on with {shown}"
+                        f"{section} ends after {k // width} of {rows} rows: {location} continues with {shown}"
                     ) from None
                 number = "a number" if kind is float else "a whole number"
                 raise self.error(

@@ -25,14 +25,14 @@ class MemoryBudget:
     def __init__(self, path: Path, size: int):
         self.path, self.size, self.announced = path, size, 0
 
-    def charge(self, size: int, what: str) -> None:
+    def charge(self, size: int, label: str) -> None:
         """Add the announced size of an array, before it is read.
 
         Parameters
         ----------
         size : int
             Bytes.
-        what : str
+        label : str
             The array, for errors.
 
         Raises
@@ -44,7 +44,7 @@ class MemoryBudget:
         if self.announced > _BASE + _BYTES_PER_BYTE * self.size:
             raise FileError(
                 self.path,
-                f"{what} and the arrays before it are announced to have {self.announced >> 20:,} MB: too many for a "
+                f"{label} and the arrays before it are announced to have {self.announced >> 20:,} MB: too many for a "
                 f"file of {max(1, self.size >> 10):,} kB",
                 "Write the file again with the program that made it: it is damaged or cut short.",
             )

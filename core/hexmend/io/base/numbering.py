@@ -13,7 +13,7 @@ from hexmend.io.base.content import ID, Block, from_mesh
 from hexmend.mesh.mesh import Mesh
 
 
-def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.ndarray:
+def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.ndarray:
     """Look up the indices of ids.
 
     Parameters
@@ -24,7 +24,7 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.n
         Ids of the file, in any order.
     wanted : (...) int
         Ids to look up.
-    what : str
+    label : str
         "node" or "element", for errors.
 
     Returns
@@ -51,7 +51,7 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.n
         twice = np.flatnonzero(in_order[1:] == in_order[:-1])
         if twice.size:
             number = int(in_order[twice[0]])
-            raise FileError(path, f"{what} {number} is given twice", "Give every one a number of its own.")
+            raise FileError(path, f"{label} {number} is given twice", "Give every one a number of its own.")
         if n == 0:
             found, wrong = np.zeros(np.shape(wanted), np.int64), np.ones(np.shape(wanted), bool)
         else:
@@ -60,7 +60,7 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, what: str) -> np.n
     if np.any(wrong):
         number = int(np.asarray(wanted)[wrong].flat[0])
         raise FileError(
-            path, f"{what} {number} is used, but the file has no such {what}", "Add it, or correct what uses it."
+            path, f"{label} {number} is used, but the file has no such {label}", "Add it, or correct what uses it."
         )
     return found
 
@@ -208,7 +208,7 @@ def unsupported_ids(mesh: Mesh, limit: int = ID_LIMIT) -> list[str]:
         phrases.append(f"ids of nodes ({reason})")
     known = [(block.data[ID], len(block)) for block in content.blocks if ID in block.data and len(block)]
     reasons = [reason for ids, count in known if (reason := _reason(ids, count, limit))]
-    if reasons or (reasons := [why for why in [_repeated([ids for ids, _ in known])] if why]):
+    if reasons or (reasons := [reason for reason in [_repeated([ids for ids, _ in known])] if reason]):
         phrases.append(f"ids of elements ({', '.join(dict.fromkeys(reasons))})")
     return phrases
 

@@ -9,13 +9,13 @@ from hexmend.errors import FileError
 from hexmend.io.files import check_readable
 
 
-def read_text(path: str | os.PathLike[str], what: str, largest: int) -> str:
+def read_text(path: str | os.PathLike[str], label: str, largest: int) -> str:
     """Read a text file in UTF-8.
 
     Parameters
     ----------
     path : path-like
-    what : str
+    label : str
         Expected content for errors, such as "a recipe".
     largest : int
         Largest number of characters.
@@ -30,16 +30,16 @@ def read_text(path: str | os.PathLike[str], what: str, largest: int) -> str:
         Where the file cannot be read, is larger, or is not UTF-8: it names the line.
     """
     path = Path(path)
-    check_readable(path, what)
+    check_readable(path, label)
     try:
         with open(path, "rb") as file:
             data = file.read(4 * largest + 4)  # bytes of `largest` characters
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
-        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Name {what}.") from None
+        raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Name {label}.") from None
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from None
     if len(text) > largest:
-        raise FileError(path, f"has {len(text):,} letters: expected {what}, of {largest:,} at most", f"Name {what}.")
+        raise FileError(path, f"has {len(text):,} letters: expected {label}, of {largest:,} at most", f"Name {label}.")
     return text

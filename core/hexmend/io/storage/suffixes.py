@@ -9,13 +9,13 @@ from pathlib import Path
 from hexmend.errors import FileError
 
 
-def suffix_for(path: str | os.PathLike[str], what: str, known: Collection[str]) -> str:
+def suffix_for(path: str | os.PathLike[str], label: str, known: Collection[str]) -> str:
     """Return the suffix of a path in lower case after a check that it is supported.
 
     Parameters
     ----------
     path : path-like
-    what : str
+    label : str
         The thing to be written, for errors, such as "a picture".
     known : collection of str
         Supported suffixes, with the dot; "" allows a name without one.
@@ -44,4 +44,4 @@ def suffix_for(path: str | os.PathLike[str], what: str, known: Collection[str]) 
         return suffix
     *others, last = [name for name in known if name]
     listed = f"{', '.join(others)} or {last}" if others else last
-    raise FileError(path, f"{what} cannot be written as {suffix or 'a file without a suffix'}", f"Use {listed}.")
+    raise FileError(path, f"{label} cannot be written as {suffix or 'a file without a suffix'}", f"Use {listed}.")

@@ -16,13 +16,13 @@ from hexmend.toml_text import MAX_CHARACTERS
 T = TypeVar("T")
 
 
-def read_toml(path: str | os.PathLike[str], what: str, parse: Callable[[str], T], largest: int = MAX_CHARACTERS) -> T:
+def read_toml(path: str | os.PathLike[str], label: str, parse: Callable[[str], T], largest: int = MAX_CHARACTERS) -> T:
     """Read and parse a TOML file.
 
     Parameters
     ----------
     path : path-like
-    what : str
+    label : str
         Expected content for errors, such as "a recipe".
     parse : callable
         parse(text) returns the result; raises `ParameterError`.
@@ -40,18 +40,18 @@ def read_toml(path: str | os.PathLike[str], what: str, parse: Callable[[str], T]
         Where the file cannot be read, is larger, or is invalid: it names the line, or the table and key.
     """
     try:
-        return parse(read_text(path, what, largest))
+        return parse(read_text(path, label, largest))
     except ParameterError as error:
         raise FileError(Path(path), str(error), "Correct the file.") from None
 
 
-def write_toml(path: str | os.PathLike[str], what: str, text: str) -> None:
+def write_toml(path: str | os.PathLike[str], label: str, text: str) -> None:
     """Write a TOML file; if that fails, an earlier file stays unchanged.
 
     Parameters
     ----------
     path : path-like
-    what : str
+    label : str
         The content for errors, such as "a recipe".
     text : str
 
@@ -60,6 +60,6 @@ def write_toml(path: str | os.PathLike[str], what: str, text: str) -> None:
     FileError
         For a suffix other than .toml, and where the file cannot be written.
     """
-    suffix_for(path, what, (".toml", ""))
+    suffix_for(path, label, (".toml", ""))
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")

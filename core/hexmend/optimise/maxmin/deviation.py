@@ -47,23 +47,23 @@ class DeviationTracker:
         """Return True if a distance exceeds `max_deviation` and what it was before nodes (k,) moved."""
         if (self.distances > np.maximum(before.distances, max_deviation)).any():
             return True
-        off = self.sliding.boundary_deviation(self.points, self.sliding.midpoints_of(nodes), max_deviation)
-        if not off.indices.size:
+        beyond = self.sliding.boundary_deviation(self.points, self.sliding.midpoints_of(nodes), max_deviation)
+        if not beyond.indices.size:
             return False
-        was = self.sliding.boundary_deviation(before.points, off.indices, max_deviation)
-        if was.indices.size < off.indices.size:
+        was = self.sliding.boundary_deviation(before.points, beyond.indices, max_deviation)
+        if was.indices.size < beyond.indices.size:
             return True
-        return bool((off.distances > was.distances).any())
+        return bool((beyond.distances > was.distances).any())
 
     def bounds(self, moves: np.ndarray, max_deviation: float) -> LinearConstraints:
         """Constraints on the distances while each node moves by moves (n,) at most, in the mesh's unit."""
         sliding = self.sliding
         which = sliding.midpoints_of(np.flatnonzero(moves))
-        off = sliding.boundary_deviation(
+        beyond = sliding.boundary_deviation(
             self.points, which, max_deviation - moves[sliding.midpoints[which]].max(axis=1, initial=0.0)
         )
         models = lower_bounds(
-            off.nodes, max_deviation - off.distances, -off.weights[:, :, None] * off.directions[:, None]
+            beyond.nodes, max_deviation - beyond.distances, -beyond.weights[:, :, None] * beyond.directions[:, None]
         )
         reach = moves[self._nodes].max(axis=1, initial=0.0)
         near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > max_deviation))
@@ -73,9 +73,9 @@ class DeviationTracker:
     def _update(self, which: np.ndarray) -> None:
         """Find what is closest to some places of the surface, beginning with what was closest at first."""
         at_first, nodes, weights = self.sliding.initial_surface_deviation
-        off = self.sliding.surface_deviation(self.points, which, limit=-1.0)
+        beyond = self.sliding.surface_deviation(self.points, which, limit=-1.0)
         self._nodes, self._weights = self._nodes.copy(), self._weights.copy()
         self.distances[which], self._away[which] = at_first[which], 0.0
         self._nodes[which], self._weights[which] = nodes[which], weights[which]
-        self.distances[off.indices], self._away[off.indices] = off.distances, off.directions
-        self._nodes[off.indices], self._weights[off.indices] = off.nodes, off.weights
+        self.distances[beyond.indices], self._away[beyond.indices] = beyond.distances, beyond.directions
+        self._nodes[beyond.indices], self._weights[beyond.indices] = beyond.nodes, beyond.weights

@@ -99,11 +99,11 @@ class Envelope:
     def _bounded(self) -> bool:
         return self.sliding is not None and bool(np.isfinite(self.max_deviation))
 
-    def _deviations(self, points: np.ndarray, room: float) -> tuple[Deviations, Deviations]:
-        """Places of the boundary further than `room` from the surface, and of the surface from the boundary."""
+    def _deviations(self, points: np.ndarray, limit: float) -> tuple[Deviations, Deviations]:
+        """Places of the boundary further than `limit` from the surface, and of the surface from the boundary."""
         sliding = self.sliding
         midpoints = np.arange(len(sliding.midpoints))
-        return sliding.boundary_deviation(points, midpoints, room), sliding.surface_deviation(points, limit=room)
+        return sliding.boundary_deviation(points, midpoints, limit), sliding.surface_deviation(points, limit=limit)
 
     def _track(self, points: np.ndarray) -> DeviationTracker:
         if self._tracker is None or self._tracker.points is not points:

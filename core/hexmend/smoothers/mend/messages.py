@@ -52,13 +52,13 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
         return ""
     places = optimiser.corners.groups(8 * active.hexes + active.corners).max() + 1
     if count == 1:
-        who = "it can go no further, in hex"
+        subject = "it can go no further, in hex"
     elif places == 1:
-        who = f"{count} of them hold each other there, in the hexes"
+        subject = f"{count} of them hold each other there, in the hexes"
     else:
-        who = f"{count} of them can go no further there, in {places} separate places, in the hexes"
+        subject = f"{count} of them can go no further there, in {places} separate places, in the hexes"
     least = f"The least scaled Jacobian of the corners that can be moved is {active.least:.4f}"
-    sentence = f"{least}: {who} {_first_hexes(active.hexes)}."
+    sentence = f"{least}: {subject} {_first_hexes(active.hexes)}."
     locked = locked_below(optimiser, active)
     if not locked.size:
         return sentence

@@ -25,7 +25,7 @@ class ShapeOptimumConfig:
         so that local sweeps work around them first.
     sweeps : int
         Sweeps of local Newton steps around poor hexes before a step of all nodes.
-    settled : float
+    converged : float
         Longest move of a node at which p is raised, in mean edge lengths.
     window : int
         Steps over which the fall of the objective is judged on a faceted surface, where the last steps go from facet
@@ -37,7 +37,7 @@ class ShapeOptimumConfig:
 
     poor: float = 3.0
     sweeps: int = 5
-    settled: float = 1e-3
+    converged: float = 1e-3
     window: int = 5
     min_fall: float = 2e-3
     min_fall_omitting: float = 2e-2
@@ -118,7 +118,7 @@ def _minimise(
         x, points, uncut = taken.x, energy.to_mesh_units(taken.x), taken.cuts == 0
         diagnostics = taken.diagnostics(0.0) | {"p": energy.power.p}
         yield Step(points, diagnostics, intermediate=rises or intermediate, power=energy.power)
-        if rises and move < config.settled:
+        if rises and move < config.converged:
             break
     return ShapeOptimum(points, None if rises else _outcome(taken))
 

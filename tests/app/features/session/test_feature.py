@@ -90,7 +90,7 @@ def tables(window):
         "redo": session.document.redo_title,
         "runs": [(r.name, r.title, r.rows, r.result, r.message, r.pauses) for r in history.records],
         "advice": [
-            (r.advice.why, [(one.title, one.smoother, one.stop) for one in r.advice.suggestions])
+            (r.advice.reason, [(one.title, one.smoother, one.stop) for one in r.advice.suggestions])
             for r in history.records
         ],
         "parents": [(r.parent.record.name, r.parent.number) if r.parent else None for r in history.records],

@@ -44,8 +44,6 @@ def _limitations(mesh: Mesh) -> list[str]:
     return writer.limitations(mesh)
 
 
-HELD = (Capability.IDS, Capability.NODE_SETS, Capability.HEX_SETS, Capability.SIDE_SETS, Capability.CELL_SETS)
-
 register(
     Format(
         name="abaqus",

@@ -115,10 +115,10 @@ class Deck:
             raise self.error(f"*NODE in line {card.line} has the number {rows[wrong[0], 0]:g}: expected a whole number")
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
-    def numbers(self, card: Card, what: str, dtype: type) -> np.ndarray:
+    def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:
         """Return all numbers of a card, (k,), line ends ignored."""
         self._cursor.pos = card.begin
-        return self._cursor.read_numbers_to(what, card.end, dtype)
+        return self._cursor.read_numbers_to(label, card.end, dtype)
 
     def _real(self, field: str) -> float:
         try:

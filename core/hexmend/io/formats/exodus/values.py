@@ -41,13 +41,13 @@ class CheckedVariables:
             raise FileError(self.path, f"variable {name!r} holds {values.dtype}: expected whole numbers", DAMAGED)
         return values.astype(np.int64)
 
-    def members(self, name: str, dimension: str, count: int, what: str) -> np.ndarray:
-        """Members of a set, from 0, int64; `dimension` names their number, `count` is that of all `what`."""
+    def members(self, name: str, dimension: str, count: int, label: str) -> np.ndarray:
+        """Members of a set, from 0, int64; `dimension` names their number, `count` is that of all `label`."""
         members = self.integers(name, self.store.dimensions.get(dimension, 0)) - 1
         if members.size and (members.min() < 0 or members.max() >= count):
             raise FileError(
                 self.path,
-                f"{name!r} names the {what} {members.min() + 1} to {members.max() + 1}: expected 1 to {count}",
+                f"{name!r} names the {label} {members.min() + 1} to {members.max() + 1}: expected 1 to {count}",
                 DAMAGED,
             )
         return members

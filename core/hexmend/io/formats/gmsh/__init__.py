@@ -37,15 +37,6 @@ def _matches(head: bytes) -> bool:
     return b"$MeshFormat" in head or head.lstrip().startswith(b"$NOD")
 
 
-HELD = (
-    Capability.NODE_DATA,
-    Capability.HEX_DATA,
-    Capability.IDS,
-    Capability.HEX_SETS,
-    Capability.FIXED_NODES,
-    Capability.LOWER_CELLS,
-)
-
 register(
     Format(
         name="gmsh",

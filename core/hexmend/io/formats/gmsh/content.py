@@ -39,7 +39,7 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
     if sections.elements is None:
         raise FileError(path, "has no section $Elements", "Write the file again with the program that made it.")
     names = {(dim, number): name for (dim, name), number in group_numbers(sections.names).items()}
-    notes, blocks, allowance = list(sections.notes), [], MemoryBudget(path, path.stat().st_size)
+    notes, blocks, budget = list(sections.notes), [], MemoryBudget(path, path.stat().st_size)
     n_other = sum(len(part.tags) for part in sections.elements if part.type not in KIND_OF_TYPE)
     if n_other:
         notes.append(
@@ -55,12 +55,12 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
         parts = [part for part in sections.elements if part.type == type and len(part.tags)]
         if parts and type in KIND_OF_TYPE:
             block, partitions = _block(path, KIND_OF_TYPE[type], parts, sections.tags, names, notes)
-            data = _data(sections.data, False, block.data[ID], allowance)
+            data = _data(sections.data, False, block.data[ID], budget)
             data |= {partition: partitions} if partitioned else {}
             blocks.append(replace(block, data=data | block.data))
     blocks.sort(key=lambda block: block.kind not in HEX_KINDS)
     field_data = {PHYSICAL_NAMES: sections.names} if sections.names else {}
-    node_data = {**_data(sections.data, True, sections.tags, allowance), ID: sections.tags}
+    node_data = {**_data(sections.data, True, sections.tags, budget), ID: sections.tags}
     content = Content(sections.points, tuple(blocks), node_data, field_data=field_data, notes=tuple(notes))
     return mesh_of(path, content)
 
@@ -117,7 +117,7 @@ def _groups(parts: list[ElementBlock]) -> dict[int, np.ndarray]:
 
 
 def _data(
-    sections: Sequence[DataSection], of_nodes: bool, tags: np.ndarray, allowance: MemoryBudget
+    sections: Sequence[DataSection], of_nodes: bool, tags: np.ndarray, budget: MemoryBudget
 ) -> dict[str, np.ndarray]:
     """Values by name of the nodes or elements of these tags; NaN where the file has none."""
     found = {}
@@ -129,7 +129,7 @@ def _data(
         known = section.tags[order[at]] == tags
         if known.any():
             size = len(tags) * section.values[:1].nbytes
-            allowance.charge(size, f"the data {quoted(section.name)} of all nodes or elements")
+            budget.charge(size, f"the data {quoted(section.name)} of all nodes or elements")
             found[section.name] = section.values[order[at]]
             found[section.name][~known] = np.nan
     return found

@@ -61,17 +61,17 @@ def limitations(mesh: Mesh) -> list[str]:
     """List the ids, names and data of a mesh that a file cannot hold as they are, in words."""
     content = from_mesh(mesh)
     left = unsupported_ids(mesh) + altered_names(_titles(content.blocks)) + rounded_integers(mesh)
-    for what, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
+    for label, data in (("point data", [with_marks(mesh)]), ("cell data", [block.data for block in content.blocks])):
         arrays = [(name, np.asarray(values)) for part in data for name, values in part.items() if name != ID]
         lost = {name for name, values in arrays if written_width(values) is None}
         wider = {name for name, values in arrays if written_width(values) not in (None, width_of_row(values))}
-        left += [f"{what} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
+        left += [f"{label} of more than 9 columns, or no numbers ({', '.join(sorted(lost))})"] if lost else []
         titles = make_unique((name for name, _ in arrays), data_title)
         for name, title in titles.items():
             if len({values.shape[1:] for other, values in arrays if other == name}) > 1:
                 titles[name] = f"{title}_2"  # the title of arrays of another width
-        left += altered_names(titles, what)
-        left += [f"the width of {what}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
+        left += altered_names(titles, label)
+        left += [f"the width of {label}, filled up to 3 or 9 columns ({', '.join(sorted(wider))})"] if wider else []
     return left
 
 

@@ -37,15 +37,6 @@ def _matches(head: bytes) -> bool:
     return head.startswith(hdf5.MAGIC) and (b"ENS_MAA" in head or b"INFOS_GENERALES" in head)
 
 
-HELD = (
-    Capability.IDS,
-    Capability.NODE_SETS,
-    Capability.HEX_SETS,
-    Capability.LOWER_CELLS,
-    Capability.OTHER_CELLS,
-    Capability.SECOND_ORDER,
-)
-
 register(
     Format(
         name="med",

@@ -59,7 +59,7 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
     """
     fields: Fields = {entity: {} for entity in counts}
     other_meshes, unsupported, several_steps = [], [], []
-    allowance = MemoryBudget(path, path.stat().st_size)
+    budget = MemoryBudget(path, path.stat().st_size)
     for name, field in file["CHA"].items() if "CHA" in file else ():
         if _text(field.attrs.get("MAI", b"")) != mesh or not len(field):
             other_meshes.append(name)
@@ -73,7 +73,7 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
             if entity not in counts or any(int(part.attrs["NGA"]) != 1 for part in group.values()):
                 unsupported += [name] if name not in unsupported else []
             else:
-                allowance.charge(8 * width * counts[entity], f"the field {name}")
+                budget.charge(8 * width * counts[entity], f"the field {name}")
                 fields[entity][name] = _values(path, file, group, width, counts[entity])
     for names, words in (
         (other_meshes, "Fields of other meshes are left out"),

@@ -87,12 +87,12 @@ def limitations(mesh: Mesh) -> list[str]:
     if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
         left.append("ids of elements (no whole numbers)")
     fields = _fields(replace(content, node_data=with_marks(mesh)))
-    for what, tables in (
+    for label, tables in (
         ("point data", [fields["NOE"]]),
         ("cell data", [arrays for entity, arrays in fields.items() if entity != "NOE"]),
     ):
         odd = sorted({name for arrays in tables for name, values in arrays.items() if type_code(values) is None})
-        left += [f"{what} that are no numbers ({', '.join(odd)})"] if odd else []
+        left += [f"{label} that are no numbers ({', '.join(odd)})"] if odd else []
     titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
     return left + altered_names(group_titles(_set_names(content))) + altered_names(titles, "data")
 

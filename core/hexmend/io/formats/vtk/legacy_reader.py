@@ -228,7 +228,7 @@ class _LegacyReader:
             self.sections["OFFSETS"] = read_integers(cursor, "OFFSETS", count, words[1]).astype(np.int64)
             words = cursor.next_line().split()
             if not words or words[0].upper() != "CONNECTIVITY":
-                raise cursor.error(f"CELLS goes on with {quoted(' '.join(words))}: expected CONNECTIVITY")
+                raise cursor.error(f"CELLS continues with {quoted(' '.join(words))}: expected CONNECTIVITY")
             self.sections["CELLS"] = read_integers(cursor, "CONNECTIVITY", size, words[1])
         else:
             cursor.pos = mark
