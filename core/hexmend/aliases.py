@@ -127,7 +127,10 @@ ATTRIBUTES: dict[str, dict[str, str]] = {
     "Sweep": {"look": "preview", "over": "finished", "place": "position"},
 }
 
-KEYWORDS: dict[str, dict[str, str]] = {"read": {"nodes_without_place": "interpolate_missing"}}
+KEYWORDS: dict[str, dict[str, str]] = {
+    "read": {"nodes_without_place": "interpolate_missing"},
+    "summarise": {"figures": "quality"},
+}
 
 
 def exports(module: str) -> Callable[[str], object]:

@@ -42,7 +42,7 @@ class Deviations:
 class Band:
     """Two-sided distance between a boundary and the surface on which it slides, against a tolerance.
 
-    Nodes of the boundary lie on the surface, but its edges and faces cut off the surface's bends.
+    Nodes of the boundary lie on the surface; its edges and faces deviate where the surface is curved.
 
     Parameters
     ----------

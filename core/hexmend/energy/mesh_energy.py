@@ -81,7 +81,7 @@ class MeshEnergy:
         return self.power.least * self.mesh.n_hexes
 
     def with_objective(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
-        """The energy with another power and other corners left out; what depends on the mesh alone is shared.
+        """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
 
         Both may be used by several threads at once.
 
@@ -128,7 +128,7 @@ class MeshEnergy:
         return Hessian(self, x, delta)
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
-        """The slope of `value` along a step (k, 3) of the free nodes, `gradient` (k, 3) being its derivative at x."""
+        """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
         return dot(step, gradient)
 
     def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:

@@ -44,9 +44,9 @@ class SlidingEnergy(MeshEnergy):
         return there
 
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
-        """The slope along a step (k, 3) once nodes are put back; in it, those stay that are led up.
+        """Compute the slope along a step (k, 3) after projection; steps of nodes that would ascend are set to 0.
 
-        On a faceted surface a node that is led over an edge goes elsewhere than along its tangent.
+        On a faceted surface the projection of a step across an edge is not along the tangent.
         """
         gradient = super().gradient(x, delta)
         rows, nodes, unit = self._rows, self.sliding.nodes, self.unit

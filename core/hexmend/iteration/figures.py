@@ -28,7 +28,7 @@ HISTORY: dict[str, Quantity] = {
         Quantity(
             "largest_move",
             "largest move",
-            "How far the node went that went furthest, in mean edge lengths: what Algorithm A.1 stops at.",
+            "Longest move of a node, in mean edge lengths; Algorithm A.1 compares it with the tolerance.",
             format_significant,
         ),
     )

@@ -25,8 +25,8 @@ class Outcome(Enum):
     FINISHED = "The method has no further step to make."
     NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
     SUFFICIENT = "Done: the quality that was asked for is reached."
-    NO_DESCENT = "Stopped: along the search direction no step descends, however short."
-    NOT_FINITE = "Stopped: a step gave coordinates that are no numbers; what was reached before it is kept."
+    NO_DESCENT = "Stopped: the line search found no step that descends."
+    NOT_FINITE = "Stopped: a step gave coordinates that are not finite; the result before it is kept."
 
     @property
     def key(self) -> str:
@@ -72,7 +72,7 @@ class Step:
     infeasible : bool
         True where nodes are outside the admissible band: such an iterate is never the result.
     limits : ActiveSet, optional
-        Corners that let the method go no further, if it has found them.
+        Active corners, which prevent further progress, if the method reports them.
     power : ObjectiveNorm, optional
         p and offset of the objective that this step lowers, if they differ from the smoother's `power`.
     """

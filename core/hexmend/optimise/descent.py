@@ -74,7 +74,7 @@ def descend(
         In cubes of the mean edge length.
     find : Direction
         Search direction: Algorithm A.2, A.3 or A.4.
-    search : BackLineSearch
+    search : LineSearch
         Line search: Algorithm A.5.
     reach : float
         Longest move of a node, in mean lengths of its edges: the few nodes that a direction throws far away do not

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.aliases import old_keywords
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality.measure import ElementQuality, locked, measure
 from hexmend.quantity import Quantity, format_count, format_quality
@@ -96,7 +97,8 @@ SUMMARY_QUANTITIES: dict[str, Quantity] = {
 }
 
 
-def summarise(mesh: Mesh, quality: ElementQuality | None = None, *, figures: ElementQuality | None = None) -> Summary:
+@old_keywords("summarise")
+def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
     """Summarise the quality of a mesh.
 
     Parameters
@@ -104,8 +106,6 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None, *, figures: Ele
     mesh : Mesh
     quality : ElementQuality, optional
         Quality of the hexes, if it is measured already.
-    figures : ElementQuality, optional
-        Name of `quality` in version 0.1.
 
     Returns
     -------
@@ -117,7 +117,7 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None, *, figures: Ele
     >>> summarise(Mesh(UNIT_CUBE, [range(8)])).q_norm
     1.0
     """
-    quality = quality or figures or measure(mesh.points, mesh.hexes)
+    quality = quality or measure(mesh.points, mesh.hexes)
     q = quality.q
     return Summary(
         hexes=mesh.n_hexes,

@@ -221,7 +221,7 @@ class Run(Iterator[Iteration]):
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
         mesh = self.mesh.with_points(self.best.points)
-        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.figures)
+        return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
 
     @property
     def _stage_run(self) -> StageRun:

@@ -151,7 +151,7 @@ class StageRun:
         Parameters
         ----------
         cut : bool
-            True if a change of the method ended it; None is returned if it had n_iterations no step until then.
+            True if a change of the method ended it; None is returned if it made no step until then.
         """
         if cut and not self.n_iterations:
             return None

@@ -29,8 +29,8 @@ _VISIBLE_FALL = 0.5e-4
 class Smoother(Parametrised, ABC):
     """Method that moves the free nodes of a mesh and, if its parameters say so, boundary nodes along the surface.
 
-    A smoother is a frozen dataclass of declared parameters with one method, `steps`. It owns no clock, no limit, no
-    record and no window: `hexmend.run` does.
+    A smoother is a frozen dataclass of declared parameters with one method, `steps`. Clock, limits
+    and history belong to `hexmend.run`.
     """
 
     name: ClassVar[str]
@@ -83,7 +83,7 @@ class Smoother(Parametrised, ABC):
         Returns
         -------
         Outcome or None
-            Where the method has no further step; a run may stop asking before.
+            Outcome when the method has no further step; a run may close the generator earlier.
         """
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -147,9 +147,9 @@ def method(cls: S) -> S:
     Raises
     ------
     TypeError
-        Where the class does not say what every method says of itself.
+        If the class lacks one of the texts name, title, help and source.
     ValueError
-        Where another method has its name.
+        If the name is already registered.
     """
     if not issubclass(cls, Smoother):
         raise TypeError(f"{cls.__name__} is no hexmend.Smoother")

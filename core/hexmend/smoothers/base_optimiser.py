@@ -22,7 +22,7 @@ class ObjectiveSmoother(SlidingSmoother):
         1.0,
         low=0,
         high=1,
-        help="What is taken off a hex's mean η before the power: 1 as (B.20), 0 as chapter 4, for a higher mean.",
+        help="Subtracted from a hex's mean η before the power: 1 as in (B.20); 0 as in chapter 4, for a higher mean.",
     )
 
     @property
@@ -45,5 +45,5 @@ class Optimiser(ObjectiveSmoother):
     delta_policy: str = parameter(
         "fixed",
         choices=tuple(POLICIES),
-        help="fixed: delta as given; adaptive: as large as the worst hex asks, falling to delta as it recovers.",
+        help="fixed: delta as given; adaptive: larger for deeply inverted hexes, falling to delta as they recover.",
     )

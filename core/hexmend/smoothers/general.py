@@ -31,13 +31,13 @@ class General(SlidingSmoother):
     bytes_per_hex = 3000  # of the global Newton's method that it may go on with
 
     q_target: float = parameter(
-        0.9, low=0, high=1, help="Least q(H) with which GETMe's result is taken as it is; 1 goes on to the optimum."
+        0.9, low=0, high=1, help="Least q(H) at which GETMe's result is accepted; with 1 an optimiser always follows."
     )
     max_size_ratio: float = parameter(
         3.0,
         low=1,
         high=1e6,
-        help="Hexes are of similar size if 19 in 20 are at most this many times as long as the shortest 1 in 20.",
+        help="Hexes are of similar size up to this ratio of the 95th to the 5th percentile of edge lengths.",
     )
     getme_tolerance: float = parameter(
         1e-4, low=0, high=1, unit="mean edge length", help="GETMe has converged when no node moves further (A.1)."

@@ -30,7 +30,7 @@ class SlidingSmoother(Smoother):
         "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
     )
     feature_angle: float = parameter(
-        40.0, low=1, high=180, unit="degrees", help="Along edges at which the boundary turns by more nodes only slide."
+        40.0, low=1, high=180, unit="degrees", help="Edges with a larger dihedral angle are features."
     )
 
     surface_tolerance: float = parameter(

@@ -1,4 +1,4 @@
-"""Tables of results on the terminal, rich_table by rich."""
+"""Tables of results on the terminal, drawn by rich."""
 
 from __future__ import annotations
 

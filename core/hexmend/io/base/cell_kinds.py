@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from hexmend.io.base.content import HEX_KINDS
 from hexmend.mesh.cells import CELL_KINDS
+
+#: Kinds of hexes and their numbers of nodes, in the order of VTK's types 12, 25 and 29.
+HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
 
 
 def node_count(kind: str) -> int:

@@ -10,14 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.cell_kinds import HEX_KINDS
 from hexmend.io.base.fixed_marks import find_marks
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING, interpolate_missing
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import check_node_numbers
-
-#: Kinds of hexes and their numbers of nodes, in the order of VTK's types 12, 25 and 29.
-HEX_KINDS = {"hex": 8, "hex20": 20, "hex27": 27}
 
 #: Name of the data that hold the file's own numbers of nodes and cells.
 ID = "id"
@@ -77,11 +75,6 @@ class Content:
     field_data: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     unread: Mapping[str, int] = field(default_factory=dict)
-
-
-def node_count(kind: str) -> int:
-    """Return the number of nodes of a kind of cells."""
-    return HEX_KINDS[kind] if kind in HEX_KINDS else CELL_KINDS[kind].nodes
 
 
 def to_mesh(path: Path, content: Content) -> Mesh:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh, node_count
+from hexmend.io.base.cell_kinds import node_count
+from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, row_chunks

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TypeVar
 
 from hexmend.errors import FileError, ParameterError
-from hexmend.io.base.text import read_text
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.io.storage.suffixes import suffix_for
+from hexmend.io.storage.text_files import read_text
 from hexmend.toml_text import MAX_CHARACTERS
 
 T = TypeVar("T")

@@ -13,8 +13,7 @@ from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_boun
 class DeviationTracker:
     """Distances of the surface's edges, faces and nodes from a boundary that has moved.
 
-    As nodes move, only those distances are found anew whose closest place has moved. The others are upper bounds: their
-    closest place is still there.
+    Only distances whose closest point has moved are recomputed; the others remain valid upper bounds.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Linear program of a step: nodes move in given directions, and what depends on them follows linear models."""
+"""Linear program of a step: displacements along given directions that maximise the least of linear models."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend.optimise.maxmin.directions import StepDirections
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: Share of the gain that may be lost so that nodes stay which need not move.
+#: Share of the gain that may be given up so that nodes without effect do not move.
 IDLE = 0.05
 #: Distance of a model from its bound, in radii of the region, up to which the program begins with it.
 NEAR = 0.3

@@ -59,7 +59,7 @@ class ActiveCorners:
     least : float
         The least scaled Jacobian of the corners that can be moved.
     hexes, corners : (k,) int64
-        Hex and corner (0 to 7) of each, by their multipliers, the heaviest first. Those of one place hold each other.
+        Hex and corner (0 to 7) of each, by descending multiplier. Raising one lowers others of its connected group.
     """
 
     least: float
@@ -98,7 +98,7 @@ class MaxMinOptimiser:
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh, its fixed marks as of now: nodes that were released are free."""
+        """The mesh with its current fixed nodes: released nodes are free."""
         return self.corners.mesh
 
     def steps(self, target: float = np.inf) -> Iterator[MaxMinStep | ActiveCorners]:
@@ -219,7 +219,7 @@ class MaxMinOptimiser:
         return solved.gain, envelope.project(self.points, points, nodes), nodes
 
     def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
-        """Move to `points` if that brings enough, and adapt the trust region; returns what was gained."""
+        """Accept `points` if the gain is large enough, and adapt the trust region; returns the gain, 0 if rejected."""
         corners, config = self.corners, self.config
         hexes = corners.hexes_at(moved)
         before = corners.values[hexes]

@@ -18,7 +18,7 @@ class SLPConfig:
     poor, good : float
         Shares below and above which the region shrinks and grows.
     shrink, grow : float
-        Factors by which it does.
+        Factors by which the radius shrinks and grows.
     band, min_band, max_band : float
         Nodes at corners whose values are within a band above the least move: its width in radii, and its bounds.
     fall : float
@@ -26,7 +26,7 @@ class SLPConfig:
     initial_corners, max_corners : int
         Corners whose nodes move at first, and at most: more where fewer bring nothing.
     no_gain : float
-        Promised gain that is none.
+        Predicted gain that counts as zero.
     window : int
         Steps over which the gain is judged.
     min_gain, min_gain_sound : float

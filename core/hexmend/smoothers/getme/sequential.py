@@ -27,7 +27,7 @@ HALVINGS = 6
 @method
 @dataclass(frozen=True)
 class SequentialGETMe(SlidingSmoother):
-    """The worst hex takes its step alone, again and again; a sweep has as many steps as there are hexes."""
+    """Transform the worst hex, again and again; a sweep makes as many steps as there are hexes."""
 
     name = "getme-sequential"
     title = "GETMe, sequential"
@@ -71,7 +71,7 @@ class SequentialGETMe(SlidingSmoother):
         moved: np.ndarray,
         stays: np.ndarray,
     ) -> int:
-        """Move the points, those apart that have to stay; returns how many steps were taken back."""
+        """Move all points except those that must stay; returns the number of rejected steps."""
         free, surface = mesh.free & ~stays, None if sliding is None else sliding.sliding_surface
         candidates = np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32)
         q, sound = quality.q.copy(), ~quality.inverted

@@ -23,7 +23,7 @@ RISE = 1e-6
 @method
 @dataclass(frozen=True)
 class GETMe(SlidingSmoother):
-    """Every hex is made more regular by itself; each node goes to a mean of the places that its hexes give it."""
+    """Transform every hex on its own towards a regular one; each node moves to the weighted mean of its targets."""
 
     name = "getme"
     title = "GETMe, simultaneous"
@@ -83,7 +83,7 @@ def merit(quality: ElementQuality) -> np.ndarray:
 def _without_harm(
     mesh: Mesh, points: np.ndarray, quality: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
-    """Relax moves that would invert a sound hex; returns the points, their quality and the number of relaxed nodes."""
+    """Relax moves that would invert a valid hex; returns the points, their quality and the number of relaxed nodes."""
     after = measure(moved, mesh.hexes)
     harmed = np.flatnonzero(after.inverted & ~quality.inverted).astype(np.int32)
     if not harmed.size and (sliding is None or not sliding.rejected_nodes(points, moved).size):
@@ -92,7 +92,7 @@ def _without_harm(
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
     moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
-    # A relaxed step that is put back may harm again: then it is not taken at all.
+    # Projection of a relaxed step may invert a hex again: such a step is rejected.
     moved = sliding.reject_moves(
         points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted]
     )

@@ -24,7 +24,7 @@ class GlobalDescent(Optimiser):
     delta_unit: str = parameter(
         "edge",
         choices=("edge", "mesh"),
-        help="Of what delta is in cubes: the mesh's mean edge length, or its own unit of length (Table 4.3).",
+        help="Unit of length for delta: the mean edge length of the mesh, or the unit of its points (Table 4.3).",
     )
     initial_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
     backtrack_factor: float = parameter(

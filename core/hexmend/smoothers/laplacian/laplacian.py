@@ -20,7 +20,7 @@ from hexmend.smoothers.visit_order import ORDERS
 @method
 @dataclass(frozen=True)
 class Laplacian(SlidingSmoother):
-    """Each node goes to the mean of its edge neighbours; one that slides, of those on its own curve or patch."""
+    """Move each node to the mean of its edge neighbours; a sliding node to that of those on its curve or patch."""
 
     name = "laplacian"
     title = "Laplacian"
@@ -31,7 +31,7 @@ class Laplacian(SlidingSmoother):
     update: str = parameter(
         "in-place",
         choices=("in-place", "simultaneous"),
-        help="Whether a node sees where the nodes before it went (Algorithm 3.1), or all move at once.",
+        help="in-place: a node uses the new positions of earlier nodes (Algorithm 3.1); simultaneous: the old ones.",
     )
     order: str = parameter(
         "natural",

@@ -24,7 +24,7 @@ class LocalOptimiser(Optimiser):
     delta_unit: str = parameter(
         "edge",
         choices=tuple(EDGES),
-        help="Of what delta is in cubes: the patch's mean edge length, or its extent, which is two edges (Table 4.4).",
+        help="Unit of length for delta: the patch's mean edge length, or its extent of two edges (Table 4.4).",
     )
     initial_step: float = parameter(1.0, low=1e-6, high=1e3, help="First trial step α of the line search (A.5).")
     backtrack_factor: float = parameter(

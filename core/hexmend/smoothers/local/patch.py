@@ -27,7 +27,7 @@ class LocalPatch(LocalOptimiser):
 
     name = "local-patch"
     title = "Local Newton, large patches"
-    help = "Moves patches of connected nodes, each by a Newton step of its own. Few sweeps, each dear."
+    help = "Moves patches of connected nodes, each by its own Newton step. Few sweeps, each expensive."
     source = "Wilson 5.2.5, Algorithms 3.2, A.3 and A.5"
     bytes_per_hex = 1700
 
@@ -35,7 +35,7 @@ class LocalPatch(LocalOptimiser):
         8, low=1, high=1000, unit="nodes", help="Connected free nodes that a patch is made of: 1, 8, 27, 64, 216..."
     )
     overlap: int = parameter(
-        1, low=0, high=1, unit="rings", help="Rings of neighbours that move with a patch, though they have their own."
+        1, low=0, high=1, unit="rings", help="Rings of nodes of other patches that move with a patch."
     )
 
     def steps(self, mesh: Mesh) -> Steps:

@@ -57,7 +57,7 @@ class LocalDescent(LocalOptimiser):
         points: np.ndarray,
         stays: np.ndarray,
     ) -> int:
-        """Move the points, those apart that have to stay; returns how often a hex was asked for its energy."""
+        """Move all points except those that must stay; returns the number of evaluations of a hex's energy."""
         visited, settings = groups.without(stays), self.step_settings(delta)
         surface = () if sliding is None else (sliding.sliding_surface, sliding.tangents(points))
         return local.sweep(points, mesh.topology.hex_mesh, visited.start, visited.items, settings, *surface)

@@ -1,1 +1,1 @@
-"""Mend, the default method: untangling, then the optimum of shape or of the least scaled Jacobian."""
+"""Mend, the default method: untangling, shape optimum, max-min of the scaled Jacobian, return to the surface."""

@@ -14,9 +14,9 @@ FAR = 10.0
 
 
 def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
-    """Move inner nodes of inverted hexes that are far from all their neighbours to the mean of these.
+    """Move inner nodes of inverted hexes that are far from all their neighbours to the mean of the neighbours.
 
-    From far away such a node would draw the others after it for as long as delta is large.
+    While delta is large, a node far away would pull all others towards it.
 
     Parameters
     ----------

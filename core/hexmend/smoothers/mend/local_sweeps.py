@@ -1,4 +1,4 @@
-"""Sweeps of local Newton steps (A.4) around hexes that would shorten the step of all nodes."""
+"""Sweeps of local Newton steps (A.4) around poor hexes, which would limit the step length of all nodes."""
 
 from __future__ import annotations
 

@@ -22,19 +22,19 @@ class MaxMinConfig:
     Parameters
     ----------
     barrier_safe : float
-        Least scaled Jacobian from which on a hex is sound enough for the energy's barrier.
+        Least scaled Jacobian above which the energy's barrier can be used.
     acceptable : float
         Least scaled Jacobian below which nodes of the boundary leave the surface, and groups are frozen.
     programs : int
-        Linear programs that make an iteration of the run.
+        Number of linear programs per iteration of the run.
     groups, groups_off_surface : int
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
     surface_share : float
         Share of the surface tolerance that the boundary uses while nodes slide.
     wide : float
-        Distance from the surface that nodes which leave it may have at first, in mean edge lengths.
+        Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
-        Multiple of `acceptable` at which the raise off the surface ends: the way back costs some of it.
+        Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
     band_rounding : float
         Share of the surface tolerance by which a boundary may exceed it.
     """

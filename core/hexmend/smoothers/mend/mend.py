@@ -28,7 +28,7 @@ from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 @method
 @dataclass(frozen=True)
 class Mend(ObjectiveSmoother):
-    """Every free node at once by truncated Newton steps, on a barrier that hardens until no hex is inverted."""
+    """Untangle with a barrier that hardens step by step, then optimise, by truncated Newton steps of all free nodes."""
 
     name = "mend"
     title = "Mend"
@@ -39,10 +39,10 @@ class Mend(ObjectiveSmoother):
     goal: str = parameter(
         "shape",
         choices=("shape", "scaled-jacobian"),
-        help="shape: the optimum of (3.3); scaled-jacobian: then the least one is raised as far as it goes.",
+        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian.",
     )
     max_p: float = parameter(
-        1.0, low=1, high=32, help="If higher than p: at the optimum p is doubled until it is this, for the worst hexes."
+        1.0, low=1, high=32, help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes."
     )
     initial_epsilon: float = parameter(
         0.03,
@@ -124,7 +124,7 @@ class Mend(ObjectiveSmoother):
 
     @staticmethod
     def _slide_free(mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary) -> Generator[Step, None, Mesh]:
-        """Raise the least scaled Jacobian by sliding until hexes are sound enough for the barrier."""
+        """Raise the least scaled Jacobian by sliding until the energy's barrier can be used."""
         optimiser = MaxMinOptimiser(mesh, points, sliding)
         yield from raise_least(optimiser, MAXMIN.barrier_safe)
         return mesh.with_points(optimiser.points)

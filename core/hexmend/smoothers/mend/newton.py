@@ -1,4 +1,4 @@
-"""Newton steps of all free nodes at once, of which untangling and the optimum of shape are made."""
+"""Newton steps of all free nodes at once, used by untangling and by the optimum of shape."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class NewtonConfig:
     reach: float = 1.5
 
     def direction(self) -> TruncatedNewton:
-        """A finder of directions for one sequence of steps: it adapts from step to step."""
+        """Make the direction for one sequence of steps; it adapts from step to step."""
         return TruncatedNewton(iterations=self.solver_iterations)
 
     def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, find: TruncatedNewton) -> Descent | None:

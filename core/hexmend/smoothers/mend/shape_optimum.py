@@ -45,7 +45,7 @@ class ShapeOptimumConfig:
 
 @dataclass(frozen=True, eq=False)
 class ShapeOptimum:
-    """Result of the stage: points (n, 3), and how it ended; None only where p is to be raised."""
+    """Result of the stage: points (n, 3) and outcome; the outcome is None before p is raised."""
 
     points: np.ndarray
     outcome: Outcome | None
@@ -100,7 +100,7 @@ def _minimise(
     x, uncut = energy.to_edge_units(points), False
     values: list[float] = []
     while True:
-        if not uncut:  # a step that was taken whole met no hex in its way
+        if not uncut:  # after a full step no hex has limited the line search
             poor = energies(x, hexes, 0.0, omitted) > config.poor
             if poor.any():
                 x = local_sweeps(energy, x, poor, omitted, 0.0, config.sweeps)

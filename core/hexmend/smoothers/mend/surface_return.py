@@ -45,10 +45,8 @@ def release_from_surface(
         The better one: this, if it is back in the band, or `on_surface`.
     """
     envelope, corners = optimiser.envelope, optimiser.corners
-    envelope.max_deviation, envelope.flips_allowed = (
-        max(config.wide * optimiser.mesh.mean_edge_length, max_deviation),
-        True,
-    )
+    envelope.max_deviation = max(config.wide * optimiser.mesh.mean_edge_length, max_deviation)
+    envelope.flips_allowed = True
     target, groups = config.off_surface_factor * config.acceptable, config.groups_off_surface
     yield from raise_least(optimiser, target, config.acceptable, groups, infeasible=True, config=config)
     for step in islice(optimiser.return_to_band(max_deviation), 0, None, config.programs):

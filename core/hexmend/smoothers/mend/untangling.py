@@ -34,15 +34,15 @@ class UntanglingConfig:
     max_delta : float
         In cubes of the mean edge length; beyond it the energy of a flat hex is that of a cube.
     newton_steps : int
-        Most steps of all nodes at one delta: before delta is small the energy is not worth minimising.
+        Most steps of all nodes at one delta: an accurate minimum is of no use while delta is large.
     sweeps : int
         Sweeps of local Newton steps at one delta.
     few : float
-        Share of the hexes below which the inverted ones are few: then local sweeps do the work.
+        Share of inverted hexes below which mainly local sweeps are used.
     few_sweeps, few_period : int
-        Sweeps at one delta where they are few, and at every which idle delta all nodes step.
+        Below that share: sweeps per delta, and number of deltas without progress per Newton step of all nodes.
     patience, faceted_patience : int
-        Deltas in a row that repair no further hex after which the stage ends; the second on a faceted surface, where
+        Number of successive deltas without progress after which the stage ends; the second on a faceted surface, where
         the max-min stage repairs what is left.
     """
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, node_count
+from hexmend.io.base.cell_kinds import node_count
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
