@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from hexmend.study.compare import Comparison, compare
 
 aliases.install()
-hooks.provide(
+hooks.register_hooks(
     html="hexmend.notebook:html", quality="hexmend.quality:metric_values", worst_hexes="hexmend.quality:worst_hexes"
 )
 

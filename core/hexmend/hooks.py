@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 _PROVIDERS: dict[str, str] = {}
 
 
-def provide(**providers: str) -> None:
+def register_hooks(**providers: str) -> None:
     """Name the functions of hooks, each as "module:function"; a module is imported when its hook is first used."""
     _PROVIDERS.update(providers)
 
 
-def provided(hook: str) -> Callable[..., Any]:
-    """Import the function of a hook."""
-    module, _, function = _PROVIDERS[hook].partition(":")
+def hook(name: str) -> Callable[..., Any]:
+    """Import the function of a hook, given the name under which `register_hooks` has it."""
+    module, _, function = _PROVIDERS[name].partition(":")
     return getattr(import_module(module), function)

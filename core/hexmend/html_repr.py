@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from hexmend.hooks import provided
+from hexmend.hooks import hook
 
 
 def html_of(value: object) -> str:
     """Return the HTML that a notebook shows for a value; see `hexmend.notebook`."""
-    return provided("html")(value)
+    return hook("html")(value)

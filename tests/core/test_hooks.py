@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-from hexmend.hooks import provided
+from hexmend.hooks import hook
 
 
-@pytest.mark.parametrize("hook", ["html", "quality", "worst_hexes"])
-def test_each_hook_has_a_provider(hook):
-    assert callable(provided(hook))
+@pytest.mark.parametrize("name", ["html", "quality", "worst_hexes"])
+def test_each_hook_has_a_provider(name):
+    assert callable(hook(name))
 
 
 def test_a_mesh_measures_itself_before_quality_is_imported():

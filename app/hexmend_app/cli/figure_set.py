@@ -60,7 +60,7 @@ class Figures:
         prepare_off_screen()
         from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.output.progress import Progress
-        from hexmend.cli.process.interrupts import FinishesWriting
+        from hexmend.cli.process.interrupts import FinishWriting
         from hexmend.report import output_folder
         from hexmend_app.report.captions import write_captions
         from hexmend_app.report.case import command_line, run_methods, source_of
@@ -73,7 +73,7 @@ class Figures:
         mesh, source = source_of(args.mesh)
         check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
         folder = output_folder(args.output)
-        with FinishesWriting():
+        with FinishWriting():
             with Progress() as progress:
                 case = run_methods(mesh, source, smoothers, stop, names, progress.show)
             figures = []
@@ -113,7 +113,7 @@ def _thesis(args: argparse.Namespace) -> int:
     """The thesis's figures of a mesh of the gallery, measured and drawn again."""
     from hexmend.cli.arguments.run_arguments import given_limits
     from hexmend.cli.output.progress import Progress
-    from hexmend.cli.process.interrupts import FinishesWriting
+    from hexmend.cli.process.interrupts import FinishWriting
     from hexmend.errors import HexmendError
     from hexmend.report import output_folder
     from hexmend.report.thesis import write_plots
@@ -134,7 +134,7 @@ def _thesis(args: argparse.Namespace) -> int:
     if "max_seconds" in given_limits(args):
         thesis = thesis.with_max_seconds(given_limits(args)["max_seconds"])
     folder = output_folder(args.output)
-    with FinishesWriting():
+    with FinishWriting():
         with Progress() as progress:
             study = run_experiments(thesis, quick=args.quick, watch=progress.show)
         drawn, missing = draw_figures(folder, study.results, formats)

@@ -32,7 +32,7 @@ class Report:
 
         from hexmend.cli.arguments.checks import check_memory
         from hexmend.cli.output.progress import Progress
-        from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
+        from hexmend.cli.process.interrupts import CleanExit, FinishWriting
         from hexmend.io.storage.atomic import check_writable
         from hexmend.io.storage.suffixes import suffix_for
         from hexmend.report.charts import check_matplotlib
@@ -58,10 +58,10 @@ class Report:
         check_pages(style, 1 + len(smoothers))
         chapters: list[Chapter] = []
         folders: list[str] = []
-        ended: EndsCleanly | None = None  # the block in which a signal came
-        with FinishesWriting() as writing:
+        ended: CleanExit | None = None  # the block in which a signal came
+        with FinishWriting() as writing:
             for number, one in enumerate(args.mesh, 1):
-                signals = EndsCleanly()
+                signals = CleanExit()
                 try:
                     with signals:
                         mesh, source = source_of(one)

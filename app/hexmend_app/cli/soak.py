@@ -24,7 +24,7 @@ class Soak:
         parser.add_argument("--json", metavar="FILE", help="write the figures of every round")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend.cli.process.interrupts import EndsAfterIteration, FinishesWriting
+        from hexmend.cli.process.interrupts import ExitAfterIteration, FinishWriting
         from hexmend.errors import HexmendError
         from hexmend.report import write_json
         from hexmend.study.bench.section import resident_mb
@@ -41,8 +41,8 @@ class Soak:
         except OSError:
             raise HexmendError("soak needs a system that tells what a process holds in /proc, as Linux does") from None
         memory = Memory()
-        with FinishesWriting():
-            with EndsAfterIteration("round") as signals:
+        with FinishWriting():
+            with ExitAfterIteration("round") as signals:
                 for sample in soak(args.mesh or [demo_mesh()], 60 * minutes):
                     memory.add(sample)
                     print(sample, flush=True)

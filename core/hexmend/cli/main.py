@@ -18,7 +18,7 @@ import sys
 from contextlib import suppress
 
 from hexmend import __version__
-from hexmend.cli.process.interrupts import EndsCleanly, exit_interrupted, exit_on_signals
+from hexmend.cli.process.interrupts import CleanExit, exit_interrupted, exit_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def _run(load: Callable[[], Command], words: list[str]) -> int:
             return int(leave.code or 0)
         if command.name == _DEFAULT:  # the window has an event loop of its own
             return command.run(args)
-        with EndsCleanly(completes=True):
+        with CleanExit(completes=True):
             return command.run(args)
     except HexmendError as error:
         print(f"hexmend: {printable(str(error))}", file=sys.stderr)

@@ -43,7 +43,7 @@ class AssembledHessian(SymmetricOperator):
 
     Parameters
     ----------
-    couplings : BlockSparsity
+    sparsity : BlockSparsity
     off_diagonal : (blocks + 1, 9) float32 or float64
         Blocks above the diagonal, by rows; the last row is unused (see `hexmend.kernels.conjugate_gradients`).
     diagonal : (k, 6) of the same
@@ -52,11 +52,11 @@ class AssembledHessian(SymmetricOperator):
         Scale: the matrix is 2^exponent times the blocks.
     """
 
-    def __init__(self, couplings: BlockSparsity, off_diagonal: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
-        super().__init__(3 * couplings.nodes.size)
-        self.couplings, self.off_diagonal, self.diagonal, self.exponent = couplings, off_diagonal, diagonal, exponent
-        self.order = couplings.order
-        self._work = np.empty(64 * couplings.nodes.size + 16, off_diagonal.dtype)
+    def __init__(self, sparsity: BlockSparsity, off_diagonal: np.ndarray, diagonal: np.ndarray, exponent: int = 0):
+        super().__init__(3 * sparsity.nodes.size)
+        self.sparsity, self.off_diagonal, self.diagonal, self.exponent = sparsity, off_diagonal, diagonal, exponent
+        self.order = sparsity.order
+        self._work = np.empty(64 * sparsity.nodes.size + 16, off_diagonal.dtype)
 
     def reset(self) -> AssembledHessian:
         """Zero the storage for reuse; the old matrix becomes invalid."""
@@ -66,10 +66,10 @@ class AssembledHessian(SymmetricOperator):
         return self
 
     @classmethod
-    def zero(cls, couplings: BlockSparsity, dtype: type) -> AssembledHessian:
+    def zero(cls, sparsity: BlockSparsity, dtype: type) -> AssembledHessian:
         """Make a zero matrix of a sparsity pattern."""
-        off_diagonal = np.zeros((couplings.blocks + 1, 9), dtype)
-        return cls(couplings, off_diagonal, np.zeros((couplings.nodes.size, 6), dtype))
+        off_diagonal = np.zeros((sparsity.blocks + 1, 9), dtype)
+        return cls(sparsity, off_diagonal, np.zeros((sparsity.nodes.size, 6), dtype))
 
     def underflows(self) -> bool:
         """Return True if the blocks are so small that single precision loses digits of them."""
@@ -81,12 +81,12 @@ class AssembledHessian(SymmetricOperator):
         off_diagonal, diagonal = (
             np.ldexp(blocks, -exponent).astype(dtype) for blocks in (self.off_diagonal, self.diagonal)
         )
-        return AssembledHessian(self.couplings, off_diagonal, diagonal, self.exponent + exponent)
+        return AssembledHessian(self.sparsity, off_diagonal, diagonal, self.exponent + exponent)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         x = v.reshape(-1, 3)
         y = np.empty_like(x)
-        kernels.product(self.couplings.pattern, self.off_diagonal, self.diagonal, self.order, x, y)
+        kernels.product(self.sparsity.pattern, self.off_diagonal, self.diagonal, self.order, x, y)
         return np.ldexp(y.ravel(), self.exponent) if self.exponent else y.ravel()
 
     def _slotted(self, v: np.ndarray) -> np.ndarray:
@@ -132,7 +132,7 @@ class AssembledHessian(SymmetricOperator):
         b = self._slotted(np.ldexp(right, -exponent))  # scaling by a power of two is exact
         x = np.empty_like(b)
         count, end = kernels.solve(
-            self.couplings.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, self._work
+            self.sparsity.pattern, self.off_diagonal, self.diagonal, damping, b, tolerance, iterations, x, self._work
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
@@ -147,7 +147,7 @@ class AssembledHessian(SymmetricOperator):
         """Convert to a sparse matrix of SciPy, (3 k, 3 k), with about 243 entries for each free node."""
         from scipy.sparse import coo_array
 
-        start, columns = self.couplings.row_start, self.couplings.columns
+        start, columns = self.sparsity.row_start, self.sparsity.columns
         slots = np.arange(self.order.size)
         rows, off_diagonal = np.repeat(slots, np.diff(start)), self.off_diagonal[:-1].reshape(-1, 3, 3)
         i, j = np.concatenate([slots, rows, columns]), np.concatenate([slots, columns, rows])

@@ -71,7 +71,7 @@ class MeshEnergy:
         return slot[self.mesh.hexes]
 
     @cached_property
-    def couplings(self) -> BlockSparsity:
+    def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
         return BlockSparsity(self.mesh)
 
@@ -201,19 +201,19 @@ class Hessian(SymmetricOperator):
         -------
         AssembledHessian
         """
-        couplings = self.energy.couplings
-        fits = reuse is not None and reuse.couplings is couplings and reuse.off_diagonal.dtype == dtype
-        matrix = reuse.reset() if fits else AssembledHessian.zero(couplings, dtype)
+        sparsity = self.energy.sparsity
+        fits = reuse is not None and reuse.sparsity is sparsity and reuse.off_diagonal.dtype == dtype
+        matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype)
         self._assemble(matrix)
         if dtype == np.float32 and matrix.underflows():
-            wide = AssembledHessian.zero(couplings, np.float64)
+            wide = AssembledHessian.zero(sparsity, np.float64)
             self._assemble(wide)
             return wide.normalised(dtype)
         return matrix
 
     def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
-        energy, shares = self.energy, self.energy.couplings.shares(threads())
+        energy, shares = self.energy, self.energy.sparsity.shares(threads())
         assembly.assemble(
             self.x, self.delta, energy.power, energy.left_out, shares, matrix.off_diagonal, matrix.diagonal
         )

@@ -88,12 +88,12 @@ class SlidingEnergy(MeshEnergy):
     @cached_property
     def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Blocks above the diagonal with a sliding node, and the slots of their rows and columns, (b,) each."""
-        couplings = self.couplings
-        slides = np.zeros(couplings.nodes.size, dtype=bool)
-        slides[couplings.order[self._rows]] = True
-        row = np.repeat(np.arange(slides.size), np.diff(couplings.row_start))
-        at = np.flatnonzero(slides[row] | slides[couplings.columns])
-        return at, row[at], couplings.columns[at]
+        sparsity = self.sparsity
+        slides = np.zeros(sparsity.nodes.size, dtype=bool)
+        slides[sparsity.order[self._rows]] = True
+        row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
+        at = np.flatnonzero(slides[row] | slides[sparsity.columns])
+        return at, row[at], sparsity.columns[at]
 
 
 class SlidingHessian(Hessian):

@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
-from hexmend.hooks import provided
+from hexmend.hooks import hook
 from hexmend.html_repr import html_of
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
@@ -155,11 +155,11 @@ class Mesh:
 
     def quality(self, metric: str = "q") -> np.ndarray:
         """Return the values of a metric of `hexmend.METRICS`, (m,) float64; see `hexmend.quality.metric_values`."""
-        return provided("quality")(self, metric)
+        return hook("quality")(self, metric)
 
     def worst(self, count: int = 10, metric: str = "q") -> np.ndarray:
         """Return the numbers of the worst hexes by a metric, worst first; see `hexmend.quality.worst_hexes`."""
-        return provided("worst_hexes")(self, count, metric)
+        return hook("worst_hexes")(self, count, metric)
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""

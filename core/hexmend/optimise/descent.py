@@ -92,7 +92,7 @@ def descend(
     length = norm(gradient)
     if not np.isfinite(length):
         return None
-    if perfect(energy, value, delta):
+    if is_perfect(energy, value, delta):
         return Descent(x, value, 0.0, length, SearchDirection(np.zeros_like(gradient)), 0.0, 0)
     hessian = energy.hessian(x, delta)
     found = find(value, gradient, hessian)  # A.2, A.3, A.4
@@ -102,13 +102,13 @@ def descend(
     if not slope < 0:
         found = steepest_descent(value, gradient, hessian)
         slope = _limit(energy, x, delta, found.p, gradient, reach, by_edges=False)
-    for trial in range(TRIALS):
+    for trial in range(MAX_SEARCHES):
         alpha, cuts = search(lambda alpha: energy.value(energy.moved(x, found.p, alpha), delta), value, slope)  # A.5
         there = energy.moved(x, found.p, alpha)
         infeasible = energy.infeasible_nodes(x, there)
         if infeasible is None:
             return Descent(there, value, slope, length, found, alpha, cuts)
-        found.p[infeasible[energy.nodes]] *= 0.5 if trial < TRIALS // 2 else 0.0
+        found.p[infeasible[energy.nodes]] *= 0.5 if trial < MAX_SEARCHES // 2 else 0.0
         slope, search = energy.directional_derivative(x, delta, found.p, gradient), search.with_initial_step(alpha)
     return Descent(x, value, slope, length, found, 0.0, cuts)
 
@@ -128,24 +128,24 @@ def _limit(
         if by_edges:
             ring = energy.mesh.topology.rings
             shorten(step, x, ring.start, ring.items, energy.nodes, reach)
-        restrain(energy, x, delta, step)
+        halve_harmful_steps(energy, x, delta, step)
     return energy.directional_derivative(x, delta, step, gradient)
 
 
 #: Largest coordinate of a step, in the mesh's own unit of length: squares of larger ones overflow.
-LONGEST = 1e100
+MAX_STEP = 1e100
 
 
 def shorten_to_range(step: np.ndarray, unit: float) -> None:
     """Shorten a step (k, 3), changed, that would overflow; `unit` is its unit of length in units of the mesh."""
     size = float(np.abs(step).max(initial=0.0))
-    if size > LONGEST / unit:
-        step *= LONGEST / unit / size
+    if size > MAX_STEP / unit:
+        step *= MAX_STEP / unit / size
 
 
 #: Line searches before no step is taken. After each of the first half the steps of infeasible nodes are halved, later
 #: they are set to 0.
-TRIALS = 6
+MAX_SEARCHES = 6
 
 #: Rounding errors by which the eta of a cube may differ from 0.
 ROUNDING = 8
@@ -158,7 +158,7 @@ HALVINGS = 8
 STAY_BELOW = 0.25
 
 
-def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
+def halve_harmful_steps(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) -> None:
     """Halve the steps of infeasible nodes, and of nodes whose hexes would get much worse, so that others keep theirs.
 
     Parameters
@@ -188,7 +188,7 @@ def restrain(energy: MeshEnergy, x: np.ndarray, delta: float, step: np.ndarray) 
     step *= share[energy.nodes, None]
 
 
-def perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
+def is_perfect(energy: MeshEnergy, value: float, delta: float) -> bool:
     """Return True if every hex is a cube but for rounding: gradient and Hessian are noise then."""
     eta, power = ROUNDING * np.finfo(float).eps, energy.power
     highest = power.of(eta) if delta == 0 else eta**power.p  # softened, a hex may have less energy than a cube

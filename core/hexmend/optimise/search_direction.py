@@ -58,11 +58,11 @@ class Newton:
 
 
 #: Share of the first gradient at which a solution is as good as rounding allows.
-ENOUGH = 1e-9
+GRADIENT_FLOOR = 1e-9
 #: Most raises of the damping in a step, and the factor of each.
-RAISES, RISE = 4, 4.0
+MAX_DAMPING_INCREASES, DAMPING_GROWTH = 4, 4.0
 #: Smallest damping that is not 0, as a share of the diagonal, and the divisor after a step for which it was enough.
-FIRST, FALL = 0.05, 4.0
+MIN_DAMPING, DAMPING_DECAY = 0.05, 4.0
 
 
 class TruncatedNewton:
@@ -70,8 +70,8 @@ class TruncatedNewton:
 
     The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
     1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
-    would fall below `ENOUGH` of the first. Where the Hessian is not positive definite its diagonal is raised until it
-    is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
+    would fall below `GRADIENT_FLOOR` of the first. If the Hessian is not positive definite, its diagonal is increased
+    until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
 
     An object serves one sequence of steps: tolerance and damping follow from the step before.
 
@@ -94,14 +94,14 @@ class TruncatedNewton:
         right, tolerance = -gradient.ravel(), self._tolerance(gradient)
         solved = matrix.solve(right, tolerance, self.iterations, self._damping)
         count, damping = solved.iterations, self._damping
-        for _ in range(RAISES):
+        for _ in range(MAX_DAMPING_INCREASES):
             if not solved.negative_curvature:
                 break
-            damping = max(RISE * damping, FIRST)
+            damping = max(DAMPING_GROWTH * damping, MIN_DAMPING)
             solved = matrix.solve(right, tolerance, self.iterations, damping)
             count += solved.iterations
-        self._damping = damping if damping > self._damping else damping / FALL
-        if self._damping < FIRST:
+        self._damping = damping if damping > self._damping else damping / DAMPING_DECAY
+        if self._damping < MIN_DAMPING:
             self._damping = 0.0
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
@@ -111,7 +111,7 @@ class TruncatedNewton:
             self._first = self._last = length
         if length == 0:
             return self.loosest
-        goal = max(0.9 * (length / self._last) ** 2, ENOUGH * self._first / length)
+        goal = max(0.9 * (length / self._last) ** 2, GRADIENT_FLOOR * self._first / length)
         self._last = length
         return float(np.clip(goal, self.tightest, self.loosest))
 

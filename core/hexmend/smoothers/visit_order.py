@@ -84,7 +84,7 @@ ORDERS: dict[str, Callable[[Mesh], Sequence]] = {
 }
 
 
-class Visits:
+class VisitOrder:
     """Order of the nodes in the sweeps over a mesh, in groups that can be visited at the same time.
 
     Parameters

@@ -6,7 +6,7 @@ import signal
 import pytest
 
 from hexmend import gallery
-from hexmend.cli.process.interrupts import EndsAfterIteration
+from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.run import Run, StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.report import case
@@ -43,7 +43,7 @@ def test_a_second_signal_after_the_last_iteration_keeps_what_the_run_reached(mon
 
     monkeypatch.setattr(owner, name, interrupted)
     mesh = gallery.make("cube", size=27, scramble=0.3)
-    with EndsAfterIteration() as signals:
+    with ExitAfterIteration() as signals:
         done = run_methods(mesh, None, methods, StoppingCriteria(max_iterations=1), watch=ask)
     assert done.interrupted
     assert [one.name for one in done.versions] == ["initial", "laplacian"]

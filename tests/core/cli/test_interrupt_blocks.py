@@ -9,7 +9,7 @@ import time
 import pytest
 
 from hexmend.cli.process import interrupts
-from hexmend.cli.process.interrupts import ENDING, EndsAfterIteration, EndsCleanly, FinishesWriting
+from hexmend.cli.process.interrupts import ENDING, CleanExit, ExitAfterIteration, FinishWriting
 from hexmend.signal_guard import uninterrupted
 
 #: A program that gets a signal after each handler that a block restores, and rests then.
@@ -22,7 +22,7 @@ def restore(number, handler):
     before = whole(number, handler)
     os.kill(os.getpid(), signal.SIGINT)
     return before
-with interrupts.EndsCleanly(completes=sys.argv[1] == "completes"):
+with interrupts.CleanExit(completes=sys.argv[1] == "completes"):
     signal.signal = restore
 time.sleep(1)
 sys.exit(7)
@@ -66,15 +66,15 @@ def test_a_signal_is_raised_when_a_function_returns_that_had_to_be_finished(time
         rest(0.1)
         finished.append(True)
 
-    with pytest.raises(KeyboardInterrupt), EndsCleanly():
+    with pytest.raises(KeyboardInterrupt), CleanExit():
         while len(finished) < 100:
             work()
     assert len(finished) == 1
 
 
 def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
-    monkeypatch.setattr(FinishesWriting, "grace", 0.05)
-    with pytest.raises(KeyboardInterrupt), FinishesWriting():
+    monkeypatch.setattr(FinishWriting, "grace", 0.05)
+    with pytest.raises(KeyboardInterrupt), FinishWriting():
         send()
         send()
         rest(60)
@@ -83,16 +83,16 @@ def test_the_grace_ends_a_block_that_is_asked_twice(timer, monkeypatch, capfd):
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_result_is_written_to_its_end_however_long_that_takes_after_one_signal(timer, monkeypatch, number):
-    monkeypatch.setattr(FinishesWriting, "grace", 0.01)
-    with FinishesWriting() as writing:
+    monkeypatch.setattr(FinishWriting, "grace", 0.01)
+    with FinishWriting() as writing:
         send(number)
         rest(0.2)
     assert writing.asked
 
 
 def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer, monkeypatch):
-    monkeypatch.setattr(FinishesWriting, "grace", 0.05)
-    with FinishesWriting():
+    monkeypatch.setattr(FinishWriting, "grace", 0.05)
+    with FinishWriting():
         send()
         send()
     rest(0.2)
@@ -100,7 +100,7 @@ def test_nothing_is_raised_after_the_end_of_a_block_with_a_grace(timer, monkeypa
 
 def test_a_block_has_the_status_of_its_first_signal():
     for number, other in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT)):
-        with EndsAfterIteration() as signals:
+        with ExitAfterIteration() as signals:
             assert not signals.asked
             send(number)
             assert signals.asked
@@ -112,10 +112,10 @@ def test_a_block_has_the_status_of_its_first_signal():
 def test_a_signal_that_waits_at_the_end_of_a_block_comes_to_the_one_around_it(timer):
     @uninterrupted
     def work():
-        with EndsCleanly():
+        with CleanExit():
             send()
 
-    with pytest.raises(KeyboardInterrupt), EndsCleanly():
+    with pytest.raises(KeyboardInterrupt), CleanExit():
         work()
 
 

@@ -31,7 +31,7 @@ def some_left_out(mesh, share, seed):
 
 def by_parts(hessian, parts):
     """Assemble the matrix with another division of its slots."""
-    hessian.energy.couplings = BlockSparsity(hessian.energy.mesh, parts)
+    hessian.energy.sparsity = BlockSparsity(hessian.energy.mesh, parts)
     return hessian.assembled(np.float64)
 
 
@@ -97,15 +97,15 @@ def test_what_single_precision_cannot_hold_is_cut():
 @pytest.mark.parametrize(("parts", "made"), [(1, 1), (2, 2), (3, 3), (4, 4), (50, 4)])
 def test_parts_share_no_block_but_with_the_separators_between_them(parts, made):
     mesh = scrambled(grid(14, 3, 3), 0.1)
-    couplings = BlockSparsity(mesh, parts)
-    ends, slots = couplings.bounds, np.arange(couplings.nodes.size)
+    sparsity = BlockSparsity(mesh, parts)
+    ends, slots = sparsity.bounds, np.arange(sparsity.nodes.size)
     assert ends.size == 2 * made
     assert ends[0] == 0
-    assert ends[-1] == couplings.nodes.size
-    assert (np.sort(couplings.nodes) == np.flatnonzero(mesh.free)).all()
+    assert ends[-1] == sparsity.nodes.size
+    assert (np.sort(sparsity.nodes) == np.flatnonzero(mesh.free)).all()
     place = np.searchsorted(ends, slots, side="right") - 1
-    rows = np.repeat(slots, np.diff(couplings.row_start))
-    met = {tuple(pair) for pair in np.stack([place[rows], place[couplings.columns]], axis=1).tolist()}
+    rows = np.repeat(slots, np.diff(sparsity.row_start))
+    met = {tuple(pair) for pair in np.stack([place[rows], place[sparsity.columns]], axis=1).tolist()}
     allowed = {(k, k) for k in range(2 * made - 1)}
     allowed |= {(k, made + k) for k in range(made - 1)} | {(k + 1, made + k) for k in range(made - 1)}
     assert met <= allowed
@@ -131,7 +131,7 @@ def test_the_preconditioner_is_gauss_seidel_with_nothing_left_out(parts):
     """Conjugate gradients written out, with M as a dense matrix, take as many iterations to the same solution."""
     hessian = hessian_of(scrambled(grid(14, 3, 3), 0.15, 3), shift=0.5)
     assembled = by_parts(hessian, parts)
-    assert assembled.couplings.bounds.size == 2 * parts
+    assert assembled.sparsity.bounds.size == 2 * parts
     matrix = assembled.matrix().toarray()
     slots = 3 * np.repeat(assembled.order.argsort(), 3) + np.tile(np.arange(3), len(matrix) // 3)
     a = matrix[np.ix_(slots, slots)]  # in the order of the slots
@@ -179,7 +179,7 @@ def test_the_end_of_a_solve_is_reported():
         assert isinstance(assembled, AssembledHessian)
         right = np.ones((assembled.order.size, 4), np.float32) * np.float32([1, 1, 1, 0])
         return conjugate_gradients.solve(
-            assembled.couplings.pattern,
+            assembled.sparsity.pattern,
             assembled.off_diagonal,
             assembled.diagonal,
             0.0,
@@ -223,9 +223,9 @@ def test_the_solution_is_as_large_as_the_right_hand_side(size, precision):
 
 def test_a_solution_beyond_the_range_of_numbers_is_infinite_and_one_below_it_is_0():
     assembled = hessian_of(scrambled(grid(4), 0.15, 3)).assembled(np.float64)
-    tiny = AssembledHessian(assembled.couplings, assembled.off_diagonal, assembled.diagonal, -100)
+    tiny = AssembledHessian(assembled.sparsity, assembled.off_diagonal, assembled.diagonal, -100)
     assert np.isinf(tiny.solve(np.full(tiny.shape[0], 2.0**1000), 1e-3, 100).x).any()
-    huge = AssembledHessian(assembled.couplings, assembled.off_diagonal, assembled.diagonal, 1000)
+    huge = AssembledHessian(assembled.sparsity, assembled.off_diagonal, assembled.diagonal, 1000)
     assert not huge.solve(np.full(huge.shape[0], 2.0**-900), 1e-3, 100).x.any()
 
 

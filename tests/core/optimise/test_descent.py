@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
-from hexmend.optimise.descent import LONGEST, descend, perfect, shorten_to_range
+from hexmend.optimise.descent import MAX_STEP, descend, is_perfect, shorten_to_range
 from hexmend.optimise.search_direction import SearchDirection, steepest_descent
 from tests.core.grids import grid, scrambled
 
@@ -76,10 +76,10 @@ def test_from_an_infinite_energy_there_is_no_step():
 @pytest.mark.parametrize("delta", [0.0, 0.1])
 def test_only_what_rounding_leaves_is_perfect(delta):
     energy = MeshEnergy(grid(3))
-    assert perfect(energy, 0.0, delta)
-    assert perfect(energy, 1e-31, delta)
-    assert not perfect(energy, 1e-6, delta)
-    assert not perfect(energy, 0.9, delta)
+    assert is_perfect(energy, 0.0, delta)
+    assert is_perfect(energy, 1e-31, delta)
+    assert not is_perfect(energy, 1e-6, delta)
+    assert not is_perfect(energy, 0.9, delta)
 
 
 @pytest.mark.parametrize("longest", [1e200, -1e200, -1e101])
@@ -88,9 +88,9 @@ def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction
     step = np.array([[longest, 0.5 * longest, 0.0], [0.0, -0.25 * longest, 1.0]])
     shortened = step.copy()
     shorten_to_range(shortened, unit)
-    assert np.abs(shortened).max() == pytest.approx(LONGEST / unit)
+    assert np.abs(shortened).max() == pytest.approx(MAX_STEP / unit)
     np.testing.assert_allclose(shortened / shortened[0, 0], step / longest, rtol=1e-12)
-    within = np.array([[-0.99, 0.5, 0.0]]) * LONGEST / unit
+    within = np.array([[-0.99, 0.5, 0.0]]) * MAX_STEP / unit
     again = within.copy()
     shorten_to_range(again, unit)
     np.testing.assert_array_equal(again, within)

@@ -6,7 +6,7 @@ import pytest
 from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.gallery import make
 from hexmend.iteration import Outcome
-from hexmend.optimise.descent import perfect
+from hexmend.optimise.descent import is_perfect
 from hexmend.run import smooth
 from hexmend.smoothers import METHODS
 from tests.core.grids import grid, scrambled
@@ -28,7 +28,7 @@ def test_a_mesh_of_cubes_is_perfect_and_one_a_little_away_is_not(p, offset):
     cubes, other = grid(4), scrambled(grid(4), 0.01)
     for mesh, answer in ((cubes, True), (other, False)):
         energy = MeshEnergy(mesh, ObjectiveNorm(p, offset))
-        assert perfect(energy, energy.value(energy.to_edge_units(mesh.points)), 0.0) == answer
+        assert is_perfect(energy, energy.value(energy.to_edge_units(mesh.points)), 0.0) == answer
 
 
 @pytest.mark.parametrize("p", [8.0, 16.0, 32.0])

@@ -9,7 +9,15 @@ from scipy.sparse.linalg import ArpackNoConvergence
 
 from hexmend.energy import MeshEnergy
 from hexmend.optimise import search_direction
-from hexmend.optimise.search_direction import ENOUGH, FALL, FIRST, RAISES, RISE, ModifiedNewton, TruncatedNewton
+from hexmend.optimise.search_direction import (
+    DAMPING_DECAY,
+    DAMPING_GROWTH,
+    GRADIENT_FLOOR,
+    MAX_DAMPING_INCREASES,
+    MIN_DAMPING,
+    ModifiedNewton,
+    TruncatedNewton,
+)
 from tests.core.grids import grid, scrambled
 
 
@@ -43,7 +51,7 @@ def test_the_tolerance_follows_the_square_of_what_is_left_of_the_gradient_in_any
 
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
 def test_no_more_is_asked_than_leaves_enough_of_the_first_gradient(unit):
-    lengths = [1.0, 20 * ENOUGH, 5 * ENOUGH]
+    lengths = [1.0, 20 * GRADIENT_FLOOR, 5 * GRADIENT_FLOOR]
     assert tolerances(lengths, unit, loosest=0.9, tightest=1e-12)[1:] == pytest.approx([1 / 20, 1 / 5])
 
 
@@ -61,21 +69,21 @@ def test_the_direction_is_the_solution_for_minus_the_gradient():
 
 
 def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
-    find, matrix = TruncatedNewton(), Matrix(needed=RISE * FIRST)
+    find, matrix = TruncatedNewton(), Matrix(needed=DAMPING_GROWTH * MIN_DAMPING)
     found = find(1.0, np.ones((1, 3)), matrix)
-    assert [damping for *_, damping in matrix.asked] == [0.0, FIRST, RISE * FIRST]
-    assert (found.shift, found.solver_iterations) == (RISE * FIRST, 9)
+    assert [damping for *_, damping in matrix.asked] == [0.0, MIN_DAMPING, DAMPING_GROWTH * MIN_DAMPING]
+    assert (found.shift, found.solver_iterations) == (DAMPING_GROWTH * MIN_DAMPING, 9)
     matrix.needed, matrix.asked = 0.0, []
     for _ in range(3):
         find(1.0, np.ones((1, 3)), matrix)
-    first = RISE * FIRST
-    assert [damping for *_, damping in matrix.asked] == [first, first / FALL, 0.0]
+    first = DAMPING_GROWTH * MIN_DAMPING
+    assert [damping for *_, damping in matrix.asked] == [first, first / DAMPING_DECAY, 0.0]
 
 
 def test_damping_is_raised_so_often_and_no_oftener():
     find, matrix = TruncatedNewton(), Matrix(needed=np.inf)
-    assert find(1.0, np.ones((1, 3)), matrix).shift == FIRST * RISE ** (RAISES - 1)
-    assert len(matrix.asked) == RAISES + 1
+    assert find(1.0, np.ones((1, 3)), matrix).shift == MIN_DAMPING * DAMPING_GROWTH ** (MAX_DAMPING_INCREASES - 1)
+    assert len(matrix.asked) == MAX_DAMPING_INCREASES + 1
 
 
 class Shifted:

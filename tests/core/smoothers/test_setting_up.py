@@ -14,12 +14,12 @@ def test_the_order_of_visits_is_worked_out_before_the_first_step(monkeypatch):
     """So that it counts as set-up, and every sweep takes the same time."""
     asked = []
 
-    class Visits(single_node.Visits):
+    class Visits(single_node.VisitOrder):
         def groups(self, points, sweep):
             asked.append(sweep)
             return super().groups(points, sweep)
 
-    monkeypatch.setattr(single_node, "Visits", Visits)
+    monkeypatch.setattr(single_node, "VisitOrder", Visits)
     steps = METHODS["local-sd"]().steps(scrambled(grid(3), 0.2))
     next(steps)
     assert asked == [0]

@@ -15,7 +15,7 @@ from hexmend.quality import measure
 from hexmend.smoothers import METHODS
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.single_node import LocalDescent
-from hexmend.smoothers.visit_order import ORDERS, Visits
+from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 from tests.core.grids import grid, scrambled
 
 LOCAL = [name for name, method in METHODS.items() if issubclass(method, LocalDescent)]
@@ -46,7 +46,7 @@ def sharing(mesh):
 @given(st.sampled_from(sorted(ORDERS)), st.integers(0, 5), st.tuples(*[st.integers(1, 4)] * 3), st.integers(0, 99))
 def test_each_order_visits_each_free_node_once(order, sweep, size, seed):
     mesh = scrambled(grid(*size), 0.3, seed)
-    visits = Visits(mesh, order)
+    visits = VisitOrder(mesh, order)
     nodes = visits.sequence(mesh.points, sweep)
     np.testing.assert_array_equal(np.sort(nodes), np.flatnonzero(mesh.free))
     np.testing.assert_array_equal(np.sort(visits.groups(mesh.points, sweep).items), np.sort(nodes))

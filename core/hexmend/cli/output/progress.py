@@ -9,7 +9,7 @@ from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
-from hexmend.cli.process.interrupts import EndsAfterIteration
+from hexmend.cli.process.interrupts import ExitAfterIteration
 from hexmend.cli.process.terminal import redraws_lines
 from hexmend.signal_guard import uninterrupted
 
@@ -33,13 +33,13 @@ class Progress:
 
     Attributes
     ----------
-    signals : EndsAfterIteration
+    signals : ExitAfterIteration
         The signal that came, if any, and its exit status.
     """
 
     def __enter__(self) -> Self:
         self._display: _Live | _Lines | None = _Live() if redraws_lines() else _Lines()
-        self.signals = EndsAfterIteration()
+        self.signals = ExitAfterIteration()
         self.signals.__enter__()
         return self
 

@@ -5,7 +5,7 @@ A handler never prints, because it may have interrupted a print. It sets a flag,
 is raised afterwards.
 
 Before a command runs there is nothing to lose, and the process exits at once (`exit_on_signals`). A command runs in
-`EndsCleanly`, a loop in `EndsAfterIteration`, and results are written in `FinishesWriting`.
+`CleanExit`, a loop in `ExitAfterIteration`, and results are written in `FinishWriting`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _delayed = 0
 _retries = False
 
 
-class Ended(KeyboardInterrupt):
+class TerminationSignal(KeyboardInterrupt):
     """A signal other than Ctrl-C has asked the program to end.
 
     Parameters
@@ -89,7 +89,7 @@ def write_line(text: str) -> None:
         pass
 
 
-class EndsCleanly:
+class CleanExit:
     """Inside the block a signal is an exception; a further one waits until temporary files are removed on the way out.
 
     Parameters
@@ -171,7 +171,7 @@ class EndsCleanly:
             return
         if self._delays:
             self._delay(0, 0.0)
-        raise KeyboardInterrupt if number == signal.SIGINT else Ended(number)
+        raise KeyboardInterrupt if number == signal.SIGINT else TerminationSignal(number)
 
     def _wait(self, number: int) -> None:
         """Raise an exception if the block has not ended after the grace."""
@@ -202,7 +202,7 @@ class EndsCleanly:
             self._unraisable(unraisable)
 
 
-class EndsAfterIteration(EndsCleanly):
+class ExitAfterIteration(CleanExit):
     """Inside the block the first signal only sets `asked`, which the loop checks; the second is an exception.
 
     So no iteration is interrupted, and its result is complete.
@@ -224,7 +224,7 @@ class EndsAfterIteration(EndsCleanly):
             super()._answer(count - 1, number, frame)
 
 
-class FinishesWriting(EndsCleanly):
+class FinishWriting(CleanExit):
     """Inside the block the result is written: the first signal is ignored, the second limits the time for writing."""
 
     grace = 8.0

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
 #: Share of the gain that may be given up so that nodes without effect do not move.
-IDLE = 0.05
+MOVE_COST = 0.05
 #: Distance of a model from its bound, in radii of the region, up to which the program begins with it.
-NEAR = 0.3
+INITIAL_MARGIN = 0.3
 #: Violation from which on a model that was omitted is added.
-BELOW = 1e-7
+MAX_VIOLATION = 1e-7
 #: Options of HiGHS: its presolve takes longer than the solution of programs as small as these.
 _HIGHS = {"presolve": False, "simplex_dual_edge_weight_strategy": "devex"}
 
@@ -106,13 +106,13 @@ def solve(
     from scipy.optimize import linprog
 
     cost, matrix, limits, bounds = build_program(nodes, directions, models, radius, falls)
-    taken = limits < NEAR * radius
+    taken = limits < INITIAL_MARGIN * radius
     while True:
         rows = np.flatnonzero(taken)
         solved = linprog(cost, matrix[rows], limits[rows], bounds=bounds, method="highs-ds", options=_HIGHS)
         if solved.status != 0:
             return None
-        below = (matrix @ solved.x > limits + BELOW) & ~taken
+        below = (matrix @ solved.x > limits + MAX_VIOLATION) & ~taken
         if not below.any():
             multipliers = np.zeros(limits.size)
             multipliers[rows] = -solved.ineqlin.marginals
@@ -144,7 +144,7 @@ def build_program(
     unknowns, rows = directions.owner.size + 1, len(ends)
     entries = np.concatenate([-slopes, models.rises])
     at = np.concatenate([row[pair], np.arange(rows)]), np.concatenate([column, np.full(rows, unknowns - 1)])
-    cost = np.full(unknowns, IDLE / max(nodes.size, 1))
+    cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
     cost[-1] = -1.0
     bounds = np.zeros((unknowns, 2))
     bounds[:, 1] = radius

@@ -17,7 +17,7 @@ from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps
 from hexmend.smoothers.local.base import LocalOptimiser
 from hexmend.smoothers.sliding_smoother import Sweeps
-from hexmend.smoothers.visit_order import ORDERS, Visits
+from hexmend.smoothers.visit_order import ORDERS, VisitOrder
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class LocalDescent(LocalOptimiser):
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
         mesh = mesh if sliding is None else sliding.mesh
-        corners, visits = mesh.topology.node_corners, Visits(mesh, self.order)
+        corners, visits = mesh.topology.node_corners, VisitOrder(mesh, self.order)
         derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
         points, sweep, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
         visits.groups(points, sweep)

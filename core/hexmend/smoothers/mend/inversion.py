@@ -10,7 +10,7 @@ from hexmend.quality import ElementQuality, corner_determinants
 from hexmend.quality.measure import locked_tetrahedra
 
 #: An inner node is far away if the shortest edge of its inverted hexes is longer than this, in mean edge lengths.
-FAR = 10.0
+FAR_NODE_FACTOR = 10.0
 
 
 def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
@@ -30,7 +30,7 @@ def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
         All points; the mesh's own array where no node is far away.
     """
     size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
-    far = np.isfinite(size) & (size > FAR * mesh.mean_edge_length)
+    far = np.isfinite(size) & (size > FAR_NODE_FACTOR * mesh.mean_edge_length)
     points = mesh.points
     for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
         ring = mesh.topology.rings[node]

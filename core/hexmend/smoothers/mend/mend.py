@@ -19,7 +19,7 @@ from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin_stage import MAXMIN, active_set, raise_least
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
-from hexmend.smoothers.mend.newton import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.surface_return import MaxMinResult, release_from_surface
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle

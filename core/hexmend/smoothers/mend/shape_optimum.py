@@ -11,7 +11,7 @@ from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
 from hexmend.iteration import Outcome, Step
 from hexmend.optimise.descent import Descent
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 
 
 @dataclass(frozen=True)

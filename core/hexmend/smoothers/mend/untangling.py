@@ -18,7 +18,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import count_inverted, inverted_corners, recentre_far_nodes
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 
 
 @dataclass(frozen=True)

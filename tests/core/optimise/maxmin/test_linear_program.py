@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.optimise.maxmin.directions import StepDirections
 from hexmend.optimise.maxmin.linear_program import (
-    IDLE,
+    MOVE_COST,
     LinearConstraints,
     build_program,
     lower_bounds,
@@ -43,7 +43,7 @@ def test_nodes_that_need_not_move_stay():
     cost, _, _, bounds = build_program(
         nodes, directions, LinearConstraints(ENDS, np.zeros(1), slope_of(2, 1.0), np.ones(1)), 0.1, False
     )
-    np.testing.assert_allclose(cost, [IDLE / 2] * 4 + [-1])
+    np.testing.assert_allclose(cost, [MOVE_COST / 2] * 4 + [-1])
     np.testing.assert_allclose(bounds, [[0, 0.1]] * 4 + [[0, 2]])
 
 
@@ -54,7 +54,7 @@ def test_two_corners_hold_each_other_where_they_want_opposite_ways():
     )
     found = solve(nodes, directions, both, 0.1)
     assert found.gain == pytest.approx(0, abs=1e-12)
-    np.testing.assert_allclose(found.multipliers, [0.5, 0.5], atol=IDLE)
+    np.testing.assert_allclose(found.multipliers, [0.5, 0.5], atol=MOVE_COST)
 
 
 def test_a_bound_limits_how_far_a_node_goes_whether_it_is_near_at_first_or_turns_out_to_bind():

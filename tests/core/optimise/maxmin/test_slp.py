@@ -9,7 +9,7 @@ from scipy.optimize import linprog
 from hexmend.boundary import SlidingBoundary, surface_change
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians, shortest_edges
-from hexmend.optimise.maxmin.linear_program import IDLE
+from hexmend.optimise.maxmin.linear_program import MOVE_COST
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid, scrambled
@@ -92,12 +92,12 @@ def test_corners_at_the_end_hold_each_other(seed):
     values = raising.corners.values[limit.hexes, limit.corners]
     assert np.ptp(values) < 1e-3
     assert (mesh.free[mesh.hexes[limit.hexes[:, None], CORNER_TETRAHEDRA[limit.corners]]]).any(axis=1).all()
-    assert steepest(mesh, raising.points, limit) < 3 * IDLE + 1e-6  # each axis of a node has its price
+    assert steepest(mesh, raising.points, limit) < 3 * MOVE_COST + 1e-6  # each axis of a node has its price
     random, size = np.random.default_rng(seed), shortest_edges(raising.points, mesh.hexes)[:, None]
     for reach in 1e-2, 1e-3:
         way = random.uniform(-1, 1, mesh.points.shape) * size * mesh.free[:, None]
         there = scaled_jacobians(raising.points + reach * way, mesh.hexes)[limit.hexes, limit.corners]
-        assert there.min() < values.min() + 3 * IDLE * reach + 10 * reach**2
+        assert there.min() < values.min() + 3 * MOVE_COST * reach + 10 * reach**2
 
 
 def test_nothing_is_raised_beyond_its_target():

@@ -12,7 +12,7 @@ from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend import untangling
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled

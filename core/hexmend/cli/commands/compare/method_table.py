@@ -11,7 +11,7 @@ from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
-from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import read, write, writer_for
 from hexmend.report import comparison_rows, output_folder, record_table, write_documents
 from hexmend.smoothers import METHODS
@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
     suffix = Path(args.mesh).suffix
     if args.write_meshes:
         writer_for(folder / f"mesh{suffix}")  # raises now, and not after the runs, for a format that is only read
-    with FinishesWriting():
+    with FinishWriting():
         with Progress() as progress:
             comparison = compare(mesh, smoothers, limits, watch=progress.show)
         record = comparison.record()

@@ -11,7 +11,7 @@ from hexmend.cli.commands.smooth.suggested_command import suggested_command
 from hexmend.cli.output.mesh_messages import print_notes, print_problems, warn_of_losses
 from hexmend.cli.output.progress import follow
 from hexmend.cli.output.text_tables import print_summaries
-from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import read, writer_for
 from hexmend.iteration import Result
 from hexmend.mesh.fixing import with_region_free, with_sets_fixed
@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
-    with FinishesWriting():
+    with FinishWriting():
         follow(smoothing)
         result = smoothing.result()
         write(args.output, result.mesh.replace(pinned=pinned))

@@ -12,7 +12,7 @@ _THESIS_OPTIONS = ("--quick", "--max-seconds", "--only", "--force")
 _RECIPE_OPTIONS = ("--jobs", "--scheduler", "--again", "--write-meshes")
 
 
-class Study:
+class StudyCommand:
     """Repeat Chapter 4 and the outlooks of Section 5.2 on the gallery's meshes; or run any methods on any meshes."""
 
     name = "study"
@@ -80,4 +80,4 @@ def _check_options(args: argparse.Namespace) -> None:
         )
 
 
-command = Study()
+command = StudyCommand()

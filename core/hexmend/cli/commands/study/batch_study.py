@@ -9,7 +9,7 @@ from pathlib import Path
 from hexmend import __version__
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.output.study_progress import TaskProgress
-from hexmend.cli.process.interrupts import EndsCleanly, FinishesWriting
+from hexmend.cli.process.interrupts import CleanExit, FinishWriting
 from hexmend.errors import HexmendError, ParameterError
 from hexmend.report import output_folder
 from hexmend.report.batch import cases_table, failures, write_batch_study, write_parquet
@@ -35,8 +35,8 @@ def run(args: argparse.Namespace) -> int:
     folder = output_folder(args.output or Path(args.study).stem)
     store = Store(output_folder(folder / "tasks"))
     meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
-    with FinishesWriting():
-        with EndsCleanly() as signals, TaskProgress() as progress:
+    with FinishWriting():
+        with CleanExit() as signals, TaskProgress() as progress:
             study = run_study(
                 plan,
                 [Path(mesh) for mesh in args.meshes],

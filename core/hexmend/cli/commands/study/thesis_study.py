@@ -9,7 +9,7 @@ from pathlib import Path
 
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.output.progress import Progress
-from hexmend.cli.process.interrupts import FinishesWriting
+from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.parameters import from_strings
 from hexmend.report import output_folder, write_experiment, write_outlook, write_study
 from hexmend.report.thesis import REPRODUCTION
@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> int:
     for methods, hexes in planned_runs(thesis, args.quick):
         check_memory(args, methods, hexes, "run fewer tables (--only)", "run the small meshes (--quick)")
     folder = output_folder(args.output)
-    with FinishesWriting():
+    with FinishWriting():
         with Progress() as progress:
             study = run_experiments(
                 thesis, quick=args.quick, watch=progress.show, done=partial(_write_experiment, folder)
