@@ -114,7 +114,7 @@ class MaxMinOptimiser:
         gains = [np.inf] * config.window
         while self._radius > config.min_radius and self.corners.least < target:
             values, least, radius = self.corners.active_values().ravel(), self.corners.least, self._radius
-            band = float(np.clip(config.band * radius, config.min_band, config.max_band))
+            band = float(np.clip(config.active_band * radius, config.min_active_band, config.max_active_band))
             low = np.flatnonzero(values < least + band)
             whole = low.size <= self._most
             if not whole:
@@ -124,11 +124,11 @@ class MaxMinOptimiser:
             if gain > 0:
                 yield MaxMinStep(self.points, self.corners.least, low.size, radius)
             gains.append(gain)
-            enough = config.min_gain if least < config.sound else config.min_gain_sound
+            enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
             if promised <= config.no_gain or sum(gains[-config.window :]) < enough:
                 if whole or self._most >= config.max_corners:
                     break
-                self._most, self._radius = 2 * self._most, max(self._radius, config.min_band)
+                self._most, self._radius = 2 * self._most, max(self._radius, config.min_active_band)
                 gains.append(np.inf)
         yield self._active_corners()
 
@@ -146,13 +146,13 @@ class MaxMinOptimiser:
         self._begin()
         self.corners.unfreeze()
         corners, envelope, edge = self.corners, self.envelope, self.mesh.mean_edge_length
-        allowed = max_deviation * (1 + config.band_rounding)
+        allowed = max_deviation * (1 + config.return_tolerance)
         while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points)) > allowed:
             radius = self._radius
             envelope.max_deviation = max(max_deviation, far - config.return_step * radius * edge)
-            low = np.flatnonzero(corners.active_values().ravel() < corners.least + config.min_band)[: self._most]
+            low = np.flatnonzero(corners.active_values().ravel() < corners.least + config.min_active_band)[: self._most]
             outside = envelope.infeasible_nodes(self.points)
-            _, points, moved = self._step(low, config.min_band, outside[self.mesh.free[outside]])
+            _, points, moved = self._step(low, config.min_active_band, outside[self.mesh.free[outside]])
             if envelope.largest_deviation(points) > far - config.accept * (far - envelope.max_deviation):
                 self._radius *= self.config.shrink
                 continue
@@ -198,7 +198,7 @@ class MaxMinOptimiser:
             nodes = np.union1d(nodes, outside)
         around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
-        near = near[corners.active_values().ravel()[near] - least < band + self.config.fall * radius]
+        near = near[corners.active_values().ravel()[near] - least < band + self.config.max_slope * radius]
         ends = corners.nodes_of(near)
         values, derivatives = gradients(self.points, ends)
         size = shortest_edges(self.points, self.mesh.hexes[around])

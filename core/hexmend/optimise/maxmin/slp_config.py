@@ -19,9 +19,9 @@ class SLPConfig:
         Shares below and above which the region shrinks and grows.
     shrink, grow : float
         Factors by which the radius shrinks and grows.
-    band, min_band, max_band : float
+    active_band, min_active_band, max_active_band : float
         Nodes at corners whose values are within a band above the least move: its width in radii, and its bounds.
-    fall : float
+    max_slope : float
         How far the value of a corner can fall while its nodes go one radius.
     initial_corners, max_corners : int
         Corners whose nodes move at first, and at most: more where fewer bring nothing.
@@ -29,15 +29,15 @@ class SLPConfig:
         Predicted gain that counts as zero.
     window : int
         Steps over which the gain is judged.
-    min_gain, min_gain_sound : float
-        Gain in these steps below which the algorithm ends; the second where the least is above `sound`.
-    sound : float
+    min_gain, min_gain_acceptable : float
+        Gain in these steps below which the algorithm ends; the second where the least is above `acceptable`.
+    acceptable : float
         Value from which on a corner is sound, so that small gains are not worth their time.
     min_multiplier : float
         From which on a corner is active; the sum of all is 1.
     return_step : float
         By how many radii, in mean edge lengths, a boundary outside its band is brought nearer at a time.
-    band_rounding : float
+    return_tolerance : float
         Share of the band's width that is not counted as outside.
     """
 
@@ -49,20 +49,20 @@ class SLPConfig:
     good: float = 0.7
     shrink: float = 0.4
     grow: float = 2.0
-    band: float = 4.0
-    min_band: float = 0.01
-    max_band: float = 0.1
-    fall: float = 8.0
+    active_band: float = 4.0
+    min_active_band: float = 0.01
+    max_active_band: float = 0.1
+    max_slope: float = 8.0
     initial_corners: int = 300
     max_corners: int = 1_200
     no_gain: float = 1e-6
     window: int = 10
     min_gain: float = 2e-5
-    min_gain_sound: float = 1e-3
-    sound: float = 0.2
+    min_gain_acceptable: float = 1e-3
+    acceptable: float = 0.2
     min_multiplier: float = 1e-3
     return_step: float = 0.2
-    band_rounding: float = 1e-6
+    return_tolerance: float = 1e-6
 
 
 SLP = SLPConfig()

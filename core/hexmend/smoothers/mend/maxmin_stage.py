@@ -13,6 +13,7 @@ import numpy as np
 
 from hexmend.iteration import ActiveSet, Step
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_config import SLP
 
 
 @dataclass(frozen=True)
@@ -25,29 +26,29 @@ class MaxMinConfig:
         Least scaled Jacobian above which the energy's barrier can be used.
     acceptable : float
         Least scaled Jacobian below which nodes of the boundary leave the surface, and groups are frozen.
-    programs : int
+    programs_per_iteration : int
         Number of linear programs per iteration of the run.
-    groups, groups_off_surface : int
+    max_groups, max_groups_off_surface : int
         Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
     surface_share : float
         Share of the surface tolerance that the boundary uses while nodes slide.
-    wide : float
+    off_surface_limit : float
         Initial limit on the distance of released nodes from the surface, in mean edge lengths.
     off_surface_factor : float
         Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
-    band_rounding : float
+    band_excess : float
         Share of the surface tolerance by which a boundary may exceed it.
     """
 
     barrier_safe: float = 0.02
-    acceptable: float = 0.2
-    programs: int = 3
-    groups: int = 10
-    groups_off_surface: int = 30
+    acceptable: float = SLP.acceptable
+    programs_per_iteration: int = 3
+    max_groups: int = 10
+    max_groups_off_surface: int = 30
     surface_share: float = 1 / 3
-    wide: float = 1.5
+    off_surface_limit: float = 1.5
     off_surface_factor: float = 1.2
-    band_rounding: float = 1e-5
+    band_excess: float = 1e-5
 
 
 MAXMIN = MaxMinConfig()
@@ -79,7 +80,7 @@ def raise_least(
     Yields
     ------
     Step
-        The points at first, then after every `config.programs` linear programs.
+        The points at first, then after every `config.programs_per_iteration` linear programs.
 
     Returns
     -------
@@ -91,7 +92,7 @@ def raise_least(
     while True:
         for number, step in enumerate(optimiser.steps(target)):
             active = step if isinstance(step, ActiveCorners) else None
-            if active is None and number % config.programs == 0:
+            if active is None and number % config.programs_per_iteration == 0:
                 yield step.step(infeasible)
         if not active.hexes.size or active.least >= target:
             break

@@ -142,7 +142,7 @@ class Mend(ObjectiveSmoother):
         if not self.raises and not best.corners.least < MAXMIN.barrier_safe:
             return None
         target, wanted = (np.inf, MAXMIN.acceptable) if self.raises else (MAXMIN.barrier_safe, MAXMIN.barrier_safe)
-        result = MaxMinResult(best, (yield from raise_least(best, target, groups=MAXMIN.groups)))
+        result = MaxMinResult(best, (yield from raise_least(best, target, groups=MAXMIN.max_groups)))
         if 0 < max_deviation < np.inf and best.corners.least_of_all < wanted:
             optimiser = MaxMinOptimiser(mesh, candidates[1], sliding)  # from the optimum with the boundary fixed
             result = yield from release_from_surface(optimiser, max_deviation, result)

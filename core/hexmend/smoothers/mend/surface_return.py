@@ -45,18 +45,18 @@ def release_from_surface(
         The better one: this, if it is back in the band, or `on_surface`.
     """
     envelope, corners = optimiser.envelope, optimiser.corners
-    envelope.max_deviation = max(config.wide * optimiser.mesh.mean_edge_length, max_deviation)
+    envelope.max_deviation = max(config.off_surface_limit * optimiser.mesh.mean_edge_length, max_deviation)
     envelope.flips_allowed = True
-    target, groups = config.off_surface_factor * config.acceptable, config.groups_off_surface
+    target, groups = config.off_surface_factor * config.acceptable, config.max_groups_off_surface
     yield from raise_least(optimiser, target, config.acceptable, groups, infeasible=True, config=config)
-    for step in islice(optimiser.return_to_band(max_deviation), 0, None, config.programs):
+    for step in islice(optimiser.return_to_band(max_deviation), 0, None, config.programs_per_iteration):
         yield step.step(infeasible=True)
     envelope.flips_allowed = False
     flipped = envelope.sliding.flipped_quads(envelope.sliding.points, optimiser.points).size > 0
-    outside = envelope.largest_deviation(optimiser.points) > max_deviation * (1 + config.band_rounding)
+    outside = envelope.largest_deviation(optimiser.points) > max_deviation * (1 + config.band_excess)
     least_on_surface = on_surface.optimiser.corners.least_of_all
     if flipped or outside or corners.least_of_all < least_on_surface:
         yield Step(on_surface.optimiser.points, {"least": least_on_surface}, intermediate=True)
         return on_surface
-    active = yield from raise_least(optimiser, release_below=config.acceptable, groups=config.groups, config=config)
+    active = yield from raise_least(optimiser, release_below=config.acceptable, groups=config.max_groups, config=config)
     return MaxMinResult(optimiser, active)

@@ -22,10 +22,10 @@ def steps_of(**settings):
 @pytest.mark.parametrize("window", [1, 3])
 @pytest.mark.parametrize("sound", [-2.0, 2.0])
 def test_it_ends_after_some_steps_that_together_gain_less_than_a_little(window, sound):
-    """Below `sound` what counts is `min_gain`, above it `min_gain_sound`."""
-    much, nothing = ("min_gain", "min_gain_sound") if sound == 2.0 else ("min_gain_sound", "min_gain")
-    assert len(steps_of(window=window, sound=sound, **{much: 10.0, nothing: 0.0})) == window
-    assert len(steps_of(window=window, sound=sound, **{much: 0.0, nothing: 10.0})) > window
+    """Below `sound` what counts is `min_gain`, above it `min_gain_acceptable`."""
+    much, nothing = ("min_gain", "min_gain_acceptable") if sound == 2.0 else ("min_gain_acceptable", "min_gain")
+    assert len(steps_of(window=window, acceptable=sound, **{much: 10.0, nothing: 0.0})) == window
+    assert len(steps_of(window=window, acceptable=sound, **{much: 0.0, nothing: 10.0})) > window
 
 
 @pytest.mark.parametrize("few", [1, 3])

@@ -82,9 +82,9 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
     )
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     steps = list(release_from_surface(optimiser, room, MaxMinResult(other, limit), config))
-    assert len(made) > MAXMIN.programs
+    assert len(made) > MAXMIN.programs_per_iteration
     shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
-    assert shown == list(range(0, len(made), MAXMIN.programs))
+    assert shown == list(range(0, len(made), MAXMIN.programs_per_iteration))
 
 
 def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():

@@ -79,5 +79,8 @@ def test_nodes_are_released_below_a_value_as_often_as_there_are_any_before_a_gro
 @pytest.mark.parametrize("infeasible", [False, True])
 def test_every_third_step_is_shown_and_says_that_more_is_to_come(infeasible):
     steps, _ = walked(StandIn([limit_at(0.3)], steps=7), 0.5, infeasible=infeasible)
-    assert [step.diagnostics["least"] for step in steps] == [-1.0, *map(float, range(0, 7, MAXMIN.programs))]
+    assert [step.diagnostics["least"] for step in steps] == [
+        -1.0,
+        *map(float, range(0, 7, MAXMIN.programs_per_iteration)),
+    ]
     assert all(step.intermediate and step.infeasible == infeasible for step in steps)
