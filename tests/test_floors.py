@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the lowest layer up; an import goes down, or stays inside one package.
 CORE = [
     {"aliases", "arrays", "errors", "hooks", "signal_guard"},
-    {"html_repr", "parameters", "quantity", "registry", "terminal_text", "toml_text"},
+    {"parameters", "quantity", "registry", "terminal_text", "toml_text"},
     {"kernels"},
     {"mesh"},
     {"quality"},

@@ -106,7 +106,7 @@ def _array(values: object) -> np.ndarray:
 
 def matches(head: bytes) -> bool:
     """Return True if a file begins as CGNS files of the ADF kind do."""
-    return ADF_MARK in head[:32]
+    return ADF_MARK in head[:64]
 
 
 FORMAT = Format(name="cgns-adf", title="CGNS (ADF)", suffixes=(".cgns",), encodings=(), read=read, matches=matches)

@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.aliases import exports, reads_old_names
 from hexmend.boundary import SurfaceChange
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.html_repr import html_of
+from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
 from hexmend.mesh.mesh import Mesh
@@ -171,7 +171,7 @@ class Result:
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""
-        return html_of(self)
+        return hook("html")(self)
 
 
 __getattr__ = exports(__name__)

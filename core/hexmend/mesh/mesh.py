@@ -13,7 +13,6 @@ import numpy as np
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
 from hexmend.hooks import hook
-from hexmend.html_repr import html_of
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.fields import check_field
@@ -163,7 +162,7 @@ class Mesh:
 
     def _repr_html_(self) -> str:
         """Return the HTML that a notebook shows."""
-        return html_of(self)
+        return hook("html")(self)
 
     def with_points(self, points: np.ndarray) -> Mesh:
         """Return the mesh with other node positions; connectivity, topology, sets and data are shared.
