@@ -21,8 +21,8 @@ from hexmend.io.formats.exodus.netcdf3_writer import ClassicWriter
 from hexmend.io.formats.exodus.records import add_records
 from hexmend.mesh.mesh import Mesh
 
-#: Value of `int64_status` where the maps hold ids of 64 bits.
-_MAPS_INT64 = 0x2000
+#: Value of `int64_status` if the maps store ids of 64 bits: EX_MAPS_INT64_DB of exodusII.h.
+_MAPS_INT64 = 0x0400
 
 
 def write(path: Path, mesh: Mesh) -> None:
