@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import colormaps
 
-from hexmend_app.scene.colours import DIVERGING, MAPS
+from hexmend_app.picture.colour_map import COLOUR_MAPS
 
 
 def of_matplotlib(name: str) -> np.ndarray:
@@ -15,4 +15,4 @@ def of_matplotlib(name: str) -> np.ndarray:
 
 if __name__ == "__main__":
     path = Path(__file__).parents[1] / "resources" / "colour_maps.npz"
-    np.savez_compressed(path, **{name: of_matplotlib(name) for name in (*MAPS, DIVERGING)})
+    np.savez_compressed(path, **{name: of_matplotlib(name) for name in COLOUR_MAPS})

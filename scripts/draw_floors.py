@@ -1,4 +1,4 @@
-"""Draws docs/architecture-*.svg: the floors of core and app, as tests/test_floors.py has them; a test compares.
+"""Draw docs/architecture-*.svg: the floors of core and app, as tests/test_floors.py has them; a test compares.
 
 Use: python scripts/draw_floors.py [FOLDER]
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 _WIDTH, _HEIGHT, _GAP = 640, 30, 6
-#: From the ground up: the dark end of the program's colour map to its light one.
+#: Colours of the floors from the bottom up, from the dark end of the program's colour map to the light one.
 _GROUND, _ROOF = (0x2A, 0x5D, 0x78), (0x8F, 0xD0, 0x9B)
 
 

@@ -1,4 +1,4 @@
-"""Draws the icon for desktops, desktop/icons/SIZE.png, from resources/icon.svg.
+"""Draw the icon for desktops, desktop/icons/SIZE.png, from resources/icon.svg.
 
 Use: QT_QPA_PLATFORM=offscreen python scripts/draw_icons.py
 """

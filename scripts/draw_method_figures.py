@@ -1,4 +1,4 @@
-"""Draws the figures of docs/method.md: 2.1 to 2.3 and 3.1 of the thesis, in its letters.
+"""Draw the figures of docs/method.md: 2.1 to 2.3 and 3.1 of the thesis, in its letters.
 
 Use: python scripts/draw_method_figures.py FOLDER
 """
@@ -19,10 +19,10 @@ from matplotlib.patches import FancyArrowPatch, Polygon
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
 from hexmend.report.charts import new_figure, save_figure
 
-#: Letters as in a paper, alike in words and formulas.
+#: Fonts as in a paper, the same in text and formulas.
 LETTERS = {"font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 13}
 
-#: Okabe and Ito's colours for e1, e2, e3, and what is drawn besides.
+#: Okabe and Ito's colours for e1, e2, e3, and the other colours.
 EDGE_COLOURS = ("#D55E00", "#009E73", "#0072B2")
 INK, GREY, PALE, FILL = "#1f2630", "#5a636d", "#9aa3ad", "#56B4E9"
 
@@ -34,7 +34,7 @@ REFERENCE = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
 REGULAR = np.array([[0, 0, 0], [0.940, -0.342, 0], [0.766, 0.643, 0], [0.569, 0.101, 0.816]])
 PHYSICAL = np.array([[0, 0, 0], [1.25, 0.15, -0.3], [0.55, 1.35, 0.05], [0.2, 0.1, 1.15]])
 
-#: Where the numbers of the two corners stand that are inside the cube's outline: clear of all edges of tetrahedra.
+#: Positions of the numbers of the two corners inside the cube's outline, clear of all edges of tetrahedra.
 INNER = {3: np.array([0.03, -0.13]), 5: np.array([-0.03, 0.13])}
 
 #: Four values of delta.
@@ -213,7 +213,7 @@ def _room(axes: Axes, margin: float) -> None:
     axes.set_ylim(low - margin, high + margin)
 
 
-#: What is drawn into which file.
+#: Files, and the functions that draw them.
 FIGURES = {
     "method-edges.svg": edges,
     "method-transformations.svg": transformations,

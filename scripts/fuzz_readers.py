@@ -33,7 +33,7 @@ from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.formats.session.session_file import write_session
 from hexmend.mesh.mesh import Mesh
 
-#: Bytes that the process may take, seconds that a file may, and files of others that are taken, by their size.
+#: Memory limit of the process in bytes, time limit per file in seconds, and size limit of foreign files in bytes.
 MEMORY, SECONDS, LARGEST = 3 << 30, 20, 3_000_000
 
 _NUMBER = re.compile(rb"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
@@ -135,7 +135,7 @@ def _write_vtkhdf(path: Path, grid: object) -> None:
     writer.Write()
 
 
-#: How files of a format that Hexmend does not write are made.
+#: Makers of files in formats that Hexmend does not write.
 BY_VTK = {"pvtu": _write_pvtu, "vtkhdf": _write_vtkhdf}
 
 
@@ -156,7 +156,7 @@ def _meshes() -> list[Mesh]:
 
 
 def attempt(path: Path) -> str:
-    """What comes of a file: "mesh", "error", or what went wrong."""
+    """Return the outcome for a file: "mesh", "error", or a description of the failure."""
     signal.alarm(SECONDS)
     try:
         io.read(path)

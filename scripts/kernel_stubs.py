@@ -1,4 +1,4 @@
-"""Writes the stubs of the compiled kernels beside them, from the module that is built; tests compare.
+"""Write the stubs of the compiled kernels next to them, from the built module; tests compare.
 
 Use: python scripts/kernel_stubs.py [FOLDER]     core/hexmend/kernels where none is named; needs nanobind
 """

@@ -34,7 +34,7 @@ from mutation.sampling import sample
 from mutation.table import as_text, share_found
 from mutation.trial import ERROR
 
-#: Share of the faults that tests are to find.
+#: Share of the faults that tests must find.
 WANTED = 0.9
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -43,7 +43,7 @@ EQUIVALENT, NATIVE = (Path(__file__).with_name(f"mutants_{name}.toml") for name 
 HEXMEND = Project(
     root=ROOT, tests=("core/hexmend", "tests/core"), imports=("core", "app"), build=ROOT / "build" / "mutants"
 )
-#: Sources that are given faults, and those of them that write files.
+#: Sources in which faults are made, and those of them that write files.
 FOLDERS = "optimise", "iteration", "smoothers", "quality", "run", "boundary"
 FILES = "mesh/orientation.py", "io/storage/atomic.py"
 

@@ -1,4 +1,4 @@
-"""Writes meshes in every format and reads them again: the same hexes in the same places, or what is left out.
+"""Write meshes in every format and read them again: hexes and positions are the same, or the loss is reported.
 
 Use: python scripts/round_trips.py FOLDER
 
@@ -19,12 +19,12 @@ from hexmend.errors import FileError
 from hexmend.io.base.format import FORMATS
 from hexmend.mesh.mesh import Mesh
 
-#: What formats of few decimals may be off, in the largest coordinate.
+#: Tolerance of formats with few decimals, relative to the largest coordinate.
 NEAR = 1e-6
 
 
 def same(one: Mesh, other: Mesh) -> bool:
-    """Whether the hexes have their corners in the same places, in the same order."""
+    """Return True if the hexes have the same corners at the same positions in the same order."""
     if one.n_hexes != other.n_hexes:
         return False
     a, b = one.points[one.hexes], other.points[other.hexes]
@@ -32,7 +32,7 @@ def same(one: Mesh, other: Mesh) -> bool:
 
 
 def cell(mesh: Mesh, path: Path) -> str:
-    """What becomes of a mesh in a file."""
+    """Write and read a mesh, and describe the result."""
     left = io.unsupported_data(path, mesh)
     try:
         io.write(path, mesh)

@@ -1,4 +1,4 @@
-"""What `make site` does beside what MkDocs does: formulas as MathML, titles in links, no need of a network.
+"""Hooks of MkDocs for `make site`: formulas as MathML, titles in links, no access to a network.
 
 Formulas stand in the pages as `$...$` and `$$...$$`, which GitHub shows too; the extension arithmatex marks them. Links
 that are called as their file is, `[keys.md](keys.md)`, are called as the page is.
@@ -19,7 +19,7 @@ from mkdocs.structure.files import File, Files
 _ROOT = Path(__file__).resolve().parents[1]
 _BY_FILE = re.compile(r"\[([\w-]+\.md)\]\((\1(?:#[\w-]*)?)\)")
 _FORMULA = re.compile(r'<(span|div) class="arithmatex">(.*?)</\1>', re.DOTALL)
-#: The bars of norms, and slashes, that would be set apart like operators between words.
+#: Bars of norms, and slashes, which would get the space of operators.
 _CLOSE = re.compile(r"<mo[^>]*>(&#x0007C;|&#x0002F;|\||/)</mo>")
 _REMOTE = re.compile(r"""<(?:script|img|iframe|source)[^>]+src=["']?(?:https?:)?//|<link[^>]+stylesheet[^>]+//""")
 

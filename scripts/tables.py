@@ -1,4 +1,4 @@
-"""Writes the tables of what is declared once into docs, between their marks; a test compares.
+"""Write tables of the program's declarations into docs, between their marks; a test compares.
 
 Use: python scripts/tables.py
 """
@@ -22,13 +22,13 @@ from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
-from hexmend_app.state.scene import Scene
-from hexmend_app.state.scene.helps import helps
-from hexmend_app.state.scene.table import Key, keys
+from hexmend_app.codec.config_table import Option, options_of
+from hexmend_app.codec.docstring_help import helps
+from hexmend_app.picture import Scene
 
 ROOT = Path(__file__).resolve().parents[1]
 
-#: Sizes of meshes that memory is foretold for.
+#: Sizes of meshes for which memory is predicted.
 _HEXES = 100_000, 1_000_000
 
 
@@ -61,7 +61,7 @@ def metrics() -> str:
 
 
 def meanings() -> str:
-    """What a bad value of each metric means."""
+    """The meaning of a bad value of each metric."""
     return table(
         ("name", "title", "", "from"), ((f"`{one.name}`", one.title, one.meaning, one.source) for one in _metrics())
     )
@@ -90,7 +90,7 @@ def formats() -> str:
 
 
 def memory() -> str:
-    """What a run of each method is foretold to need, the most first."""
+    """The predicted memory of a run of each method, largest first."""
     order = sorted(METHODS.values(), key=lambda method: (-method.bytes_per_hex, method.name))
     rows = (
         (f"`{one.name}`", f"{one.bytes_per_hex:,}", *(format_bytes(needed(one(), hexes)) for hexes in _HEXES))
@@ -102,7 +102,7 @@ def memory() -> str:
 def scene() -> str:
     """The keys of a scene file, table by table."""
     parts = []
-    for one in keys(Scene):
+    for one in options_of(Scene):
         help, kind = helps(Scene)[one.field], _table_of(one.kind)
         if kind is None:
             continue
@@ -117,12 +117,12 @@ def scene() -> str:
 def _keys(kind: type) -> str:
     """The keys of a table, and below each that is a table itself, its own."""
     rows = []
-    for one in keys(kind):
+    for one in options_of(kind):
         rows.append((f"`{one.name}`", _values(one), _default(one), helps(kind)[one.field]))
         inner = _table_of(one.kind)
         if inner is not None:
             rows += [(f"`{one.name}`: `{key.name}`", _values(key), _default(key), helps(inner)[key.field])
-                     for key in keys(inner)]  # fmt: skip
+                     for key in options_of(inner)]  # fmt: skip
     return table(("key", "values", "default", "what"), rows)
 
 
@@ -133,8 +133,8 @@ def _table_of(kind: Any) -> type | None:
     return next((found for inner in get_args(kind) if (found := _table_of(inner)) is not None), None)
 
 
-def _values(one: Key) -> str:
-    """What a key can be, in words."""
+def _values(one: Option) -> str:
+    """Describe the values that a key can have."""
     words = []
     for kind in get_args(one.kind) if get_origin(one.kind) in (UnionType, Union) else (one.kind,):
         inner = [part for part in get_args(kind) if part is not ...]
@@ -142,6 +142,8 @@ def _values(one: Key) -> str:
             continue
         if _table_of(kind) is not None:
             words.append("tables" if get_origin(kind) is tuple else "a table")
+        elif get_origin(kind) is tuple and inner[0] is str:
+            words.append("a list of names")
         elif get_origin(kind) is tuple:
             whole = "whole " * (inner[0] is int)
             words.append(f"{len(inner)} {whole}numbers" if ... not in get_args(kind) else f"a list of {whole}numbers")
@@ -155,8 +157,8 @@ def _values(one: Key) -> str:
     return " or ".join(words)
 
 
-def _default(one: Key) -> str:
-    """What stands for a key that is not there."""
+def _default(one: Option) -> str:
+    """Describe the default of a key."""
     if _table_of(one.kind) is not None or one.default in (None, "", ()):
         return "–"
     value = one.default
@@ -167,7 +169,7 @@ def _default(one: Key) -> str:
 
 
 def task() -> str:
-    """What a study's task may take."""
+    """The limits of a study's task."""
     return parameters(TaskLimits)
 
 
@@ -178,7 +180,7 @@ def study() -> str:
     return table(("column", "type", "what"), rows)
 
 
-#: Which table stands in which file.
+#: Tables by file.
 TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
     "metrics": ("docs/metrics.md", metrics),
@@ -207,7 +209,7 @@ def written(name: str, text: str) -> str:
 
 
 def _metrics() -> list[Metric]:
-    """Those of the thesis first."""
+    """Methods, those of the thesis first."""
     return sorted(METRICS.values(), key=lambda metric: ("q", "scaled-jacobian", metric.name).index(metric.name))
 
 

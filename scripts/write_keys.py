@@ -1,4 +1,4 @@
-"""Writes docs/keys.md from what the features declare; a test compares.
+"""Write docs/keys.md from the declarations of the features; a test compares.
 
 Use: QT_QPA_PLATFORM=offscreen python scripts/write_keys.py
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend_app.shell.keys import as_markdown
-from hexmend_app.shell.program import application
+from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "keys.md"
@@ -16,5 +16,5 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "keys.md"
 if __name__ == "__main__":
     app = application()
     window = Window()
-    window.furnish()
+    window.build_features()
     PAGE.write_text(as_markdown(window.menus.declared()), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Writes the pages of the reference that are made of what the program declares; a test compares.
+"""Write the pages of the reference that are generated from the program's declarations; a test compares.
 
 docs/methods.md: every method with its parameters. docs/commands.md: every command with its options. What stands above
 the mark in these files is written by hand, or by scripts/tables.py.
@@ -49,7 +49,7 @@ def every_command() -> Iterator[str]:
 
 
 def _usage(parser: argparse.ArgumentParser) -> str:
-    """What has to be named; options beside."""
+    """Return the usage: required arguments, and [OPTION]... for the others."""
     needed = [one for one in parser._actions if one.required or not one.option_strings]
     words = [_word(one) for one in sorted(needed, key=lambda one: bool(one.option_strings))]
     optional = [] if len(needed) == len(parser._actions) else ["[OPTION]..."]

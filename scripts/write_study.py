@@ -15,7 +15,7 @@ import sys
 from pathlib import Path
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-#: The section that is written by hand; links to files that are not in docs/.
+#: The section written by hand; links to files outside docs/.
 OWN, FILES = "## Where ours differs, and why\n", re.compile(r"\n\[csv\]\([^\n]*\n")
 
 
@@ -54,22 +54,23 @@ def main() -> None:
 
 
 ORIGIN = """
-Printed by `hexmend study thesis --max-seconds 100`, what 5.2 hopes for by `make study` (`--quick`), the comparison of
-`offset` by `hexmend bench --only offsets`, but for the section *Where ours differs*; put together by
-`scripts/write_study.py`.
+The tables come from `hexmend study thesis --max-seconds 100`, those of section 5.2 from `make study` (`--quick`), and
+the comparison of `offset` from `hexmend bench --only offsets`; `scripts/write_study.py` assembles this page. The
+section *Where ours differs* is written by hand.
 """
 
 ABOUT_OFFSETS = """
-(B.20) takes 1 off the mean of a hex's eta before (3.3) raises it to its power. 4.1.1 calls q norm "equivalent to the
-global objective", and in every table of the thesis the optimum beats Laplacian smoothing and GETMe in q mean: both hold
-only without the 1. `offset` is 1 or 0 (or anything between); here `mend` goes to either optimum, offset 1 · offset 0,
-the thesis's optimum in brackets, the higher in bold. Without it mean and norm are higher, with it the worst elements:
-that is what analysts look at, and so 1 stays what methods begin with.
+(B.20) subtracts 1 from the mean eta of a hex before (3.3) raises it to the power p. Section 4.1.1 calls q norm
+"equivalent to the global objective", and in every table of the thesis the optimum has a higher q mean than Laplacian
+smoothing and GETMe. Both are true only without this subtraction. The parameter `offset` takes values from 0 to 1. The
+table compares the optima of `mend` for offset 1 · offset 0, with the optimum of the thesis in brackets and the higher
+value in bold. With offset 0 the mean and the norm are higher; with offset 1 the worst elements are better. As analysts
+judge a mesh by its worst elements, 1 is the default.
 """
 
 ABOUT_OBJECTIVE = """
-The row *objective* of each table shows the sum that its label names, with offset 1 where it names no other: it is what
-the methods of the table minimise only where they have that p and that offset.
+The row *objective* of each table shows the sum that its label names, with offset 1 unless it names another. It is the
+objective that the methods of the table minimise only if they have the same p and offset.
 """
 
 if __name__ == "__main__":

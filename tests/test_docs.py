@@ -86,6 +86,6 @@ def test_every_block_of_python_is_known_by_its_fence():
 
 @pytest.mark.parametrize("scene", re.findall(r"```toml\n(.*?)```", (DOCS / "figures.md").read_text("utf-8"), re.DOTALL))
 def test_the_scenes_of_the_docs_are_scenes(scene):
-    from hexmend_app.state.scene import Scene, from_toml
+    from hexmend_app.picture import Scene, from_toml
 
     assert from_toml(scene) != Scene()

@@ -36,13 +36,18 @@ CORE = [
     {"__main__"},
 ]
 APP = [
+    {"aliases"},
     {"resources"},
     {"formats"},
+    {"codec"},
+    {"picture"},
     {"state"},
+    {"theme"},
     {"scene"},
     {"report"},
     {"widgets"},
     {"canvas"},
+    {"host"},
     {"feature"},
     {"features"},
     {"shell"},
@@ -81,11 +86,12 @@ def sources(folder: Path) -> list[tuple[Path, tuple[str, ...]]]:
 def imported(path: Path) -> Iterator[tuple[str, int]]:
     """List the dotted names that a file imports anywhere, with lines; `from a import b` gives `a.b`.
 
-    Imports for type checking, inside functions and by `import_module("...")` are included.
+    Imports for type checking, inside functions by `import_module("...")` and by `deferred("...:...")` are included.
     """
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] == "import_module":
-            yield from ((word.value, node.lineno) for word in node.args[:1] if isinstance(word, ast.Constant))
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in ("import_module", "deferred"):
+            words = [word.value for word in node.args[:1] if isinstance(word, ast.Constant)]
+            yield from ((word.partition(":")[0], node.lineno) for word in words)
         if isinstance(node, ast.Import):
             yield from ((alias.name, node.lineno) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -215,7 +221,9 @@ def test_a_broken_floor_is_seen(tmp_path, module, line, complaint):
 def test_a_feature_that_imports_a_sibling_is_seen(tmp_path):
     path = tmp_path / "hexmend_app" / "features" / "cut" / "feature.py"
     path.parent.mkdir(parents=True)
-    path.write_text("from hexmend_app.features.cut.panel import Panel\nfrom hexmend_app.features.look import feature")
+    path.write_text(
+        "from hexmend_app.features.cut.panel import Panel\nfrom hexmend_app.features.appearance import feature"
+    )
     (row,) = broken(tmp_path / "hexmend_app", APP, set())
     assert "a sibling of cut" in row
 

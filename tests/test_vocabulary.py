@@ -1,4 +1,4 @@
-"""Identifiers, first words of docstrings and messages of the core use the field's terms; words that are out are listed.
+"""Identifiers, first words of docstrings and messages of core and app use the field's terms; words that are out are listed.
 
 Each list maps a word to what to write in its place. Strings that files or the command line rely on are not identifiers.
 """
@@ -88,7 +88,7 @@ def packages(folder: Path) -> dict[str, list[Path]]:
     return found
 
 
-PACKAGES = packages(ROOT / "core/hexmend") | packages(ROOT / "core/native")
+PACKAGES = packages(ROOT / "core/hexmend") | packages(ROOT / "core/native") | packages(ROOT / "app/hexmend_app")
 
 
 def words(identifier: str) -> list[str]:

@@ -1,8 +1,8 @@
-"""What a feature of the viewer declares: its actions, its panels, and how it shows what has changed.
+"""Declarations of a feature of the viewer: its actions, its panels, and how it shows changes.
 
 A feature is a folder below `hexmend_app.features` with a module `feature` whose class `Feature...` derives from
-`Feature`. The window finds it there, and from its one declaration come menus, tool bar, palette, the page of keys and
-`docs/keys.md`. Features import no sibling: they meet in the session.
+`Feature`. The window finds it there; menus, tool bar, palette, the page of keys and `docs/keys.md` are made from its
+declarations. Features do not import each other: they meet in the session.
 """
 
 from __future__ import annotations
@@ -10,19 +10,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from PySide6.QtCore import QObject
-from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMenu, QWidget
+
+from hexmend_app.host import Host
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from hexmend_app.canvas.canvas import Canvas
-    from hexmend_app.state.session import Session
-    from hexmend_app.widgets.busy import Busy
-    from hexmend_app.widgets.message_bar import MessageBar
 
 #: The menus, in their order; behind a slash, a menu within one.
 MENUS = (
@@ -42,25 +40,25 @@ MENUS = (
 
 
 def always() -> bool:
-    """For an action that can be done at any time."""
+    """Return True: for an action that is always enabled."""
     return True
 
 
 @dataclass(frozen=True, kw_only=True)
 class Action:
-    """Something that the user can do.
+    """A command of the user interface.
 
     Parameters
     ----------
     id : str
-        What other features and tests know it by.
+        Identifies it for other features, settings and tests.
     text : str
-        In its menu, with the letter that Alt is to reach behind an ampersand; where that is another's, or none is
-        named, the menu gives it one.
+        Text in the menu, with an ampersand before its mnemonic; without one, or where another action of the menu has
+        the same, a letter is assigned.
     handle : callable
-        Does it. That of an action with `checked` takes whether it is to be on.
+        Called to carry it out; for an action with `checked`, with the new state.
     menu : str
-        One of `MENUS`; "" for what is reached by its keys, by the palette and in the menu of the view alone.
+        One of `MENUS`; "" for an action with only keys, the palette and the context menu of the view.
     keys : str
         Portable key sequence, "" for none.
     icon : str
@@ -68,23 +66,23 @@ class Action:
     help : str
         One sentence, shown as tooltip and in the page of keys.
     enabled : callable
-        Whether it can be done now.
+        Returns True if it can be used now.
     checked : callable, optional
-        Whether it is on; None for what is done and over.
+        Returns True if it is on; None for an action that is not checkable.
     title : callable, optional
-        What the text is now, where it changes.
+        Returns the present text, if it changes.
     tool : str
-        Its word in the tool bar; "" keeps it out.
+        Text in the tool bar; "" for an action that is not in it.
     needs_mesh : bool
-        Not to be done while no mesh is open.
+        It is disabled while no mesh is open.
     part : int
-        Which part of its menu it stands in; parts are parted by lines.
+        Section of the menu; sections are separated by lines.
     exclusive : bool
-        Of the actions of its menu, one is on.
+        Exactly one of the exclusive actions of its menu is on.
     in_view : bool
-        Stands in the menu that a right click in the view opens.
+        It is in the context menu of the view.
     submenu : QMenu, optional
-        A menu that stands below it.
+        A menu below it.
     """
 
     id: str
@@ -105,110 +103,67 @@ class Action:
     submenu: QMenu | None = None
 
 
-class Place(Enum):
-    """Where a panel stands."""
+class PanelPlace(Enum):
+    """Default place of a panel."""
 
-    TOOLS = "tools"  # the right column's upper tabs: what changes something
-    FACTS = "facts"  # its lower tabs: what tells something
-    DRAWER = "drawer"  # tabs below the view, that open and close
-    BELOW = "below"  # a line of its own below the view
-    EMPTY = "empty"  # in the view's place while no mesh is open
+    TOOLS = "tools"  # docks at the top right: they change the mesh or the picture
+    FACTS = "facts"  # docks at the bottom right: figures and charts
+    DRAWER = "drawer"  # docks below the view, which open and close together
+    BELOW = "below"  # a line below the view, not a dock
+    EMPTY = "empty"  # instead of the view while no mesh is open
 
 
 @dataclass(frozen=True, kw_only=True)
 class Panel:
-    """A widget of a feature that the window gives room.
+    """A widget of a feature with a place in the window.
 
     Parameters
     ----------
     id : str
-        What settings and tests know it by.
+        Identifies it in settings and tests.
     title : str
-        On its tab, and in the menu View.
+        Shown on its tab and in the menu View.
     widget : QWidget
-    place : Place
+    place : PanelPlace
     tab : str
-        Title of the tab that it shares with others, one below the other; "" for a tab of its own.
+        Title of the dock that it shares with other panels, stacked; "" for a dock with this panel only.
     order : int
-        Tabs, and panels within one, stand in this order.
+        Order of docks, and of panels in a dock.
     help : str
-        One sentence on what it shows.
+        One sentence that describes it.
     scrolls : bool
-        Whether it is put into an area that scrolls; not what scrolls by itself.
+        It is put into a scroll area; for a widget that does not scroll itself.
     """
 
     id: str
     title: str
     widget: QWidget
-    place: Place
+    place: PanelPlace
     tab: str = ""
     order: int = 50
     help: str = ""
     scrolls: bool = False
 
 
-class Host(Protocol):
-    """What a feature has of the window.
-
-    Attributes
-    ----------
-    dialog_parent : QWidget
-        The window, before which dialogs stand.
-    session : Session
-        The window's state, in which features meet.
-    canvas : Canvas or None
-        The 3D view, which comes later than the rest.
-    messages : MessageBar
-        Says what went wrong, and what has been done.
-    busy : Busy
-        Says what is going on, and offers a way out.
-    """
-
-    dialog_parent: QWidget
-    session: Session
-    canvas: Canvas | None
-    messages: MessageBar
-    busy: Busy
-
-    def action(self, id: str) -> QAction:
-        """The action of some feature, once all are there."""
-
-    def show_panel(self, id: str) -> None:
-        """Bring a panel to the front, and unfold what it stands in."""
-
-    def offer_panel(self, id: str) -> None:
-        """Bring a panel to the front of what it stands in, unfolded or not: the view keeps its room."""
-
-    def in_front(self, id: str) -> bool:
-        """Whether a panel can be seen."""
-
-    def may_leave(self) -> bool:
-        """Whether every feature lets the open mesh go."""
-
-    def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-        """Wait until something is over, with `leave` on a button that does not wait; whether to go on then."""
-
-    def refresh_soon(self) -> None:
-        """Have everything refreshed before the event loop's next turn is over."""
-
-    @property
-    def stem(self) -> str:
-        """What a file that is saved is proposed to be called, without what tells its kind."""
-
-    def said(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
-        """Do something and say `success`, or, under the title `failure`, why it was not done; whether it was."""
-
-
 class Feature(QObject):
-    """A part of what the viewer can do.
+    """A feature of the viewer.
 
     Parameters
     ----------
     host : Host
     """
 
-    #: Features are built, and stand in menus, in this order.
+    #: Features are built in this order, and by default listed in menus and refreshed in it.
     order: ClassVar[int] = 50
+    #: Order of a feature's actions in each menu.
+    menu_order: ClassVar[int]
+    #: Order in which features are refreshed.
+    refresh_order: ClassVar[int]
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.menu_order = vars(cls).get("menu_order", cls.order)
+        cls.refresh_order = vars(cls).get("refresh_order", cls.order)
 
     def __init__(self, host: Host):
         super().__init__(host.dialog_parent)
@@ -217,68 +172,76 @@ class Feature(QObject):
 
     @property
     def canvas(self) -> Canvas | None:
-        """The 3D view, which comes later than the rest; `canvas_ready` is called as it does."""
+        """The 3D view; None until `canvas_ready` is called."""
         return self.host.canvas
 
     def actions(self) -> Sequence[Action]:
-        """What the user can do."""
+        """The actions of this feature."""
         return ()
 
     def panels(self) -> Sequence[Panel]:
-        """What has a place in the window."""
+        """The panels of this feature."""
         return ()
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
+        """Use the 3D view, which has just been built."""
 
     def refresh(self) -> None:
-        """Show the session as it is now: called once after whatever has changed in a turn of the event loop."""
+        """Show the present session; called once for all changes in a turn of the event loop."""
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run that goes on, where the feature shows something of it.
+
+        Called instead of `refresh`, up to thirty times a second, as long as nothing else has changed.
+        """
+
+    def program_started(self) -> None:
+        """Begin what only the program does, not every window: called once all features are built."""
 
     def may_leave(self) -> bool:
-        """Whether the open mesh may be given up for another, or the window closed; may ask."""
+        """Return True if the open mesh may be closed; may ask the user."""
         return True
 
     def save_and_wait(self, path: str | Path) -> bool:
-        """Write the mesh as it is now, or under a session's suffix the session, and wait; whether it was written."""
+        """Save the mesh, or with a session's suffix the session, and wait; return True if it was written."""
         saving = self.session.commands.save_in_background(path)
         waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
         return waited and saving.error is None
 
     def close(self) -> None:
-        """End what is going on: the window is about to go."""
+        """End all work: the window is closing."""
 
 
 @dataclass
-class Seen:
-    """What was shown last, so that only what has changed is shown anew."""
+class ChangeTracker:
+    """Remembers what was shown, so that only changes are shown again."""
 
     _last: dict[str, tuple] = field(default_factory=dict)
 
-    def another(self, what: str, *now: object) -> bool:
-        """Whether something is another than at the last call for it; from then on it is what was seen.
+    def changed(self, subject: str, *now: object) -> bool:
+        """Return True if the values differ from those of the last call with the same key, and remember them.
 
         Parameters
         ----------
         what : str
-            Names what is looked at.
+            The key.
         *now : object
-            Compared by `==`, which for states and other objects with an identity means the same object. Arrays are
-            never written to: they too are the same where they are the same object.
+            Compared by `==`; arrays, which are never written to, by identity.
         """
-        before = self._last.get(what)
-        self._last[what] = now
+        before = self._last.get(subject)
+        self._last[subject] = now
         return before is None or len(before) != len(now) or any(map(_differ, before, now))
 
     def forget(self) -> None:
-        """Show everything anew."""
+        """Report every key as changed at its next call."""
         self._last.clear()
 
 
 def _differ(before: object, now: object) -> bool:
     if before is now:
         return False
-    arrays = any(getattr(one, "ndim", 0) for one in (before, now))  # the first paint knows no numpy to ask
+    arrays = any(getattr(one, "ndim", 0) for one in (before, now))  # numpy is not imported before the first picture
     return arrays or before != now
 
 
-__all__ = ["MENUS", "Action", "Feature", "Host", "Panel", "Place", "Seen", "always"]
+__all__ = ["MENUS", "Action", "ChangeTracker", "Feature", "Host", "Panel", "PanelPlace", "always"]

@@ -1,4 +1,4 @@
-"""Where the program's own files lie: in the installed package, or beside the sources."""
+"""Location of the program's own files: in the installed package, or next to the sources."""
 
 from __future__ import annotations
 

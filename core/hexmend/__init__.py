@@ -10,6 +10,8 @@ Names are imported when they are first used: a command that computes nothing doe
 `__all__` the class of every registered method is here under its own name, such as `hx.LocalSteepestDescent`.
 """
 
+from importlib import import_module
+
 from hexmend import aliases, hooks
 
 __version__ = "0.1.0"
@@ -101,8 +103,6 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    from importlib import import_module
-
     if name in ("energy", "gallery"):
         return import_module(f"hexmend.{name}")
     if name in _HOME_OF:

@@ -3,10 +3,11 @@
 Each table maps an old name to the name that took its place:
 
 - `MODULES`: modules and packages, for imports (``import hexmend.surface``).
-- `NAMES`: what a module or package exports (``hx.Stop``, ``from hexmend.optimise import Outcome``).
+- `NAMES`: what a module exports (``hx.Stop``), by the module; a new name with dots belongs to another module.
 - `PARAMETERS`: parameters by the name of their owner (a method, or "stop"), in recipes, sessions, studies, records,
   on the command line, and as keywords and attributes in Python.
-- `ATTRIBUTES`: attributes by the name of their class, as keywords of its constructor too.
+- `ATTRIBUTES`: attributes, and members of enumerations, by the dotted name of the class; attributes are keywords of
+  its constructor too.
 - `KEYWORDS`: keyword arguments of functions, by the function.
 """
 
@@ -14,6 +15,7 @@ from __future__ import annotations
 
 import sys
 from functools import wraps
+from importlib import import_module
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -24,11 +26,12 @@ if TYPE_CHECKING:
 
     T = TypeVar("T")
 
+_NOW_IN_MESH = (
+    "cells edge_length fixing hexahedron orientation patches second_order shape_functions structure tags topology"
+)
+
 MODULES = {
-    "hexmend.cells": "hexmend.mesh.cells",
-    "hexmend.edge_length": "hexmend.mesh.edge_length",
-    "hexmend.fixing": "hexmend.mesh.fixing",
-    "hexmend.hexahedron": "hexmend.mesh.hexahedron",
+    **{f"hexmend.{name}": f"hexmend.mesh.{name}" for name in _NOW_IN_MESH.split()},
     "hexmend.io.format": "hexmend.io.base.format",
     "hexmend.io.recipes": "hexmend.run.recipe_files",
     "hexmend.io.session": "hexmend.io.formats.session",
@@ -36,75 +39,63 @@ MODULES = {
     "hexmend.optimise.figures": "hexmend.iteration.figures",
     "hexmend.optimise.iteration": "hexmend.iteration.result",
     "hexmend.optimise.stop": "hexmend.iteration.stopping",
-    "hexmend.orientation": "hexmend.mesh.orientation",
-    "hexmend.patches": "hexmend.mesh.patches",
     "hexmend.recipe": "hexmend.run.recipe",
-    "hexmend.second_order": "hexmend.mesh.second_order",
-    "hexmend.shape_functions": "hexmend.mesh.shape_functions",
     "hexmend.smoothers.smoother": "hexmend.smoothers.base",
-    "hexmend.structure": "hexmend.mesh.structure",
     "hexmend.surface": "hexmend.boundary",
-    "hexmend.tags": "hexmend.mesh.tags",
-    "hexmend.topology": "hexmend.mesh.topology",
 }
 
-NAMES = {
-    "hexmend.Stop": "hexmend.iteration.StoppingCriteria",
-    "hexmend.boundary.Kind": "hexmend.boundary.NodeClass",
-    "hexmend.boundary.Skin": "hexmend.boundary.SkinSurface",
-    "hexmend.boundary.Sliding": "hexmend.boundary.SlidingBoundary",
-    "hexmend.boundary.displacement.Change": "hexmend.boundary.displacement.DisplacementQuantity",
-    "hexmend.boundary.displacement.Counts": "hexmend.boundary.displacement.DisplacementCounts",
-    "hexmend.boundary.displacement.MOVEMENTS": "hexmend.boundary.displacement.DISPLACEMENT_QUANTITIES",
-    "hexmend.boundary.displacement.Moment": "hexmend.boundary.displacement.ReferenceState",
-    "hexmend.boundary.displacement.Movement": "hexmend.boundary.displacement.Displacement",
-    "hexmend.boundary.distances": "hexmend.boundary.mutual_distances",
-    "hexmend.doctor.AILMENTS": "hexmend.doctor.PROBLEMS",
-    "hexmend.doctor.Ailment": "hexmend.doctor.Problem",
-    "hexmend.energy.Couplings": "hexmend.energy.BlockSparsity",
-    "hexmend.energy.Power": "hexmend.energy.ObjectiveNorm",
-    "hexmend.io.base.format.Holds": "hexmend.io.base.format.Capability",
-    "hexmend.io.left_out": "hexmend.io.files.unsupported_data",
-    "hexmend.io.formats.session.KeptSession": "hexmend.io.formats.session.session_file.SessionFolder",
-    "hexmend.io.formats.session.Stored": "hexmend.io.formats.session.session_file.SessionContent",
-    "hexmend.io.formats.session.VERSION": "hexmend.io.formats.session.session_file.VERSION",
-    "hexmend.io.formats.session.read_session": "hexmend.io.formats.session.session_file.read_session",
-    "hexmend.io.formats.session.write_session": "hexmend.io.formats.session.session_file.write_session",
-    "hexmend.io.read_recipe": "hexmend.run.recipe_files.read_recipe",
-    "hexmend.io.surfaces.SURFACES": "hexmend.io.surfaces.SURFACE_FORMATS",
-    "hexmend.io.write_recipe": "hexmend.run.recipe_files.write_recipe",
-    "hexmend.iteration.Limits": "hexmend.iteration.ActiveSet",
-    "hexmend.iteration.Stop": "hexmend.iteration.StoppingCriteria",
-    "hexmend.iteration.result.Limits": "hexmend.iteration.ActiveSet",
-    "hexmend.iteration.result.Step": "hexmend.iteration.Step",
-    "hexmend.iteration.stopping.Stop": "hexmend.iteration.StoppingCriteria",
-    "hexmend.mesh.topology.Rows": "hexmend.mesh.topology.CSR",
-    "hexmend.node_step.Verdict": "hexmend.node_step.StepStatus",
-    "hexmend.optimise.Iteration": "hexmend.iteration.Iteration",
-    "hexmend.optimise.Limits": "hexmend.iteration.ActiveSet",
-    "hexmend.optimise.Outcome": "hexmend.iteration.Outcome",
-    "hexmend.optimise.Result": "hexmend.iteration.Result",
-    "hexmend.optimise.StageResult": "hexmend.iteration.StageResult",
-    "hexmend.optimise.Step": "hexmend.iteration.Step",
-    "hexmend.optimise.Stop": "hexmend.iteration.StoppingCriteria",
-    "hexmend.quality.Element": "hexmend.quality.HexDetails",
-    "hexmend.quality.ElementFigure": "hexmend.quality.HexQuantity",
-    "hexmend.quality.FIGURES": "hexmend.quality.SUMMARY_QUANTITIES",
-    "hexmend.quality.JUDGED": "hexmend.quality.REGRESSION_KEYS",
-    "hexmend.quality.Node": "hexmend.quality.NodeDetails",
-    "hexmend.quality.SecondOrder": "hexmend.quality.SecondOrderSummary",
-    "hexmend.quality.Spread": "hexmend.quality.MetricStatistics",
-    "hexmend.quality.element": "hexmend.quality.describe_hex",
-    "hexmend.quality.node": "hexmend.quality.describe_node",
-    "hexmend.quality.spreads": "hexmend.quality.metric_statistics",
-    "hexmend.quality.values": "hexmend.quality.metric_values",
-    "hexmend.quality.worse": "hexmend.quality.regressions.regressions",
-    "hexmend.quality.worse_in_words": "hexmend.quality.describe_regressions",
-    "hexmend.quality.worst": "hexmend.quality.rank_worst",
-    "hexmend.report.made_folder": "hexmend.report.documents.output_folder",
-    "hexmend.report.table_of": "hexmend.report.comparison.record_table",
-    "hexmend.run.Stop": "hexmend.iteration.StoppingCriteria",
-}
+NAMES: dict[str, dict[str, str]] = {
+    "hexmend": {"Stop": "hexmend.iteration.StoppingCriteria"},
+    "hexmend.boundary": {
+        "Kind": "NodeClass", "Skin": "SkinSurface", "Sliding": "SlidingBoundary", "distances": "mutual_distances",
+        "sliding_boundary": "boundary_with_kept_corners",
+    },
+    "hexmend.boundary.displacement": {
+        "Change": "DisplacementQuantity", "Counts": "DisplacementCounts", "MOVEMENTS": "DISPLACEMENT_QUANTITIES",
+        "Moment": "ReferenceState", "Movement": "Displacement",
+    },
+    "hexmend.doctor": {"AILMENTS": "PROBLEMS", "Ailment": "Problem"},
+    "hexmend.energy": {
+        "Couplings": "BlockSparsity", "Power": "ObjectiveNorm",
+        "corners_left_out": "hexmend.energy.hex_energy.as_omitted_corners",
+    },
+    "hexmend.io": {
+        "left_out": "hexmend.io.files.unsupported_data", "read_recipe": "hexmend.run.recipe_files.read_recipe",
+        "write_recipe": "hexmend.run.recipe_files.write_recipe",
+    },
+    "hexmend.io.base.format": {"Holds": "Capability"},
+    "hexmend.io.formats.session": {
+        "KeptSession": "hexmend.io.formats.session.session_file.SessionFolder",
+        "Stored": "hexmend.io.formats.session.session_file.SessionContent",
+        "VERSION": "hexmend.io.formats.session.session_file.VERSION",
+        "read_session": "hexmend.io.formats.session.session_file.read_session",
+        "write_session": "hexmend.io.formats.session.session_file.write_session",
+    },
+    "hexmend.io.surfaces": {"SURFACES": "SURFACE_FORMATS"},
+    "hexmend.iteration": {"Limits": "ActiveSet", "Stop": "StoppingCriteria"},
+    "hexmend.iteration.result": {"Limits": "hexmend.iteration.ActiveSet", "Step": "hexmend.iteration.Step"},
+    "hexmend.iteration.stopping": {"Stop": "hexmend.iteration.StoppingCriteria"},
+    "hexmend.mesh.topology": {"Rows": "CSR"},
+    "hexmend.node_step": {"Verdict": "StepStatus"},
+    "hexmend.optimise": {
+        "Iteration": "hexmend.iteration.Iteration", "Limits": "hexmend.iteration.ActiveSet",
+        "Outcome": "hexmend.iteration.Outcome", "Result": "hexmend.iteration.Result",
+        "StageResult": "hexmend.iteration.StageResult", "Step": "hexmend.iteration.Step",
+        "Stop": "hexmend.iteration.StoppingCriteria",
+    },
+    "hexmend.quality": {
+        "Element": "HexDetails", "ElementFigure": "HexQuantity", "FIGURES": "SUMMARY_QUANTITIES",
+        "JUDGED": "REGRESSION_KEYS", "Node": "NodeDetails", "SecondOrder": "SecondOrderSummary",
+        "Spread": "MetricStatistics", "element": "describe_hex", "locked": "locked_hexes",
+        "node": "describe_node",
+        "spreads": "metric_statistics", "values": "metric_values", "worse": "hexmend.quality.regressions.regressions",
+        "worse_in_words": "describe_regressions", "worst": "rank_worst",
+    },
+    "hexmend.report": {
+        "made_folder": "hexmend.report.documents.output_folder", "table_of": "hexmend.report.comparison.record_table",
+    },
+    "hexmend.run": {"Stop": "hexmend.iteration.StoppingCriteria"},
+}  # fmt: skip
 
 _LINE_SEARCH = {"first_step": "initial_step", "max_cuts": "max_backtracks", "shrink": "backtrack_factor"}
 
@@ -117,19 +108,44 @@ PARAMETERS: dict[str, dict[str, str]] = {
 }
 
 ATTRIBUTES: dict[str, dict[str, str]] = {
-    "Advice": {"held": "locked_below", "loose": "unlocked", "nothing": "no_suggestion", "why": "reason"},
-    "Format": {"cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches"},
-    "Iteration": {"figures": "quality", "notes": "diagnostics"},
-    "MeshEnergy": {"but": "with_objective", "placed": "to_mesh_units", "scaled": "to_edge_units"},
-    "NodeStep": {"verdict": "status", "whole": "is_global"},
-    "Run": {"go_on_with": "switch_method", "reached": "best"},
-    "Step": {"detour": "infeasible", "figures": "quality", "more": "intermediate", "notes": "diagnostics"},
-    "Sweep": {"look": "preview", "over": "finished", "place": "position"},
-}
+    "hexmend.advice.advice.Advice": {
+        "held": "locked_below", "left": "state", "loose": "unlocked", "nothing": "no_suggestion", "why": "reason",
+        "worse": "regressions",
+    },
+    "hexmend.boundary.classification.Boundary": {"part": "component"},
+    "hexmend.boundary.sliding.SlidingBoundary": {"degrees": "feature_angle", "tolerance": "max_deviation"},
+    "hexmend.energy.mesh_energy.MeshEnergy": {
+        "but": "with_objective", "least": "cube_value", "left_out": "omitted", "placed": "to_mesh_units",
+        "power": "norm", "scaled": "to_edge_units",
+    },
+    "hexmend.io.base.format.Capability": {"PINS": "FIXED_NODES"},
+    "hexmend.io.base.format.Format": {
+        "cannot": "limitations", "holds": "capabilities", "names": "stored_names", "recognised": "matches",
+    },
+    "hexmend.iteration.result.Iteration": {"figures": "quality", "notes": "diagnostics", "power": "norm"},
+    "hexmend.iteration.result.Result": {"limits": "active"},
+    "hexmend.iteration.step.Step": {
+        "detour": "infeasible", "figures": "quality", "limits": "active", "more": "intermediate",
+        "notes": "diagnostics", "power": "norm",
+    },
+    "hexmend.node_step.record.NodeStep": {
+        "cuts": "backtracks", "notes": "diagnostics", "power": "norm", "verdict": "status", "whole": "is_global",
+    },
+    "hexmend.node_step.record.StepStatus": {
+        "FLAT": "STATIONARY", "STAYS": "UNCHANGED", "TAKEN_BACK": "REJECTED", "THERE": "AT_TARGET",
+    },
+    "hexmend.node_step.sweep.Sweep": {"look": "preview", "over": "finished", "place": "position"},
+    "hexmend.run.breakpoints.Breakpoints": {"cuts": "backtracks"},
+    "hexmend.run.run.Run": {"go_on_with": "switch_method", "limit": "max_iterations", "reached": "best"},
+    "hexmend.smoothers.base.Smoother": {"power": "norm"},
+}  # fmt: skip
 
 KEYWORDS: dict[str, dict[str, str]] = {
+    "boundary_of": {"degrees": "feature_angle"},
+    "objective": {"power": "norm"},
     "read": {"nodes_without_place": "interpolate_missing"},
     "summarise": {"figures": "quality"},
+    "surface_change": {"degrees": "feature_angle"},
 }
 
 
@@ -148,15 +164,18 @@ def exports(module: str) -> Callable[[str], object]:
     """
 
     def __getattr__(name: str) -> object:
-        now = NAMES.get(f"{module}.{name}")
+        now = NAMES.get(module, {}).get(name)
         if now is None:
             raise AttributeError(f"module {module!r} has no attribute {name!r}")
-        from importlib import import_module
-
         home, _, attribute = now.rpartition(".")
-        return getattr(import_module(home), attribute)
+        return getattr(import_module(home or module), attribute)
 
     return __getattr__
+
+
+def former_attributes(cls: type) -> dict[str, str]:
+    """Return the entry of `ATTRIBUTES` for a class; empty if nothing of it has been renamed."""
+    return ATTRIBUTES.get(f"{cls.__module__}.{cls.__qualname__}", {})
 
 
 def renamed(values: Mapping[str, Any], table: Mapping[str, str]) -> dict[str, Any]:
@@ -178,7 +197,7 @@ def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> typ
     type
         The same class.
     """
-    names = ATTRIBUTES.get(cls.__name__, {}) if table is None else table
+    names = former_attributes(cls) if table is None else table
     if not names:
         return cls
     init = cls.__init__
@@ -195,6 +214,14 @@ def reads_old_names(cls: type[T], table: Mapping[str, str] | None = None) -> typ
         return object.__getattribute__(self, name)  # raises what had failed
 
     cls.__init__, cls.__getattr__ = __init__, __getattr__
+    return cls
+
+
+def reads_old_members(cls: type[T]) -> type[T]:
+    """Class decorator of an enumeration: its members have their old names of `ATTRIBUTES` as aliases."""
+    for old, new in former_attributes(cls).items():
+        setattr(cls, old, cls[new])
+        cls._member_map_[old] = cls[new]  # for `cls["OLD"]`; an attribute that is a member cannot be set any more
     return cls
 
 
@@ -217,12 +244,21 @@ def old_keywords(owner: str) -> Callable[[Callable[..., T]], Callable[..., T]]:
     return decorate
 
 
+def _module_of(name: str) -> str | None:
+    """Return the name of today of a module with an old name or in a package with one; None for any other."""
+    package, _, rest = name.rpartition(".")
+    if name in MODULES or not package:
+        return MODULES.get(name)
+    home = _module_of(package)
+    return None if home is None else f"{home}.{rest}"
+
+
 class _OldModules:
-    """Finder of modules under the names of earlier versions; the last in `sys.meta_path`."""
+    """Finder of modules under the names of earlier versions."""
 
     @staticmethod
     def find_spec(name: str, path: object = None, target: object = None) -> ModuleSpec | None:
-        if name not in MODULES:
+        if _module_of(name) is None:
             return None
         from importlib.machinery import ModuleSpec
 
@@ -236,10 +272,10 @@ class _OldModules:
     def exec_module(module: ModuleType) -> None:
         from importlib import import_module
 
-        sys.modules[module.__name__] = import_module(MODULES[module.__name__])
+        sys.modules[module.__name__] = import_module(_module_of(module.__name__))
 
 
 def install() -> None:
     """Let `import` find the modules of `MODULES`."""
     if not any(isinstance(finder, _OldModules) for finder in sys.meta_path):
-        sys.meta_path.append(_OldModules())
+        sys.meta_path.insert(0, _OldModules())  # a folder left by an older checkout would be taken for a package

@@ -1,4 +1,4 @@
-"""Immutable arrays, and inner products that do not depend on the number of threads."""
+"""Immutable arrays, marks and indices of numbers, and products that do not depend on the number of threads."""
 
 from __future__ import annotations
 
@@ -58,6 +58,37 @@ def dot(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.einsum("i,i->", np.ravel(a), np.ravel(b)))
 
 
-def norm(a: np.ndarray) -> float:
+def euclidean_norm(a: np.ndarray) -> float:
     """Compute the Euclidean norm of an array of any shape; see `dot`."""
     return float(np.sqrt(dot(a, a)))
+
+
+def largest_norm(vectors: np.ndarray) -> float:
+    """Compute the norm of the longest of some vectors (n, 3).
+
+    >>> largest_norm(np.array([[3.0, 4.0, 0.0], [0.0, 0.0, 1.0]]))
+    5.0
+    """
+    return float(np.sqrt(np.square(vectors).sum(axis=1).max()))
+
+
+def mask(numbers: np.ndarray, n: int) -> np.ndarray:
+    """Mark some of the numbers below n, (n,) bool.
+
+    >>> mask(np.array([2, 0]), 4).tolist()
+    [True, False, True, False]
+    """
+    marked = np.zeros(n, dtype=bool)
+    marked[numbers] = True
+    return marked
+
+
+def index_of(numbers: np.ndarray, n: int) -> np.ndarray:
+    """Index of each number below n in `numbers` (k,), -1 for a number that is not there; (n,) int32.
+
+    >>> index_of(np.array([2, 0]), 4).tolist()
+    [1, -1, 0, -1]
+    """
+    index = np.full(n, -1, np.int32)
+    index[numbers] = np.arange(len(numbers), dtype=np.int32)
+    return index

@@ -68,13 +68,11 @@ class Parameter:
         """
         if self.choices is not None:
             if not isinstance(value, str) or value not in self.choices:
-                raise ParameterError(
-                    f"{self.name} = {_shown(value)} is unknown: expected one of {', '.join(self.choices)}"
-                )
+                raise self._error(_shown(value), "is unknown")
             return value
         if self.type is bool:
             if not isinstance(value, bool):
-                raise ParameterError(f"{self.name} = {_shown(value)} is not a switch: expected true or false")
+                raise self._error(_shown(value), "is not a switch")
             return value
         if self.type is str:
             return str(value)
@@ -87,13 +85,19 @@ class Parameter:
             if math.isnan(number) or number != float(value):
                 raise ValueError
         except (TypeError, ValueError, OverflowError):
-            kind = "a whole number" if self.type is int else "a number"
-            raise ParameterError(f"{self.name} = {_shown(value)} is not {kind}: expected {self.range}") from None
+            raise self._error(_shown(value), f"is not {self._kind}") from None
         if self.no_limit and number == math.inf:
             return self.no_limit
         if (self.low is not None and number < self.low) or (self.high is not None and number > self.high):
-            raise ParameterError(f"{self.name} = {value} is out of range: expected {self.range}")
+            raise self._error(value, "is out of range")
         return number
+
+    def _error(self, shown: object, problem: str) -> ParameterError:
+        return ParameterError(f"{self.name} = {shown} {problem}: expected {self.range}")
+
+    @property
+    def _kind(self) -> str:
+        return "a whole number" if self.type is int else "a number"
 
     @property
     def range(self) -> str:
@@ -102,7 +106,7 @@ class Parameter:
             return f"one of {', '.join(self.choices)}"
         if self.type is bool:
             return "true or false"
-        words = "a whole number" if self.type is int else "a number"
+        words = self._kind
         if self.low is not None and self.high is not None:
             words += f" from {self.low:g} to {self.high:g}"
         elif self.low is not None:
@@ -116,7 +120,7 @@ class Parameter:
         if self.type is bool:
             word = text.strip().lower()
             if word not in _TRUE + _FALSE:
-                raise ParameterError(f"{self.name} = {text!r} is not a switch: expected true or false")
+                raise self._error(repr(text), "is not a switch")
             return word in _TRUE
         if self.type is int:
             try:
@@ -127,16 +131,8 @@ class Parameter:
 
     def to_json(self) -> dict[str, Any]:
         """The row of `hexmend methods --json`."""
-        choices = list(self.choices) if self.choices is not None else None
-        return {
-            "name": self.name,
-            "default": self.default,
-            "low": self.low,
-            "high": self.high,
-            "choices": choices,
-            "unit": self.unit,
-            "help": self.help,
-        }
+        row = {key: value for key, value in vars(self).items() if key not in ("type", "no_limit")}
+        return row | {"choices": None if self.choices is None else list(self.choices)}
 
 
 def _shown(value: object) -> str:

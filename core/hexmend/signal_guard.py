@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import wraps
+
 TYPE_CHECKING = False  # `typing` would cost as much as `hexmend --version` does
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,15 +34,13 @@ def uninterrupted(function: Function) -> Function:
     """
     UNINTERRUPTED_CODE.add(function.__code__)
 
+    @wraps(function)
     def guarded(*args: Any, **options: Any) -> Any:
         result = function(*args, **options)
         for call in ON_RETURN:
             call()
         return result
 
-    for name in ("__module__", "__name__", "__qualname__", "__doc__"):  # `functools.wraps` would cost an import
-        setattr(guarded, name, getattr(function, name))
-    guarded.__wrapped__ = function
     return guarded
 
 

@@ -1,4 +1,4 @@
-"""Text for a terminal: control codes are replaced, and text that is shown in red is marked."""
+"""Text for readers: counts of things, text without control codes, and text that is shown in red."""
 
 from __future__ import annotations
 
@@ -10,6 +10,15 @@ def printable(text: str) -> str:
     'name?[2J of a file'
     """
     return "".join(letter if letter.isprintable() else "?" for letter in text.replace("\n", " "))
+
+
+def count_phrase(number: int, singular: str, plural: str | None = None) -> str:
+    """Put a number before the singular or the plural of a phrase; the plural has an "s" more where none is given.
+
+    >>> count_phrase(1, "hex is", "hexes are"), count_phrase(2000, "hex is", "hexes are"), count_phrase(0, "node")
+    ('1 hex is', '2,000 hexes are', '0 nodes')
+    """
+    return f"{number:,} {singular if number == 1 else plural or f'{singular}s'}"
 
 
 class WorsenedText(str):

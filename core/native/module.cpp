@@ -1,5 +1,5 @@
 // The extension module; each family of kernels is a submodule. HEXMEND_MODULE is the name of the build, after the
-// processors that it is for.
+// processors that it is for. Arguments and results of kernels are described where they are bound, in bindings.
 #include <nanobind/nanobind.h>
 
 #include "simd/lanes.hpp"
@@ -16,7 +16,7 @@ namespace nb = nanobind;
                         family(sliding_surface) family(structure) family(wavefronts) family(worst_first)
 
 namespace hexmend {
-#define DECLARE(name) void bind_##name(nb::module_ &);
+#define DECLARE(name) void bind_##name(nb::module_);
 HEXMEND_FAMILIES(DECLARE)
 }  // namespace hexmend
 
@@ -28,10 +28,6 @@ NB_MODULE(HEXMEND_MODULE, m) {
     m.def("set_threads", &hexmend::set_threads, "count"_a, "Set the number of threads of the calling thread.");
     m.def("set_default_threads", &hexmend::set_default_threads, "count"_a,
           "Set the number for threads that have not set one.");
-#define BIND(name)                                   \
-    {                                                \
-        nb::module_ family = m.def_submodule(#name); \
-        hexmend::bind_##name(family);                \
-    }
+#define BIND(name) hexmend::bind_##name(m.def_submodule(#name));
     HEXMEND_FAMILIES(BIND)
 }

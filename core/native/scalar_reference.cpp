@@ -18,14 +18,14 @@ void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm no
 
 void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
                              OmittedCorners omitted, CornerVectors shares) {
-    (delta != 0 ? product_of<true, double> : product_of<false, double>)(points, hexes, slots, values, delta, norm,
-                                                                        omitted, shares);
+    (delta != 0 ? hessian_product_of<true, double> : hessian_product_of<false, double>)(points, hexes, slots, values,
+                                                                                        delta, norm, omitted, shares);
 }
 
-std::int64_t scalar::sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                           const NodeStepSettings &settings) {
-    return (settings.delta != 0 ? sweep_of<true, double> : sweep_of<false, double>)(points, mesh, groups, nodes,
-                                                                                    settings);
+std::int64_t scalar::local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                                 const NodeStepSettings &settings) {
+    return (settings.delta != 0 ? local_sweep_of<true, double> : local_sweep_of<false, double>)(points, mesh, groups,
+                                                                                                nodes, settings);
 }
 
 }  // namespace hexmend

@@ -15,7 +15,7 @@ void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, Omit
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
                      OmittedCorners omitted, CornerVectors shares);
 
-std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                   const NodeStepSettings &settings);
+std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                         const NodeStepSettings &settings);
 
 }  // namespace hexmend::scalar

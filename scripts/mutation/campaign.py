@@ -49,7 +49,7 @@ class Results:
             os.replace(beside, self._path)
 
     def has(self, mutant: Mutant, tests: str) -> bool:
-        """Whether it is known what this very fault does to the tests that the digest `tests` stands for."""
+        """Return True if the outcome of this fault is known for the tests with the digest `tests`."""
         row = self.rows.get(mutant.id)
         same = row is not None and row.diff == mutant.diff and row.tests == tests
         return same and row.outcome not in (EQUIVALENT, ERROR)

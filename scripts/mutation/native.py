@@ -16,7 +16,7 @@ from mutation.reach import Reach
 from mutation.trial import tried
 from mutation.workers import Processes, in_copies
 
-#: The build that is given faults, where the processor can run it.
+#: The build in which faults are made, if the processor can run it.
 _BUILD = "v3"
 
 

@@ -159,7 +159,7 @@ def _hashed(*words: str) -> str:
 
 
 def _nth(mutant: Mutant) -> str:
-    """Which of the same lines in the file the mutant changes."""
+    """Number of the line that the mutant changes among equal lines of the file."""
     before = mutant.texts[0].splitlines()[0] if mutant.texts[0] else ""
     lines = [line.strip() for line in mutant.source.splitlines()[: mutant.last]]
     return str(lines.count(before))

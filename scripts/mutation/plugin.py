@@ -20,7 +20,7 @@ from types import CodeType, FrameType
 import pytest
 from _pytest import config as pytest_config
 
-#: Bytes of data that a process may take: a fault may ask for all there is.
+#: Memory limit of a process in bytes: a fault may allocate without limit.
 _MEMORY = 12 << 30
 #: A test may take this many seconds of the processor, and this many times as long as without a fault; and so many
 #: seconds of the clock, for one that waits.

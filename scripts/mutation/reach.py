@@ -1,4 +1,4 @@
-"""Which tests run which lines of the sources, and how long they take; measured once and kept."""
+"""Lines of the sources that each test runs, and its duration; measured once and stored."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def _digest(file: Path) -> str:
 
 
 def _nearness(test: str, source: str) -> int:
-    """How much of a file of tests' name is that of a source: the module's, else its folder's."""
+    """Return how closely a test file's name matches a source: its module, else its folder."""
     path, words = PurePosixPath(source), PurePosixPath(test)
     if test == source or words.stem == f"test_{path.stem}":
         return _NAMED

@@ -116,7 +116,7 @@ def _returns(value: ast.expr) -> Iterator[Replacement]:
 
 
 def _is_list(node: ast.expr) -> bool:
-    """Whether a node is a text, a list or a tuple: they can be added and not subtracted."""
+    """Return True if a node is a text, a list or a tuple, which can be added but not subtracted."""
     return isinstance(node, ast.JoinedStr | ast.List | ast.Tuple | ast.ListComp) or (
         isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
     )

@@ -14,13 +14,13 @@ FOUND, SURVIVED, TIMED_OUT, EQUIVALENT, ERROR = "found", "survived", "timed out"
 
 #: Exit statuses of pytest: all passed, no test was collected.
 _PASSED, _NONE = 0, 5
-#: Signals that end a process which a fault has spoilt: it reads or writes where it may not, or gives up.
+#: Signals that end a process with invalid memory accesses or an abort, caused by a fault.
 _CRASHES = signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT, signal.SIGFPE, signal.SIGILL
 
 
 @dataclass(frozen=True)
 class Result:
-    """What became of a fault: an outcome, the test that found it or a remark, and seconds."""
+    """Result of a fault: an outcome, the test that found it or a remark, and seconds."""
 
     outcome: str
     by: str

@@ -12,11 +12,11 @@ from PySide6.QtCore import QEvent, QSettings
 from PySide6.QtWidgets import QApplication, QMessageBox
 
 from hexmend import gallery, io
-from hexmend_app.scene.graphics import prepare_off_screen
-from hexmend_app.shell.program import application
+from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
-from hexmend_app.state.task import running
-from hexmend_app.widgets.style import apply_style
+from hexmend_app.state.tasks.task import running
+from hexmend_app.theme.style import apply_style
 from tests.app.driving import open_and_wait
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
@@ -163,7 +163,7 @@ def first_seen(qtbot):
 def made(qtbot, path):
     """A window in which a mesh is open."""
     window = first_seen(qtbot)
-    window.furnish()
+    window.build_features()
     window.build_canvas()
     open_and_wait(qtbot, window, path)
     with unseen(window):

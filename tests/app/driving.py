@@ -71,7 +71,7 @@ def key(window, key, *modifiers):
 
 def choose(window, method, stop=None, **values):
     """Have a method at hand, with its values and its limits."""
-    window.session.order.choose(Stage(METHODS[method](**values), stop or StoppingCriteria()))
+    window.session.run_setup.choose(Stage(METHODS[method](**values), stop or StoppingCriteria()))
     window.refresh()
 
 
@@ -107,7 +107,7 @@ def turn():
 
 
 def phase(window, phase):
-    return lambda: window.session.smoothing.phase is phase
+    return lambda: window.session.run.phase is phase
 
 
 def pixels(window):

@@ -6,11 +6,11 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature
-from hexmend_app.state.document import State
-from hexmend_app.state.session import Session
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.session.session import Session
 from hexmend_app.widgets.busy import Busy
+from hexmend_app.widgets.dialogs.waiting import wait_until
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.waiting import wait_until
 
 
 class PlainHost:

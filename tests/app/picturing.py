@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import QObject, QSettings
-from PySide6.QtWidgets import QApplication, QComboBox, QScrollBar, QTabBar, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QMainWindow, QScrollBar, QTabBar, QWidget
 
 from hexmend_app.shell.window import Window
 from tests.app.resetting import unseen
@@ -51,17 +51,17 @@ def everything(window: QWidget) -> Counter[str]:
         for panel in window.docks.ids():
             window.show_panel(panel)
             window.refresh()
-            while window.session.classer.busy:  # what a panel asks for when it is seen
+            while window.session.boundary_classifier.busy:  # what a panel asks for when it is seen
                 QApplication.processEvents()
             window.refresh()
             QApplication.processEvents()
-            _widgets(window.docks, panel, lines)
+            _widgets(window, panel, lines)
         window.docks.restore(layout)
     return lines
 
 
 def _widgets(widget: QWidget, above: str, lines: Counter[str]) -> None:
-    if not widget.isVisible():
+    if not widget.isVisible() or _is_of_docks(widget) or isinstance(widget, QScrollBar):
         return
     path = f"{above}/{type(widget).__name__} {widget.accessibleName()}".rstrip()
     meta = widget.metaObject()
@@ -72,12 +72,15 @@ def _widgets(widget: QWidget, above: str, lines: Counter[str]) -> None:
     if isinstance(widget, QComboBox | QTabBar):
         texts = widget.itemText if isinstance(widget, QComboBox) else widget.tabText
         shown.append(f"items={[texts(k) for k in range(widget.count())]}")
-    if isinstance(widget, QScrollBar):
-        shown = [f"scrolled={widget.value()}"]
     lines[f"{path}: {' '.join(shown)}"] += 1
     for child in widget.children():
         if isinstance(child, QWidget):
             _widgets(child, path, lines)
+
+
+def _is_of_docks(widget: QWidget) -> bool:
+    """Return True for rows of tabs that Qt keeps for docks: `Docks.state` tells which are in front."""
+    return isinstance(widget, QTabBar) and isinstance(widget.parent(), QMainWindow)
 
 
 def _state(part: Any, name: str, lines: Counter[str]) -> None:

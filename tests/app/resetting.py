@@ -25,11 +25,11 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import DEFAULT_METHOD, METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.state.history import LIMIT
-from hexmend_app.state.look import Look
-from hexmend_app.state.scene.kept_cameras import KeptCameras
-from hexmend_app.state.timeline import SPEED
-from hexmend_app.widgets import theming
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.named_cameras import NamedCameras
+from hexmend_app.state.mesh.history import LIMIT
+from hexmend_app.state.run.timeline import SPEED
+from hexmend_app.theme import theme_choice
 from tests.app.driving import open_and_wait
 
 SIZE = 1400, 900
@@ -77,23 +77,23 @@ class Resetting:
     def _reset_session(self):
         """What is set goes back, whatever the mesh."""
         session = self.window.session
-        session.stepping.leave()
+        session.node_sweep.leave()
         QSettings().clear()
-        theming.wear()
+        theme_choice.apply_theme()
         self._put_back()
         for method in METHODS.values():  # a form takes its time
-            if session.order.values_of(method.name) not in ({}, method().values()):
-                session.order.choose(Stage(method(), StoppingCriteria()))
-        session.order.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
-        session.order.begun = None
-        while session.chain.stages:
-            session.chain.remove(0)
-        session.chain.rename("")
+            if session.run_setup.values_of(method.name) not in ({}, method().values()):
+                session.run_setup.choose(Stage(method(), StoppingCriteria()))
+        session.run_setup.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
+        session.run_setup.begun = None
+        while session.recipe_draft.stages:
+            session.recipe_draft.remove(0)
+        session.recipe_draft.rename("")
         session.history.limit = LIMIT
-        session.timeline.hold()
+        session.timeline.pause()
         session.timeline.set_speed(SPEED)
-        session.views.close_all()
-        session.cameras.take(KeptCameras())
+        session.side_views.close_all()
+        session.saved_cameras.restore(NamedCameras())
         session.view.change(**{name: getattr(Look(), name) for name in Look.__dataclass_fields__})
         session.view.set_handles(True)
         session.view.set_snap(True)

@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtCore import QObject, Signal
 
 import hexmend_app
-from hexmend_app.shell.type_to_find import TypeToFind
+from hexmend_app.shell.palette.type_to_find import TypeToFind
 
 #: Modules that start the program when they are imported.
 _PROGRAMS = {"hexmend_app.__main__"}

@@ -7,9 +7,9 @@ import pytest
 import shiboken6
 from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QAbstractSpinBox, QComboBox, QLineEdit
 
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Camera
+from hexmend_app.picture import Camera
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import click, phase
 from tests.app.picturing import everything
 from tests.patience import PATIENCE
@@ -58,9 +58,9 @@ def live(window, qtbot):
     session.selection.choose(7)
     session.view.set_clip(PlaneClip.at((1, 0, 0), middle))
     session.view.isolate([7], 1)
-    session.kept.keep("kept", session.document.now)
-    session.cameras.keep("kept", Camera("+y"))
-    session.views.show("start", session.document.start)
+    session.snapshots.keep("kept", session.document.now)
+    session.saved_cameras.keep("kept", Camera("+y"))
+    session.side_views.show("start", session.document.start)
     window.messages.show_error("Something is wrong", "And that is what it is.")
     for panel in window.docks.ids():
         window.show_panel(panel)
@@ -76,7 +76,7 @@ def live(window, qtbot):
 
 def known(window, qtbot):
     """All of a window, once what is found beside it is known; its script goes on with every mesh that is opened."""
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
     window.refresh()
     return {line for line in everything(window) if "/ScriptPanel/" not in line}
 

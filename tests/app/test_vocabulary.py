@@ -59,8 +59,8 @@ def test_the_words_are_found_where_they_are_read(tmp_path):
 
 def test_a_method_is_called_by_its_title():
     from hexmend_app.features.compare.comparison_table import INITIAL, title_of
-    from hexmend_app.state.document import State
-    from hexmend_app.state.history import History
+    from hexmend_app.state.mesh.document import State
+    from hexmend_app.state.mesh.history import History
     from tests.core.grids import grid
 
     for name, method in METHODS.items():

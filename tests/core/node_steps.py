@@ -34,5 +34,5 @@ def patch_energy(mesh, step, place):
     points[step.node] = place
     nodes, hexes = np.unique(mesh.hexes[step.hexes], return_inverse=True)
     part = Mesh(points[nodes] / step.unit, hexes.reshape(-1, 8))
-    energy = MeshEnergy(part, step.power)
+    energy = MeshEnergy(part, step.norm)
     return energy.value(part.points, step.delta)

@@ -7,6 +7,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from enum import Enum
 
 import pytest
 
@@ -14,9 +15,15 @@ import hexmend as hx
 from hexmend import aliases
 from hexmend.cli.main import main
 from hexmend.parameters import declared, from_strings, from_values
+from hexmend.run.breakpoints import Breakpoints
 from hexmend.smoothers import METHODS
 
 PARAMETERS = [(method, old, new) for method, names in aliases.PARAMETERS.items() for old, new in names.items()]
+
+
+def test_a_module_in_a_package_with_an_old_name_is_the_same_module():
+    old = importlib.import_module("hexmend.surface.classification")
+    assert old.NodeClass is hx.boundary.NodeClass
 
 
 @pytest.mark.parametrize(("old", "new"), aliases.MODULES.items())
@@ -24,11 +31,13 @@ def test_a_module_is_imported_by_its_old_name(old, new):
     assert importlib.import_module(old) is importlib.import_module(new)
 
 
-@pytest.mark.parametrize(("old", "new"), aliases.NAMES.items())
-def test_a_name_is_had_where_it_was(old, new):
-    (home, _, name), (place, _, now) = old.rpartition("."), new.rpartition(".")
+@pytest.mark.parametrize(
+    ("home", "name", "new"), [(home, *names) for home, table in aliases.NAMES.items() for names in table.items()]
+)
+def test_a_name_is_had_where_it_was(home, name, new):
+    place, _, now = new.rpartition(".")
     found = getattr(importlib.import_module(home), name)
-    assert found is getattr(importlib.import_module(place), now)
+    assert found is getattr(importlib.import_module(place or home), now)
     assert name not in getattr(importlib.import_module(home), "__all__", ())  # read, but listed no more
 
 
@@ -85,6 +94,16 @@ def test_of_an_old_and_a_new_name_in_a_file_the_new_one_counts():
     assert from_values(mend, {"max_p": 4.0, "highest_p": 8.0}).max_p == 4.0
 
 
+@pytest.mark.parametrize("path", aliases.ATTRIBUTES)
+def test_renamed_attributes_and_members_are_those_of_a_class(path):
+    home, _, name = path.rpartition(".")
+    cls = getattr(importlib.import_module(home), name)
+    assert aliases.former_attributes(cls) is aliases.ATTRIBUTES[path]
+    for old, new in aliases.ATTRIBUTES[path].items() if issubclass(cls, Enum) else ():
+        assert getattr(cls, old) is cls[old] is cls[new] is getattr(cls, new)
+        assert old not in {member.name for member in cls}  # read, but written no more
+
+
 def test_an_attribute_that_never_was_is_an_attribute_error_of_its_class():
     with pytest.raises(AttributeError, match="'Mend' object has no attribute 'softnes'"):
         METHODS["mend"]().softnes  # noqa: B018
@@ -105,6 +124,10 @@ def test_the_energy_of_a_mesh_has_the_methods_of_version_0_1():
     energy = hx.energy.MeshEnergy(mesh)
     assert energy.placed == energy.to_mesh_units
     assert energy.but == energy.with_objective
+    assert energy.power is energy.norm
+    assert energy.left_out is energy.omitted
+    assert energy.least == energy.cube_value
+    assert hx.energy.MeshEnergy(mesh, power=energy.norm, left_out=energy.omitted).norm == energy.norm
     assert energy.scaled(mesh.points).tolist() == energy.to_edge_units(mesh.points).tolist()
 
 
@@ -136,4 +159,15 @@ def test_steps_iterations_and_runs_have_the_attributes_of_version_0_1():
     assert iteration.figures is iteration.quality
     assert iteration.notes is iteration.diagnostics
     assert run.reached is run.best
+    assert run.limit == run.max_iterations
+    assert iteration.power == hx.smoothers.METHODS["laplacian"]().power == iteration.norm
+    assert Breakpoints(cuts=2).backtracks == 2
     assert not hasattr(step, "mroe")
+
+
+def test_boundaries_take_their_keywords_of_version_0_1():
+    mesh = hx.gallery.make("cube", size=8)
+    boundary = hx.boundary.boundary_of(mesh, degrees=30)
+    assert boundary.part is boundary.component
+    assert hx.boundary.SlidingBoundary(mesh, degrees=30, tolerance=0.1).max_deviation == 0.1
+    assert hx.boundary.surface_change(mesh, mesh, degrees=30) == hx.boundary.surface_change(mesh, mesh, 30)

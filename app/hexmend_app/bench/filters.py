@@ -1,4 +1,4 @@
-"""Milliseconds a change of what is hidden and a frame in which the view turns, and the memory of the program."""
+"""Milliseconds per change of visibility and per frame while the view rotates, and the memory of the program."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ import numpy as np
 from hexmend.gallery import make
 from hexmend.study.bench.section import BenchSection, peak_mb
 from hexmend_app.bench.windows import draw, measured, report, turning_ms
+from hexmend_app.picture.appearance import Isolation, ValueRange
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -31,10 +33,7 @@ def _row(window: Window) -> dict[str, Any]:
 
 
 def _changes(window: Window) -> dict[str, dict[str, float]]:
-    """Median milliseconds of each change of the look, in the parts that it has."""
-    from hexmend_app.state.clip import BoxClip, PlaneClip
-    from hexmend_app.state.look import Isolation, ValueRange
-
+    """Median milliseconds of each change of the look, by stage."""
     mesh = window.session.document.now.mesh
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
@@ -89,17 +88,17 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:
-    yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing = all, quads drawn at last"
+    yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing = total, quads drawn"
     for name, ms in row["ms"].items():
         parts = [ms[part] for part in ("mask", "faces", "drawing")]
-        told = " + ".join(f"{part:6.1f}" for part in parts)
-        yield f"  {name:<18} {told} = {sum(parts):6.1f} ms   {ms['quads']:>8,}"
-    yield f"  a frame while the view turns: {row['turning_ms']:.1f} ms; memory at most {row['memory_mb']:,.0f} MB"
+        sum_ = " + ".join(f"{part:6.1f}" for part in parts)
+        yield f"  {name:<18} {sum_} = {sum(parts):6.1f} ms   {ms['quads']:>8,}"
+    yield f"  a frame while the view rotates: {row['turning_ms']:.1f} ms; peak memory {row['memory_mb']:,.0f} MB"
 
 
 filters = BenchSection(
     "filters",
-    f"The viewer: a change of what is hidden, and turning (medians of {_CHANGES})",
+    f"The viewer: changes of visibility, and rotation (medians of {_CHANGES})",
     _measure,
     partial(report, lines=_lines),
 )

@@ -1,4 +1,4 @@
-"""A long stay in one window: whether its memory stays level while meshes are opened, smoothed, looked at and saved."""
+"""Hours of work in one window, with a check that its memory does not grow; loaded after the display is checked."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ from dataclasses import asdict, dataclass
 from itertools import count, cycle, product
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from scipy.stats import theilslopes
 
+from hexmend.run import StoppingCriteria
+from hexmend.run.recipe import Stage
+from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import resident_mb
 from hexmend_app.bench.windows import draw, end_run, save_and_wait, turn, until
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.shell.start.program import application
+from hexmend_app.shell.window import Window
 
-if TYPE_CHECKING:
-    from hexmend_app.shell.window import Window
-
-#: Of a run in a round: its most iterations, and its longest time in seconds.
+#: Maximum number of iterations and seconds of a run.
 _ITERATIONS, _SECONDS = 20, 5.0
 
-#: Share of the rounds in which memory may still grow: caches fill, and every method has its first run.
+#: Share of the rounds that do not count: caches fill, and every method has its first run.
 _WARM = 0.25
 
-#: Share of the memory held by which it may grow from the warm rounds to the last and be called level.
+#: Growth from the first warm round to the last that is accepted, as a share of the memory.
 _GROWTH = 0.05
 
 
@@ -37,7 +41,7 @@ class Sample:
     ----------
     round : int
     minutes : float
-        Since the first began.
+        Since the start of the first round.
     mesh, method : str
     mb : float
         Resident memory in MiB.
@@ -54,25 +58,23 @@ class Sample:
 
 
 class Memory:
-    """What the rounds have left, and whether that is level."""
+    """The memory after each round."""
 
     def __init__(self) -> None:
         self._samples: list[Sample] = []
 
     def add(self, sample: Sample) -> None:
-        """Take another round."""
+        """Add a round."""
         self._samples.append(sample)
 
     @property
     def warm(self) -> list[Sample]:
-        """The rounds that count."""
+        """The rounds after the warm-up."""
         return self._samples[int(_WARM * len(self._samples)) :]
 
     @property
     def growth(self) -> float:
-        """MiB from the first warm round to the last, by the median of the slopes between all of them (Theil, Sen)."""
-        from scipy.stats import theilslopes
-
+        """Growth in MiB from the first warm round to the last, by the median of slopes (Theil, Sen)."""
         warm = self.warm
         if len(warm) < 2:
             return 0.0
@@ -80,34 +82,45 @@ class Memory:
 
     @property
     def level(self) -> bool:
-        """Whether the memory grows no further."""
+        """True if the memory does not grow."""
         return self.growth <= _GROWTH * float(np.median([one.mb for one in self.warm]))
 
     @property
     def verdict(self) -> str:
-        """All of it in a sentence."""
-        mb, how = [one.mb for one in self.warm], "is level" if self.level else "GROWS"
+        """The result in a sentence."""
+        mb, style = [one.mb for one in self.warm], "is level" if self.level else "GROWS"
         return (
-            f"{len(self._samples)} rounds in {self._samples[-1].minutes:.0f} min: memory {how}: "
+            f"{len(self._samples)} rounds in {self._samples[-1].minutes:.0f} min: memory {style}: "
             f"over the last {len(mb)} rounds {min(mb):.0f} to {max(mb):.0f} MB, median {np.median(mb):.0f}, "
             f"{self.growth:+.0f} MB from the first of them to the last"
         )
 
     def given(self) -> dict[str, Any]:
-        """The figures, for a file."""
+        """Return the measurements for a file."""
         return {"growth_mb": self.growth, "level": self.level, "rounds": [asdict(one) for one in self._samples]}
 
 
 def soak(meshes: Sequence[str | Path], seconds: float, least: int = 4) -> Iterator[Sample]:
-    """Work in one window for so long, and at least so many rounds: every method on every mesh in turn.
+    """Work in one window, with every method on every mesh in turn.
+
+    Parameters
+    ----------
+    meshes : sequence of path
+    seconds : float
+        Duration.
+    least : int
+        Minimum number of rounds.
+
+    Yields
+    ------
+    Sample
+        After each round.
 
     Raises
     ------
     HexmendError
-        Where a mesh cannot be opened, a method fails, or nothing answers.
+        If a mesh cannot be opened, a method fails, or the window does not respond.
     """
-    from hexmend.smoothers import METHODS
-
     with tempfile.TemporaryDirectory() as folder, _window() as window:
         began = perf_counter()
         for number, (name, path) in zip(count(1), cycle(product(METHODS, meshes)), strict=False):
@@ -120,15 +133,12 @@ def soak(meshes: Sequence[str | Path], seconds: float, least: int = 4) -> Iterat
 
 @contextmanager
 def _window() -> Iterator[Window]:
-    """A window that is kept safe from a crash as any is; it closes without asking."""
-    from hexmend_app.shell.program import application
-    from hexmend_app.shell.window import Window
-
+    """Open a window with autosave; it closes without asking."""
     application()
     window = Window()
     window.resize(1440, 900)
     window.show()
-    window.furnish()
+    window.build_features()
     window.build_canvas()
     window.features["session"].guard()
     turn(0.5)
@@ -142,7 +152,7 @@ def _window() -> Iterator[Window]:
 
 
 def _round(window: Window, path: Path, method: str, folder: Path) -> None:
-    """Open a mesh, look at it, smooth it, look back, save it as mesh, session and picture, and open the session."""
+    """Open a mesh, view it, smooth it, browse the timeline, save mesh, session and picture, and reopen the session."""
     session = window.session
     _open(window, path)
     _look_around(window)
@@ -161,17 +171,15 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
 
 def _open(window: Window, path: Path) -> None:
     opener, errors = window.session.opener, []
-    told = opener.failed.connect(lambda _, error: errors.append(error))
+    text = opener.failed.connect(lambda _, error: errors.append(error))
     window.session.commands.open(path)
     until(lambda: not opener.busy)
-    opener.failed.disconnect(told)
+    opener.failed.disconnect(text)
     _raise(errors)
     draw(window)
 
 
 def _look_around(window: Window) -> None:
-    from hexmend_app.state.clip import PlaneClip
-
     view, mesh = window.session.view, window.session.document.now.mesh
     middle = tuple(mesh.points.mean(axis=0))
     for clip in (PlaneClip.at((1, 0, 0), middle), PlaneClip.at((0, 1, 0), middle, crinkle=False), None):
@@ -186,17 +194,13 @@ def _look_around(window: Window) -> None:
 
 
 def _smooth(window: Window, method: str) -> None:
-    from hexmend.run import StoppingCriteria
-    from hexmend.run.recipe import Stage
-    from hexmend.smoothers import METHODS
-
-    smoothing, errors = window.session.smoothing, []
-    told = smoothing.failed.connect(errors.append)
+    smoothing, errors = window.session.run, []
+    lines = smoothing.failed.connect(errors.append)
     window.session.commands.run(
         Stage(METHODS[method](), StoppingCriteria(max_iterations=_ITERATIONS, max_seconds=_SECONDS))
     )
     until(lambda: not smoothing.busy)
-    smoothing.failed.disconnect(told)
+    smoothing.failed.disconnect(lines)
     _raise(errors)
 
 

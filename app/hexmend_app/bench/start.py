@@ -1,4 +1,4 @@
-"""Seconds until the window is on the screen, and until the mesh is: whole processes, each started anew."""
+"""Seconds until the window and the mesh are on the screen, measured in new processes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from typing import Any
 
 from hexmend.errors import HexmendError
 from hexmend.study.bench.section import BenchSection
+from hexmend_app.shell.start.display import DisplayError, check_display
 
 _TIMES = 5
 _PATIENCE = 120.0  # seconds for a start
 
-#: What is measured, and how it is called where it is printed.
+#: Measured moments, and their descriptions.
 MOMENTS = {
     "window": "the window is on the screen",
     "picture": "the demo's picture is drawn",
@@ -28,42 +29,42 @@ MOMENTS = {
 
 
 def started(mesh: Path | None = None) -> dict[str, dict[str, Any]]:
-    """Start the program, wait until it shows its mesh, and end it.
+    """Start the program, wait until it shows its mesh, and quit.
 
     Parameters
     ----------
     mesh : Path, optional
-        The bundled demo where it is None.
+        The bundled demo by default.
 
     Returns
     -------
     dict
-        For each of `MOMENTS` its `seconds` since the process was started, and the `modules` that were loaded by then.
+        For each of `MOMENTS`: `seconds` since the start of the process, and the `modules` loaded by then.
     """
-    from hexmend_app.shell.start_report import VARIABLE
+    from hexmend_app.shell.start.start_report import VARIABLE  # imports Qt, which needs libraries of a display
 
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report"
         report.touch()
-        settings = {VARIABLE: str(report), "XDG_CONFIG_HOME": folder}  # of a first start, whatever this user's are
+        settings = {VARIABLE: str(report), "XDG_CONFIG_HOME": folder}  # those of a first start
         words = [sys.executable, "-m", "hexmend", "view", *([] if mesh is None else [str(mesh)])]
         began = time.monotonic()
         with subprocess.Popen(words, env=os.environ | settings, stderr=subprocess.PIPE, text=True) as process:
             try:
-                told = _read(report, process, began)
+                reported = _read(report, process, began)
                 process.send_signal(signal.SIGINT)
-                said = process.communicate(timeout=_PATIENCE)[1]
+                sentence = process.communicate(timeout=_PATIENCE)[1]
             finally:
-                process.kill()  # or one that hangs would be waited for
-        if len(told) < len(MOMENTS):
-            raise HexmendError(f"the program ended, or hung, before its mesh was seen: {said.strip()}")
+                process.kill()  # the program may hang
+        if len(reported) < len(MOMENTS):
+            raise HexmendError(f"the program ended, or hung, before its mesh was shown: {sentence.strip()}")
         if process.returncode:
-            raise HexmendError(f"the program ended with {process.returncode} as it was to close: {said.strip()}")
-    return {one["moment"]: {"seconds": one["at"] - began, "modules": one["modules"]} for one in told}
+            raise HexmendError(f"the program ended with {process.returncode} on closing: {sentence.strip()}")
+    return {one["moment"]: {"seconds": one["at"] - began, "modules": one["modules"]} for one in reported}
 
 
 def _read(report: Path, process: subprocess.Popen, began: float) -> list[dict[str, Any]]:
-    """The lines of the report, once all are there or none is to come."""
+    """Return the lines of the report, once it is complete or the process has ended."""
     while True:
         ended = process.poll() is not None or time.monotonic() - began > _PATIENCE
         lines = report.read_text(encoding="utf-8").split("\n")[:-1]
@@ -73,13 +74,11 @@ def _read(report: Path, process: subprocess.Popen, began: float) -> list[dict[st
 
 
 def _measure() -> dict[str, Any]:
-    from hexmend_app.shell.display import DisplayError, check_display
-
     try:
         check_display()
     except DisplayError as error:
         return {"skipped": str(error)}
-    started()  # warm: the files that are read are in memory
+    started()  # fills the cache of the file system
     rows = [started() for _ in range(_TIMES)]
     return {
         moment: {
@@ -93,7 +92,7 @@ def _measure() -> dict[str, Any]:
 
 def _lines(figures: dict[str, Any]) -> list[str]:
     if "skipped" in figures:
-        return [f"left out: {figures['skipped']}"]
+        return [f"skipped: {figures['skipped']}"]
     return [
         f"{title:<30} {figures[moment]['seconds']:6.2f} s (at best {figures[moment]['least_seconds']:.2f} s), "
         f"{figures[moment]['modules']:,} modules loaded"

@@ -1,4 +1,4 @@
-"""Milliseconds a frame, and how late the event loop is beside a smoother."""
+"""Milliseconds per frame, and delay of the event loop while a method runs."""
 
 from __future__ import annotations
 
@@ -12,15 +12,18 @@ import numpy as np
 
 from hexmend.errors import HexmendError
 from hexmend.gallery import make
+from hexmend.run import StoppingCriteria
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, end_run, measured, report, turn
+from hexmend_app.picture.cut_planes import PlaneClip
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
 
 _FRAMES = 40
 _SECONDS = 6.0
-_BEAT = 5  # milliseconds between two beats of the event loop
+_BEAT = 5  # milliseconds between two ticks of the timer
 
 
 def _measure() -> dict[str, Any]:
@@ -35,10 +38,9 @@ def _row(window: Window) -> dict[str, Any]:
 
 
 def _frame(window: Window, cut: str) -> tuple[float, float]:
-    """Median milliseconds from new points and qualities to the screen, and those that VTK draws."""
-    from hexmend_app.scene.frame import Frame
-    from hexmend_app.state.clip import PlaneClip
-    from hexmend_app.state.document import State
+    """Median milliseconds from new points and qualities to the screen, and those of VTK's rendering."""
+    from hexmend_app.scene.views.frame import Frame
+    from hexmend_app.state.mesh.document import State
 
     start = window.session.document.start
     middle = tuple(start.mesh.points.mean(axis=0))
@@ -51,7 +53,7 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     draw(window)
     times, begun, vtk = [], [], []
     drawing = canvas.interactor.render_window
-    told = (
+    text = (
         drawing.AddObserver("StartEvent", lambda *_: begun.append(perf_counter())),
         drawing.AddObserver("EndEvent", lambda *_: vtk.append(perf_counter() - begun[-1])),
     )
@@ -61,28 +63,25 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
         canvas.draw(Frame(state.mesh, state.figures, look=window.session.view.look))
         draw(window)
         times.append(perf_counter() - began)
-    for observer in told:
+    for observer in text:
         drawing.RemoveObserver(observer)
     return 1e3 * median(times), 1e3 * median(vtk)
 
 
 def _while_running(window: Window) -> dict[str, Any]:
-    """Run local-sd in the window with a crinkle cut: frames a second, and how late timers fire."""
+    """Run local-sd in the window with a crinkle cut; measure frames per second and the delay of timers."""
     from PySide6.QtCore import QTimer
 
-    from hexmend.run import StoppingCriteria
-    from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
-
     window.session.document.preview(window.session.document.start)
-    window.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
-    while window.session.smoothing.phase.value != "running":
+    window.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
+    while window.session.run.phase.value != "running":
         turn(0.1)
     beats: list[float] = []
     timer = QTimer()
     timer.setInterval(_BEAT)
     timer.timeout.connect(lambda: beats.append(perf_counter()))
     frames: list[int] = []
-    window.session.smoothing.iterated.connect(lambda frame: frames.append(frame.iteration.number))
+    window.session.run.iterated.connect(lambda frame: frames.append(frame.iteration.number))
     timer.start()
     turn(_SECONDS)
     timer.stop()
@@ -102,11 +101,11 @@ def _lines(row: dict[str, Any]) -> Iterator[str]:
     yield f"{row['mesh']}, {row['hexes']:,} hexes, view of {row['view'][0]} × {row['view'][1]} pixels"
     for name, ms in row["frame_ms"].items():
         of_it = row["vtk_ms"][name]
-        yield f"  frame, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second), {of_it:.1f} of them in VTK"
+        yield f"  frame, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} per second), {of_it:.1f} ms of it in VTK"
     yield (
-        f"  beside local-sd: event loop late by {row['lateness_median_ms']:.1f} ms (median), "
+        f"  while local-sd runs: event loop delayed by {row['lateness_median_ms']:.1f} ms (median), "
         f"{row['lateness_95_ms']:.1f} ms (95th percentile); {row['iterations_shown_per_second']:.1f} of "
-        f"{row['iterations_per_second']:.1f} iterations a second shown"
+        f"{row['iterations_per_second']:.1f} iterations per second shown"
     )
 
 

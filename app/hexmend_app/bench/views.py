@@ -1,4 +1,4 @@
-"""Milliseconds a frame in which several views turn, and to open a view."""
+"""Milliseconds per frame while several views rotate, and to open a view."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
-    from hexmend_app.state.document import State
+    from hexmend_app.state.mesh.document import State
 
 _SIZES = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
 
@@ -25,23 +25,23 @@ def _measure() -> dict[str, Any]:
 
 
 def _row(window: Window) -> dict[str, Any]:
-    """Frames of one view, two, four and a wipe; the milliseconds that the second view takes to open, drawn."""
+    """Milliseconds per frame of one view, two, four and a wipe, and to open the second view."""
     turning = {"1 view": turning_ms(window)}
     states = _others(window)
     began = perf_counter()
-    window.session.views.show("0", states[0])
+    window.session.side_views.show("0", states[0])
     draw(window)
     opening = 1e3 * (perf_counter() - began)
     turning["2 views"] = turning_ms(window)
     for k in (1, 2):
-        window.session.views.show(str(k), states[k])
+        window.session.side_views.show(str(k), states[k])
     turning["4 views"] = turning_ms(window)
-    window.session.views.set_wiping(True)
+    window.session.side_views.set_wiping(True)
     turning["wipe"] = turning_ms(window)
     wiping = []
     for at in np.linspace(0.2, 0.8, 20):
         began = perf_counter()
-        window.session.views.move_wipe(float(at))
+        window.session.side_views.move_wipe(float(at))
         draw(window)
         wiping.append(1e3 * (perf_counter() - began))
     turn(0.1)
@@ -50,7 +50,7 @@ def _row(window: Window) -> dict[str, Any]:
 
 
 def _others(window: Window) -> list[State]:
-    from hexmend_app.state.document import State
+    from hexmend_app.state.mesh.document import State
 
     mesh = window.session.document.now.mesh
     shift = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
@@ -58,10 +58,10 @@ def _others(window: Window) -> list[State]:
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:
-    yield f"{row['mesh']}, {row['hexes']:,} hexes, {row['view'][0]} × {row['view'][1]} pixels in all"
+    yield f"{row['mesh']}, {row['hexes']:,} hexes, {row['view'][0]} × {row['view'][1]} pixels in total"
     for name, ms in row["turning_ms"].items():
-        yield f"  turning, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} a second)"
-    yield f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; another view opens in {row['opening_ms']:.0f} ms"
+        yield f"  rotating, {name:<8} {ms:6.1f} ms  ({1000 / ms:4.0f} per second)"
+    yield f"  dragging the wipe  {row['wiping_ms']:6.1f} ms; opening another view takes {row['opening_ms']:.0f} ms"
 
 
 views = BenchSection(

@@ -1,4 +1,4 @@
-"""Frames a second while the timeline is scrubbed, what its iterations take, and how soon a run stops."""
+"""Frames per second while the timeline is scrubbed, memory of its iterations, and delay until a run stops."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from hexmend.gallery import make
+from hexmend.run import StoppingCriteria
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
 from hexmend_app.bench.windows import draw, measured, report, turn
 
@@ -24,7 +27,7 @@ def _measure() -> dict[str, Any]:
 
 
 def _row(window: Window) -> dict[str, Any]:
-    from hexmend_app.state.history import LIMIT
+    from hexmend_app.state.mesh.history import LIMIT
 
     stops = [_stop(window) for _ in range(_STOPS)]
     for record in list(window.session.history.records):
@@ -49,19 +52,16 @@ def _row(window: Window) -> dict[str, Any]:
 
 
 def _run(window: Window, iterations: int) -> float:
-    """Make iterations of the fastest method, which fills the history soonest; seconds."""
-    from hexmend.run import StoppingCriteria
-    from hexmend.smoothers.laplacian.laplacian import Laplacian
-
+    """Run the fastest method, which fills the history soonest; return seconds."""
     began = perf_counter()
-    window.session.smoothing.start(Laplacian(), StoppingCriteria(tolerance=0, max_iterations=iterations))
-    while window.session.smoothing.busy:
+    window.session.run.start(Laplacian(), StoppingCriteria(tolerance=0, max_iterations=iterations))
+    while window.session.run.busy:
         turn(0.1)
     return perf_counter() - began
 
 
 def _scrub(window: Window, numbers: np.ndarray) -> float:
-    """Median milliseconds from the wish to see an iteration to the finished picture and panels."""
+    """Median milliseconds from the selection of an iteration until view and panels are drawn."""
     timeline, times = window.session.timeline, []
     for number in numbers:
         began = perf_counter()
@@ -72,21 +72,18 @@ def _scrub(window: Window, numbers: np.ndarray) -> float:
 
 
 def _stop(window: Window) -> tuple[float, float]:
-    """Milliseconds from the wish to stop local-sd to its end, and those of one iteration."""
-    from hexmend.run import StoppingCriteria
-    from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
-
+    """Milliseconds from the command to stop local-sd until it ends, and those of one iteration."""
     window.session.document.preview(window.session.document.start)
-    window.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
-    while window.session.smoothing.record.newest < 3:
+    window.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
+    while window.session.run.record.newest < 3:
         turn(0.05)
     ended: list[float] = []
-    window.session.smoothing.ended.connect(lambda result: ended.append(perf_counter()))
+    window.session.run.ended.connect(lambda result: ended.append(perf_counter()))
     began = perf_counter()
-    window.session.smoothing.stop()
+    window.session.run.stop()
     while not ended:
         turn(0.02)
-    last = window.session.smoothing.record.rows[-1]
+    last = window.session.run.record.rows[-1]
     return 1e3 * (ended[0] - began), 1e3 * last["seconds"] / last["iteration"]
 
 
@@ -94,14 +91,13 @@ def _lines(row: dict[str, Any]) -> list[str]:
     return [
         f"{row['mesh']}, {row['hexes']:,} hexes",
         f"  scrubbing {_SCRUBBED} iterations: {row['scrub_ms']:.1f} ms each "
-        f"({1000 / row['scrub_ms']:.0f} a second), {row['jump_ms']:.1f} in any order",
+        f"({1000 / row['scrub_ms']:.0f} per second), {row['jump_ms']:.1f} ms in random order",
         f"  history of {row['iterations']} iterations: positions of {row['kept']} in {row['kept_mb']:.0f} MB "
         f"({row['iteration_mb']:.2f} each), limit {row['limit_mb']:.0f} MB; the run took {row['run_s']:.1f} s",
-        f"  stop answered after {row['stop_ms']:.0f} ms; an iteration of local-sd takes "
-        f"{row['stop_iteration_ms']:.0f} ms",
+        f"  stopped after {row['stop_ms']:.0f} ms; an iteration of local-sd takes {row['stop_iteration_ms']:.0f} ms",
     ]
 
 
 watching = BenchSection(
-    "watching", "Watching: the timeline, and how soon a run stops", _measure, partial(report, lines=_lines)
+    "watching", "Watching: the timeline, and the delay of a stop", _measure, partial(report, lines=_lines)
 )

@@ -1,4 +1,4 @@
-"""Windows with meshes in them, to be measured."""
+"""Windows with meshes, for measurements; Qt is imported only after the display is checked."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from hexmend.errors import HexmendError
+from hexmend_app.shell.start.display import DisplayError, check_display
 
 if TYPE_CHECKING:
     from hexmend.mesh.mesh import Mesh
     from hexmend_app.shell.window import Window
-    from hexmend_app.state.session import Session
+    from hexmend_app.state.session.session import Session
 
 _FRAMES = 40
 _PATIENCE = 60.0  # seconds for a frame
@@ -21,16 +22,14 @@ _LONGEST = 300.0  # seconds for anything else
 
 
 def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
-    """A row of figures for each mesh, found in a window of its own; why not, where there is no display."""
-    from hexmend_app.shell.display import DisplayError, check_display
-
+    """Measure each mesh in a new window; return a row for each, or the reason if there is no display."""
     try:
         check_display()
     except DisplayError as error:
         return {"skipped": str(error), "meshes": []}
-    from hexmend_app.shell.program import application
+    from hexmend_app.shell.start.program import application
     from hexmend_app.shell.window import Window
-    from hexmend_app.state.document import State
+    from hexmend_app.state.mesh.document import State
 
     app = application()
     rows = []
@@ -38,13 +37,13 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window = Window()
         window.resize(1440, 900)
         window.show()
-        window.furnish()
+        window.build_features()
         window.build_canvas()
         window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
         turn(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
         document = window.session.document
-        document.commit("measured", document.now)  # or closing would ask for what is not saved
+        document.commit("measured", document.now)  # otherwise closing would ask to save
         document.saved(document.path)
         window.close()
         app.processEvents()
@@ -52,9 +51,9 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
 
 
 def turning_ms(window: Window) -> float:
-    """Median milliseconds of a frame while the camera moves around the whole mesh."""
+    """Return the median milliseconds per frame while the camera moves around the mesh."""
     canvas, times = window.canvas, []
-    turn(0.5)  # until the fine frame is drawn
+    turn(0.5)  # until the shaded frame is drawn
     for _ in range(_FRAMES):
         canvas.panes.turning()
         canvas.viewport.camera.Azimuth(4)
@@ -66,28 +65,28 @@ def turning_ms(window: Window) -> float:
 
 
 def draw(window: Window) -> None:
-    """Draw a frame and wait until it is on the screen, with the panels that have changed."""
+    """Draw a frame, and wait until it and the changed panels are on the screen."""
     from PySide6.QtWidgets import QApplication
 
-    interactor, seen = window.canvas.interactor, []
-    told = interactor.frameSwapped.connect(lambda: seen.append(True))
+    interactor, swapped = window.canvas.interactor, []
+    connection = interactor.frameSwapped.connect(lambda: swapped.append(True))
     interactor.update()
     began = perf_counter()
-    while not seen:
+    while not swapped:
         QApplication.processEvents()
         if perf_counter() - began > _PATIENCE:
             raise HexmendError("the window draws no frame: is it hidden?")
-    interactor.frameSwapped.disconnect(told)
+    interactor.frameSwapped.disconnect(connection)
 
 
 def report(figures: dict[str, Any], lines: Callable[[dict[str, Any]], Iterable[str]]) -> list[str]:
-    """What a section prints: the lines of each mesh's row, or why there are none."""
-    left_out = [f"left out: {figures['skipped']}"] if "skipped" in figures else []
-    return left_out + [line for row in figures["meshes"] for line in lines(row)]
+    """Return the lines that a section prints: those of each mesh's row, or the reason if there are none."""
+    skipped = [f"skipped: {figures['skipped']}"] if "skipped" in figures else []
+    return skipped + [line for row in figures["meshes"] for line in lines(row)]
 
 
 def save_and_wait(session: Session, path: str | Path) -> None:
-    """Save the mesh, or under a session's suffix the session, and wait until it is written; raises why it was not."""
+    """Save the mesh, or for a session's suffix the session, and wait until it is written; raise its error."""
     saving = session.commands.save_in_background(path)
     until(lambda: saving.over)
     if saving.error is not None:
@@ -95,22 +94,22 @@ def save_and_wait(session: Session, path: str | Path) -> None:
 
 
 def end_run(session: Session) -> None:
-    """End a run, if one is under way, and wait until it is recorded."""
-    session.smoothing.stop()
-    until(lambda: not session.smoothing.busy)
+    """Stop the run, if there is one, and wait until it is recorded."""
+    session.run.stop()
+    until(lambda: not session.run.busy)
 
 
 def until(condition: Callable[[], bool]) -> None:
-    """Let the window live until something is so."""
+    """Run the event loop until a condition holds."""
     began = perf_counter()
     while not condition():
         turn(0.02)
         if perf_counter() - began > _LONGEST:
-            raise HexmendError(f"the window has not answered for {_LONGEST:.0f} s")
+            raise HexmendError(f"the window has not responded for {_LONGEST:.0f} s")
 
 
 def turn(seconds: float) -> None:
-    """Let Qt's own event loop turn; one of ours would take the processor from the worker."""
+    """Run Qt's event loop for some seconds; polling would take the processor from the worker."""
     from PySide6.QtCore import QEventLoop, QTimer
 
     loop = QEventLoop()

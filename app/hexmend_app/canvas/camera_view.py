@@ -1,25 +1,32 @@
-"""The 3D view as a widget: the scene in a Qt interactor, from wherever the user wants to see it."""
+"""The 3D view as a widget with a camera: the scene in a Qt interactor."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QWidget
 
+from hexmend_app.canvas.camera_animation import CameraAnimation
 from hexmend_app.canvas.render_widget import RenderWidget
-from hexmend_app.canvas.travel import Travel
 from hexmend_app.canvas.view_keys import move_of
-from hexmend_app.scene.camera.pose import Pose
-from hexmend_app.scene.panes import Panes
-from hexmend_app.state.clip import ClipPlane
-from hexmend_app.state.eye import Journey
-from hexmend_app.state.stand import Stand
-from hexmend_app.widgets.style import explain
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
+from hexmend_app.scene.views.panes import Panes
+from hexmend_app.state.view.camera_request import PoseHistoryData
+from hexmend_app.theme.style import set_help
+
+if TYPE_CHECKING:
+    from pyvistaqt import BackgroundPlotter
+
+    from hexmend_app.canvas.plotter import CanvasPlotter
 
 #: Milliseconds of rest after which the fine still frame is drawn.
 _REST = 300
@@ -29,12 +36,12 @@ _LEAST = (320, 240)
 
 
 class CameraView(QWidget):
-    """Shows views of meshes through a camera that is led by mouse, keys and calls; draws when something has changed.
+    """Shows views of meshes through a camera that mouse, keys and calls move; draws after changes.
 
     Attributes
     ----------
     interactor : RenderWidget
-        Where it is drawn.
+        Draws the views.
     panes : Panes
         The views.
     viewport : Viewport
@@ -54,15 +61,15 @@ class CameraView(QWidget):
         super().__init__(parent)
         self.interactor = RenderWidget(self)
         self.interactor.setMinimumSize(*_LEAST)
-        explain(self.interactor, "3D view", "")
+        set_help(self.interactor, "3D view", "")
         self.interactor.setAccessibleDescription(
             "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
         )
-        self.panes = Panes(self.interactor.render_window, pen=self.devicePixelRatioF(), on_failure=_report)
+        self.panes = Panes(self.interactor.render_window, pixel_ratio=self.devicePixelRatioF(), on_failure=_report)
         self.viewport = self.panes.first
         self._rest = QTimer(self, interval=_REST, singleShot=True)
         self._rest.timeout.connect(self.draw_still)
-        self.travel = Travel(self.viewport.camera, self)
+        self.travel = CameraAnimation(self.viewport.camera, self)
         self.travel.moved.connect(self._on_flown)
         self.travel.changed.connect(self.views_changed)
         watch = self.interactor.iren.AddObserver
@@ -70,9 +77,25 @@ class CameraView(QWidget):
         watch("InteractionEvent", lambda *_: self.turning())
         watch("EndInteractionEvent", lambda *_: self._on_turned())
         self._keys = _Keys(self)
+        self._plotter: CanvasPlotter | None = None
+
+    @property
+    def plotter(self) -> CanvasPlotter:
+        """PyVista's plotter on the first view, made when first asked for: its import takes half a second."""
+        if self._plotter is None:
+            from hexmend_app.canvas.plotter import CanvasPlotter
+
+            self._plotter = CanvasPlotter(self)
+        return self._plotter
+
+    def new_plotter_window(self, title: str = "PyVista") -> BackgroundPlotter:
+        """Open a further view in a window of its own, with PyVista's interactor and widgets."""
+        from hexmend_app.canvas.plotter import open_window
+
+        return open_window(title)
 
     def fit(self) -> None:
-        """Show what is shown as large as it can be."""
+        """Fit the shown hexes into the view."""
         self._lead(self.panes.eye.fit)
 
     def look_along(self, direction: str) -> None:
@@ -80,27 +103,23 @@ class CameraView(QWidget):
         self._lead(partial(self.panes.eye.look_along, direction))
 
     @property
-    def stand(self) -> Stand:
-        """Where the camera stands."""
-        return self._stand(Pose.of(self.viewport.camera))
+    def stand(self) -> CameraPose:
+        """The present camera pose."""
+        return pose_of(self.viewport.camera, self.up)
 
     @property
-    def journey(self) -> Journey:
-        """Where it has stood."""
+    def journey(self) -> PoseHistoryData:
+        """The history of camera poses."""
         before, after, remembered = self.travel.journey()
-        stands = (tuple(self._stand(pose) for pose in poses) for poses in (before, after))
-        return Journey(*stands, None if remembered is None else self._stand(remembered))
+        poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
+        return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
 
-    def stand_at(self, stand: Stand, journey: Journey | None = None) -> None:
-        """Have the camera stand somewhere; with a journey, as if it had come that way."""
+    def stand_at(self, stand: CameraPose, journey: PoseHistoryData | None = None) -> None:
+        """Set the camera pose and, if given, the history of poses."""
         self.panes.eye.up = stand.axis
-        self._lead(partial(_pose(stand).give, self.viewport.camera))
+        self._lead(partial(apply_pose, self.viewport.camera, stand))
         if journey is not None:
-            before, after = map(_pose, journey.before), map(_pose, journey.after)
-            self.travel.resume(list(before), list(after), None if journey.left is None else _pose(journey.left))
-
-    def _stand(self, pose: Pose) -> Stand:
-        return Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, self.up)
+            self.travel.resume(journey.before, journey.after, journey.left)
 
     @property
     def up(self) -> str:
@@ -108,7 +127,7 @@ class CameraView(QWidget):
         return self.panes.eye.up
 
     def set_up(self, axis: str) -> None:
-        """Let another axis be up: x, y or z."""
+        """Set the vertical axis: x, y or z."""
         self._lead(partial(self.panes.eye.set_up, axis))
 
     def roll(self, degrees: float) -> None:
@@ -117,11 +136,11 @@ class CameraView(QWidget):
 
     @property
     def parallel(self) -> bool:
-        """Whether the projection is parallel."""
+        """True for parallel projection."""
         return bool(self.viewport.camera.GetParallelProjection())
 
     def set_parallel(self, on: bool) -> None:
-        """Parallel projection or perspective."""
+        """Choose parallel projection, or perspective."""
         self._lead(partial(self.panes.eye.set_parallel, on))
 
     def _lead(self, move: Callable[[], None]) -> None:
@@ -133,44 +152,44 @@ class CameraView(QWidget):
         self.changed()
 
     def face(self, plane: ClipPlane) -> None:
-        """Fly to where a plane is seen from straight before it, with what is beyond cut away."""
+        """Move to a view straight at a plane, from the side that the cut removes."""
         self.travel.fly(self.panes.eye.flight_along(plane.normal))
 
     def fly_to(self, *hexes: int) -> None:
-        """Bring an element, or several together, before the camera."""
+        """Move the camera to an element, or to several."""
         if self.viewport.frame is None:
             return
         mesh = self.viewport.frame.mesh
         self.travel.fly(self.panes.eye.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
     def fly_around(self, place: np.ndarray) -> None:
-        """Bring a place, (3,) float64, into the middle of the picture: the camera turns about it from then on."""
+        """Make a point, (3,) float64, the centre of the view and of rotation."""
         self.travel.fly(self.panes.eye.flight_around(place))
 
     @property
     def can_go_back(self) -> bool:
-        """Whether there is a view before the one of now."""
+        """True if there is a previous view."""
         return self.travel.can_go_back
 
     @property
     def can_go_forward(self) -> bool:
-        """Whether there is a view after the one of now."""
+        """True if there is a next view."""
         return self.travel.can_go_forward
 
     def back_view(self) -> None:
-        """Fly to the view before."""
+        """Move to the previous view."""
         self.travel.go_back()
 
     def forward_view(self) -> None:
-        """Fly to the view after."""
+        """Move to the next view."""
         self.travel.go_forward()
 
     def remember_pose(self) -> None:
-        """Remember from where the mesh is seen, unless there is something that has not been returned to yet."""
+        """Bookmark the present pose, unless another one is bookmarked."""
         self.travel.remember()
 
     def return_to_pose(self) -> None:
-        """Fly to what is remembered, and forget it; where nothing is, stay."""
+        """Move to the bookmarked pose, if there is one, and clear it."""
         self.travel.come_back()
 
     def _on_flown(self) -> None:
@@ -185,12 +204,12 @@ class CameraView(QWidget):
     # Fast frames and fine ones
 
     def changed(self) -> None:
-        """Draw soon: something else is to be seen."""
+        """Schedule drawing after a change."""
         self.panes.moving()
         self.draw_soon()
 
     def draw_soon(self) -> None:
-        """Draw as it is, and a fine frame when nothing has moved for a while."""
+        """Schedule a fast frame, and a fine one when nothing has moved for a while."""
         self._rest.start()
         self.interactor.update()
 
@@ -200,11 +219,11 @@ class CameraView(QWidget):
         self.panes.turning()
 
     def stay_coarse(self) -> None:
-        """Draw no fine frame: more is to come."""
+        """Cancel the fine frame: further changes follow."""
         self._rest.stop()
 
     def rest(self) -> None:
-        """Draw the fine frame soon: nothing moves for now."""
+        """Schedule the fine frame: nothing moves for now."""
         self._rest.start()
 
     def draw_still(self) -> None:
@@ -213,29 +232,27 @@ class CameraView(QWidget):
         self.interactor.update()
 
     def let_go(self) -> None:
-        """Let go of the graphics while the window still exists."""
+        """Release graphics resources while the window still exists."""
         self._rest.stop()
         self.travel.stop()
+        if self._plotter is not None:
+            self._plotter.close()
         self.interactor.let_go()
 
     def on_key(self, event: QKeyEvent) -> None:
-        """Lead the camera as a key says, if it says anything."""
+        """Move the camera by a key that is bound to it."""
         move = move_of(event, self.panes.eye.up)
         if move is not None:
             self._lead(partial(move, self.viewport.camera))
 
 
 def _report(error: Exception) -> None:
-    """Show what a layer has raised, as what a slot raises is shown; the picture is drawn without that layer."""
+    """Report the exception of a layer through the exception hook; the frame is drawn without that layer."""
     sys.excepthook(type(error), error, error.__traceback__)
 
 
-def _pose(stand: Stand) -> Pose:
-    return Pose(stand.position, stand.focal, stand.up, stand.parallel, stand.scale)
-
-
 class _Keys(QObject):
-    """Keeps the keys from VTK, which has some of its own that would draw wires or end it."""
+    """Event filter that keeps keys from VTK, whose bindings would draw wireframes or quit."""
 
     def __init__(self, view: CameraView):
         super().__init__(view)
@@ -243,7 +260,7 @@ class _Keys(QObject):
         view.interactor.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Lead the camera."""
+        """Move the camera by keys."""
         if event.type() == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             self._view.on_key(event)
             return True

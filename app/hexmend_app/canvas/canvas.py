@@ -1,4 +1,4 @@
-"""The 3D view as a widget: the scene in a Qt interactor, what is dragged in it, the colour bar over it."""
+"""The 3D view as a widget: the scene in a Qt interactor, cut handles and the colour bar."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, NodeDetails
 from hexmend_app.canvas.camera_view import CameraView
-from hexmend_app.canvas.captions import HEIGHT
 from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.canvas.lighting import Lighting
 from hexmend_app.canvas.pointer import Pointer
+from hexmend_app.canvas.view_captions import HEIGHT
 from hexmend_app.canvas.view_frame import ViewFrame
-from hexmend_app.scene.colours import Colouring
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.scene.colour.colouring import Colouring
 from hexmend_app.scene.cutting.box_widget import BoxWidget
 from hexmend_app.scene.cutting.plane_widget import PlaneWidget
-from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.palette import BLUE, THEME
-from hexmend_app.scene.picking import Hit
-from hexmend_app.state.clip import BoxClip, PlaneClip
-from hexmend_app.state.views import Wipe
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.picking import Hit
+from hexmend_app.state.view.side_views import Wipe
+from hexmend_app.theme.palette import BLUE, THEME
+from hexmend_app.theme.style import on_theme_change
 from hexmend_app.widgets.overlay import Overlay
-from hexmend_app.widgets.style import dress
 
 if TYPE_CHECKING:
-    from hexmend_app.scene.export.sheet import Sheet
-    from hexmend_app.state.scene import Camera, Page, Scene
+    from hexmend_app.picture import Camera, Page, Scene
+    from hexmend_app.scene.page.page_renderer import PageRenderer
 
 #: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
 _RING = 2
@@ -40,7 +40,7 @@ _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt
 
 
 class Canvas(CameraView):
-    """Draws one mesh.
+    """Draws a mesh, and others beside it for comparison.
 
     Signals
     -------
@@ -53,7 +53,7 @@ class Canvas(CameraView):
     dug(hex)
         The user clicked on an element with Ctrl held down.
     menu_requested(hit, place)
-        The user wants to know what can be done at an element, (hex, its nearest node), or beside the mesh, None; the
+        The user opens the context menu at a hex, (hex, its nearest node), or outside the mesh, None; the
         place, a QPoint of the screen, is that of the menu.
     """
 
@@ -83,7 +83,7 @@ class Canvas(CameraView):
         self.lighting = Lighting(self.panes, self)
         self.lighting.lit.connect(self.interactor.update)
         self._closed = False
-        dress(self, self._wear_theme)
+        on_theme_change(self, self._wear_theme)
 
     def _watch_pointer(self) -> None:
         pointer = Pointer(self.interactor)
@@ -102,7 +102,7 @@ class Canvas(CameraView):
         self.changed()
 
     def draw(self, frame: Frame, live: bool = False) -> None:
-        """Draw a frame, in views beside the first too; `live` where more is to come, so that no fine frame is due."""
+        """Draw a frame in all views; `live` frames follow one another, so that none is refined."""
         last = self.viewport.frame
         self.panes.draw(frame)
         if not frame.is_of(last):
@@ -125,18 +125,18 @@ class Canvas(CameraView):
         self.changed()
 
     def shows(self, mesh: Mesh) -> bool:
-        """Whether a mesh is drawn, its nodes here or elsewhere."""
+        """Return True if a mesh is drawn, with its nodes at any positions."""
         frame = self.viewport.frame
         return frame is not None and frame.mesh.hexes is mesh.hexes
 
     def show_handles(self, handles: bool, at: int) -> None:
-        """Let the user drag the box, or one of the planes, or nothing."""
+        """Show the handles of the box or of one plane, or none."""
         self._handled = handles, at
         self._place_handles()
         self.draw_soon()
 
     def _place_handles(self) -> None:
-        """Put the handles into the first view; where a wipe leaves it out, there are none."""
+        """Place the handles in the first view; a wipe without that view has none."""
         handles, at = self._handled
         clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
         shown = handles and self.viewport in self.panes.seen
@@ -146,25 +146,25 @@ class Canvas(CameraView):
     # What is pointed at
 
     def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
-        """Mark an element, with its corners' qualities or without, and one of its nodes; None marks none."""
+        """Mark a hex, with or without the qualities of its corners, and one of its nodes; None marks nothing."""
         self._chosen = h, corners
         self.viewport.extras.selection.select(h, corners, node)
-        self._select_beside()
+        self._select_in_other_views()
         self.changed()
 
-    def _select_beside(self) -> None:
+    def _select_in_other_views(self) -> None:
         """Mark the same element in the other views."""
         for view in self.panes.all[1:]:
             view.extras.selection.select(*self._chosen, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
-        """Draw a node's step; None draws none."""
+        """Draw the step of a node; None removes it."""
         if not self._closed:
             self.viewport.extras.selection.show_node_step(step)
             self.changed()
 
-    def show_beside(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
-        """Show other places of the same mesh's nodes in views beside the first, or two views over one another.
+    def show_side_by_side(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
+        """Show other states of the mesh in views beside the first, or two views with a wipe.
 
         Parameters
         ----------
@@ -174,21 +174,21 @@ class Canvas(CameraView):
         """
         self.panes.leave_heads(round(HEIGHT * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
-        self._select_beside()
+        self._select_in_other_views()
         self._place_handles()
         self.frame.set_wipe(wipe)
         self._show_colours()
         self.changed()
 
     def move_wipe(self, wipe: Wipe) -> None:
-        """Bring the edge between two views elsewhere."""
+        """Move the edge of the wipe."""
         self.frame.set_wipe(wipe)
         self.panes.move_wipe(wipe)
         self.turning()
         self.draw_soon()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Mark the focus; give the keyboard's menu key its menu."""
+        """Redraw on changes of focus; open the context menu for the menu key."""
         kind = event.type()
         if kind == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Menu:
             self._ask_for_menu(QPointF(self.interactor.rect().center()))
@@ -201,7 +201,7 @@ class Canvas(CameraView):
         return super().eventFilter(watched, event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Let the view begin and end at whole pixels of the screen: half of one, at a scale of 150 %, stays black."""
+        """Align the view with device pixels: at a scale of 150 %, half a pixel would stay black."""
         super().resizeEvent(event)
         whole = Fraction(self.devicePixelRatioF()).limit_denominator(4).denominator
         at = self.mapTo(self.window(), QPoint(0, 0))
@@ -214,7 +214,7 @@ class Canvas(CameraView):
         )
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Mark the focus by a ring around the view."""
+        """Draw a focus ring around the view."""
         if self._ring:
             painter = QPainter(self)
             around = self.interactor.geometry().adjusted(-_RING, -_RING, _RING, _RING)
@@ -225,7 +225,7 @@ class Canvas(CameraView):
         return self.panes.pick(place.x() * ratio, (self.interactor.height() - 1 - place.y()) * ratio)
 
     def _at(self, place: QPointF) -> tuple[int, int] | None:
-        """The hex at a place of the view, and its nearest node."""
+        """Return the hex at a position of the view, and its nearest node."""
         hit = self._pick(place)
         return None if hit is None else (hit.hex, hit.node)
 
@@ -235,7 +235,7 @@ class Canvas(CameraView):
             self.dug.emit(hit.hex)
 
     def _turn_about(self, place: QPointF) -> None:
-        """Let the camera turn about what is seen at a place."""
+        """Make the picked point the centre of rotation."""
         hit = self._pick(place)
         if hit is not None:
             self.fly_around(hit.place)
@@ -245,23 +245,23 @@ class Canvas(CameraView):
 
     @property
     def names(self) -> list[str]:
-        """What the captions of several views call them."""
+        """The names in the captions of several views."""
         return [caption.name for caption in self.frame.captions]
 
     def scene(self, page: Page, cameras: Mapping[str, Camera] | None = None) -> Scene:
-        """The scene that shows what is seen, without the plane, on a page, with cameras that it names."""
-        from hexmend_app.scene.export.views import scene_of  # with what no view needs
+        """Return the scene of the present view, without cut handles, on a page, with named cameras."""
+        from hexmend_app.scene.page.views_page import scene_of  # with what no view needs
 
         return scene_of(self.panes, self.names, page, cameras)
 
-    def sheet(self, scene: Scene) -> Sheet:
-        """A scene of what is seen, drawn."""
-        from hexmend_app.scene.export.views import draw_views
+    def sheet(self, scene: Scene) -> PageRenderer:
+        """Draw a scene of the present views."""
+        from hexmend_app.scene.page.views_page import draw_views
 
-        return draw_views(scene, self.panes, self.names)
+        return draw_views(scene, self.panes, self.names, self._plotter and self._plotter.copied_props)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Let go of the graphics while the window still exists."""
+        """Release graphics resources while the window still exists."""
         self._closed = True
         self.lighting.shut_down()
         self.plane.close()
@@ -271,7 +271,7 @@ class Canvas(CameraView):
 
     @property
     def colouring(self) -> Colouring | None:
-        """What the colours stand for; None while no mesh is drawn."""
+        """The colouring of the mesh; None while no mesh is drawn."""
         return self.viewport.colouring
 
     def _show_colours(self) -> None:
@@ -284,11 +284,11 @@ class Canvas(CameraView):
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
             alone = len(self.panes.all) == 1  # of several, the captions say how many
-            self.colour_bar.set_apart(
-                [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.apart]
+            self.colour_bar.set_special(
+                [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.special_counts]
             )
 
     def draw_still(self) -> None:
-        """Draw the fine frame, and work out what light reaches it."""
+        """Draw the fine frame, and start to compute its shading."""
         super().draw_still()
         self.lighting.start()

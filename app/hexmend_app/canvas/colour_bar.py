@@ -1,4 +1,4 @@
-"""The colour bar, painted by Qt so that it stays sharp at every scale."""
+"""The colour bar, painted by Qt to stay sharp at every scale."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter, QPaintEvent, 
 from PySide6.QtWidgets import QFrame, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
-from hexmend_app.scene.colours import range_label
-from hexmend_app.scene.ticks import ticks_with_ends
-from hexmend_app.widgets.style import INVERTED, LINE, MUTED, PANEL, TEXT, dress, explain, smaller, tabular
+from hexmend_app.scene.colour.colouring import range_label
+from hexmend_app.scene.colour.ticks import ticks_with_ends
+from hexmend_app.theme.style import INVERTED, LINE, MUTED, PANEL, TEXT, on_theme_change, set_help, smaller, tabular
 
 #: Pixels: of the whole, of the gradient, of a tick, and between a tick and its number.
 _HEIGHT = 300
@@ -23,7 +23,7 @@ _MOST_TICKS = 11
 
 
 class ColourBar(QFrame):
-    """What the colours mean: a gradient with ticks, and below it a swatch for what has a colour of its own.
+    """Colour bar: a gradient with ticks, and below it swatches of special colours.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class ColourBar(QFrame):
         The user clicked on the swatch of what has this name.
     """
 
-    apart_clicked = Signal(str)
+    special_clicked = Signal(str)
 
     def __init__(self, label: str = "q(H)", parent: QWidget | None = None):
         super().__init__(parent)
@@ -52,12 +52,12 @@ class ColourBar(QFrame):
         self._layout.setSpacing(3)
         self._layout.addWidget(self._title)
         self._layout.addWidget(self._gradient, 1)
-        self.set_apart([("inverted", 0, INVERTED)])
+        self.set_special([("inverted", 0, INVERTED)])
         sheet = "#colour_bar {{ background: {0}; border: 1px solid {1}; border-radius: 7px; }}"
-        dress(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
+        on_theme_change(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
 
     def set_table(self, table: np.ndarray) -> None:
-        """Take the colour map, (256, 3) uint8, lowest value first."""
+        """Set the colour map, (256, 3) uint8, lowest value first."""
         table = np.ascontiguousarray(table, dtype=np.uint8)
         if table.ndim != 2 or table.shape[1] != 3:
             raise ValueError(f"the colour table has shape {table.shape}: expected (n, 3)")
@@ -65,13 +65,13 @@ class ColourBar(QFrame):
         self._gradient.update()
 
     def set_label(self, label: str) -> None:
-        """Take the name of the quantity."""
+        """Set the name of the quantity."""
         if label != self._title.text():
             self._title.setText(label)
             self._describe()
 
     def set_range(self, low: float, high: float) -> None:
-        """Take the values at the ends of the gradient."""
+        """Set the values at the ends of the gradient."""
         if (low, high) != self.range:
             self._gradient.low, self._gradient.high = float(low), float(high)
             self._gradient.update()
@@ -83,21 +83,21 @@ class ColourBar(QFrame):
         return self._gradient.low, self._gradient.high
 
     def ticks(self, length: float) -> list[float]:
-        """The values at the ticks of a gradient of so many pixels."""
+        """Return the values at the ticks of a gradient of a height in pixels."""
         return self._gradient.ticks(length)
 
-    def set_apart(self, apart: Sequence[tuple[str, int, object]]) -> None:
-        """Take what has a colour of its own: name, number of elements, colour as name or (red, green, blue) bytes."""
-        while len(self.swatches) < len(apart):
+    def set_special(self, special_colours: Sequence[tuple[str, int, object]]) -> None:
+        """Set the special colours: name, number of elements, colour as name or (red, green, blue) bytes."""
+        while len(self.swatches) < len(special_colours):
             swatch = SwatchButton()
-            swatch.clicked.connect(lambda _=False, swatch=swatch: self.apart_clicked.emit(swatch.name))
+            swatch.clicked.connect(lambda _=False, swatch=swatch: self.special_clicked.emit(swatch.name))
             self._layout.addWidget(swatch)
             if self.swatches:
                 QWidget.setTabOrder(self.swatches[-1], swatch)
             self.swatches.append(swatch)
-        for swatch in self.swatches[len(apart) :]:
+        for swatch in self.swatches[len(special_colours) :]:
             swatch.hide()
-        for swatch, (name, count, colour) in zip(self.swatches, apart, strict=False):
+        for swatch, (name, count, colour) in zip(self.swatches, special_colours, strict=False):
             known = isinstance(colour, str | QColor)
             swatch.show_kind(name, int(count), QColor(colour) if known else QColor(*map(int, colour)))
             swatch.show()
@@ -105,20 +105,20 @@ class ColourBar(QFrame):
 
     def _describe(self) -> None:
         low, high = (self._gradient.text(end) for end in self.range)
-        label, apart = self._title.text(), [one for one in self.swatches if not one.isHidden()]
-        explain(
+        label, special_colours = self._title.text(), [one for one in self.swatches if not one.isHidden()]
+        set_help(
             self,
             "Colour bar",
             f"Colours stand for {label} from {low} to {high}; values beyond an end have the end's colour. "
-            f"Hexes that are {' or '.join(one.name for one in apart)} have a colour of their own; inverted "
+            f"Hexes that are {' or '.join(one.name for one in special_colours)} have a colour of their own; inverted "
             "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined. Drag the bar elsewhere; a "
             "double click puts it back.",
         )
-        texts = "; ".join(swatch_text(one.name, one.count) for one in apart)
+        texts = "; ".join(swatch_text(one.name, one.count) for one in special_colours)
         self.setAccessibleDescription(f"{texts}; {label} from {low} to {high}")
 
     def sizeHint(self) -> QSize:
-        """As wide as the texts need, and as high as is pleasant."""
+        """Return the width of the texts, and a comfortable height."""
         title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _WIDEST_TITLE)
         parts = [title, self._gradient.sizeHint().width()]
         parts += [one.sizeHint().width() for one in self.swatches if not one.isHidden()]
@@ -138,27 +138,27 @@ class _Gradient(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     def text(self, value: float) -> str:
-        """A value as it stands at a tick."""
+        """Format a value for a tick."""
         return range_label(value, self.low, self.high)
 
     def sizeHint(self) -> QSize:
-        """As wide as the numbers need; so much for common ones that it holds still."""
+        """Return the width of the numbers, at least that of common ones, so that it seldom changes."""
         metrics = QFontMetricsF(self.font())
         texts = ["0.000", *(self.text(tick) for tick in self.ticks(_HEIGHT / 2))]
         widest = max(map(metrics.horizontalAdvance, texts))
         return QSize(math.ceil(_THICKNESS + _TICK + _GAP + widest), 40)
 
     def minimumSizeHint(self) -> QSize:
-        """Low enough for a low view."""
+        """Return a height that fits a low view."""
         return QSize(self.sizeHint().width(), 20)
 
     def ticks(self, length: float) -> list[float]:
-        """Both ends, and of the round values between them those that leave each number its room on so many pixels."""
-        room = 2 * QFontMetricsF(self.font()).height() / max(length, 1)
-        return ticks_with_ends(self.low, self.high, room, _MOST_TICKS)
+        """Return both ends, and the round values between them whose labels fit into a height in pixels."""
+        space = 2 * QFontMetricsF(self.font()).height() / max(length, 1)
+        return ticks_with_ends(self.low, self.high, space, _MOST_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Show gradient, ticks and numbers: Qt asks for them with every frame of the view that they stand over."""
+        """Paint gradient, ticks and numbers; called with every frame of the view below."""
         like = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.font().key())
         like += (str(LINE), str(MUTED), str(TEXT))
         if like != self._like:

@@ -1,24 +1,24 @@
-"""Light in fine frames, worked out beside the window: a frame is there first, its shades when they are known."""
+"""Shading of fine frames, computed in the background: a frame is drawn first, its shading later."""
 
 from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.scene import occlusion
 from hexmend_app.scene.cutting.polygons import Polygons
-from hexmend_app.scene.layers.body import Body
-from hexmend_app.scene.panes import Panes
-from hexmend_app.state.task import Task, drop
+from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.layers.mesh import MeshLayer
+from hexmend_app.scene.views.panes import Panes
+from hexmend_app.state.tasks.task import Task, drop
 
 
 class Lighting(QObject):
-    """Works out what light reaches the views that are seen, one after another.
+    """Computes the shading of visible views in the background, one after another.
 
     Signals
     -------
     lit
-        A view has its shades, and is to be drawn again.
+        The shading of a view is known; the view must be drawn again.
     """
 
     lit = Signal()
@@ -29,21 +29,21 @@ class Lighting(QObject):
         self._task: Task | None = None
 
     @property
-    def under_way(self) -> bool:
-        """Whether something is being worked out."""
+    def active(self) -> bool:
+        """True while shading is being computed."""
         return self._task is not None
 
     def start(self) -> None:
-        """Work out what is not known of the fine frames that are drawn."""
+        """Compute the shading that fine frames lack."""
         if self._task is not None:
             return
         for view in self._panes.seen:
-            scene = view.body.unlit
+            scene = view.body.needs_shading
             if scene is not None:
                 self._begin(view.body, scene)
                 return
 
-    def _begin(self, body: Body, scene: Polygons) -> None:
+    def _begin(self, body: MeshLayer, scene: Polygons) -> None:
         def work(task: Task) -> np.ndarray | None:
             return occlusion.light(scene, lambda: body.draws(scene) and not task.cancelled.is_set())
 
@@ -57,11 +57,11 @@ class Lighting(QObject):
         body, scene = self._lit
         if task.error is not None:
             raise task.error
-        if task.result is not None and body.shine(scene, task.result):
+        if task.result is not None and body.apply_shading(scene, task.result):
             self.lit.emit()
         self.start()
 
     def shut_down(self) -> None:
-        """Ask the thread to end; nothing more is shown."""
+        """Stop the thread; pending results are dropped."""
         drop(self._task)
         self._task = None

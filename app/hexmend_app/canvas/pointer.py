@@ -1,4 +1,4 @@
-"""What the mouse does in the 3D view beside turning, shifting and zooming, which VTK sees to."""
+"""Clicks in the 3D view; VTK itself rotates, pans and zooms."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Pointer(QObject):
     clicked(place), dug(place)
         A click of the left button in the view, or one with Ctrl held down.
     double_clicked(place)
-        Two clicks of the left button; the first has been told as a click.
+        Double click of the left button; its first click is reported as a click.
     menu_wanted(place)
         A click of the right button.
 
-    The last two are told when VTK has let go of the button too: it would turn or zoom on under a menu that waits for an
+    The last two are emitted after VTK has released the button: it would turn or zoom on under a menu that waits for an
     answer, and end what leads the camera.
     """
 
@@ -44,7 +44,7 @@ class Pointer(QObject):
         view.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Watch the buttons; VTK has each event too."""
+        """Watch the mouse buttons; VTK receives each event too."""
         kind = event.type()
         if kind == QEvent.Type.MouseButtonPress:
             self._press(event)

@@ -46,7 +46,7 @@ _BUTTONS = {
 
 
 class RenderWidget(QOpenGLWidget):
-    """Shows what VTK renders into a buffer of Qt's, and hands on what the mouse does.
+    """Shows what VTK renders into a Qt framebuffer, and passes mouse events on.
 
     It does what VTK's `QVTKOpenGLNativeWidget` does in C++: without a window of the system's, so that other widgets can
     lie over it, and Wayland knows it. It renders as Qt paints it, and at no other time: a wish of VTK's to render asks
@@ -77,7 +77,7 @@ class RenderWidget(QOpenGLWidget):
         iren.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
         iren.EnableRenderOff()
         iren.Initialize()
-        self._told = [
+        self._report = [
             (of, of.AddObserver(event, act))
             for of, event, act in (
                 (window, "WindowMakeCurrentEvent", self._make_current),
@@ -121,7 +121,7 @@ class RenderWidget(QOpenGLWidget):
         window.SetOwnContext(0)
 
     def resizeGL(self, width: int, height: int) -> None:
-        """Take another size; VTK counts the screen's pixels."""
+        """Resize the render window, in device pixels."""
         self.iren.UpdateSize(*self._pixels)
         self.iren.InvokeEvent("ConfigureEvent")
         self.render_window.SetDPI(round(72 * self.devicePixelRatioF()))
@@ -132,7 +132,7 @@ class RenderWidget(QOpenGLWidget):
         return max(1, round(self.width() * ratio)), max(1, round(self.height() * ratio))
 
     def paintGL(self) -> None:
-        """Render, and copy what is rendered to where Qt takes it from."""
+        """Render, and copy the picture to the framebuffer of Qt."""
         window = self.render_window
         if not window.GetReadyForRendering():
             return
@@ -150,7 +150,7 @@ class RenderWidget(QOpenGLWidget):
         state.Pop()
 
     def _copy(self) -> None:
-        """What is rendered, as opaque as the window is to be: else what is behind it would be seen through it."""
+        """Copy the rendered picture with full opacity: a translucent one would show what is behind the window."""
         window, pixels = self.render_window, self._pixels
         gl = self._drawn_on.extraFunctions()
         gl.glBindFramebuffer(_DRAW_FRAMEBUFFER, self.defaultFramebufferObject())
@@ -179,20 +179,20 @@ class RenderWidget(QOpenGLWidget):
         self.render_window.SetReadyForRendering(False)
 
     def forget_context(self) -> None:
-        """Draw no more on a context that is gone."""
+        """Stop drawing on a destroyed context."""
         self._drawn_on = None
 
     def let_go(self) -> None:
         """End drawing for good, while the window still exists."""
         self._end()
-        for of, observer in self._told:
+        for of, observer in self._report:
             of.RemoveObserver(observer)
-        self._told.clear()
+        self._report.clear()
 
     # The mouse
 
     def _tell_place(self, event: QMouseEvent, repeat: int = 0) -> None:
-        """Tell VTK where the pointer is, in pixels of the screen from below, and what is held down."""
+        """Pass the pointer position, in device pixels from below, and pressed modifiers to VTK."""
         ratio, place, keys = self.devicePixelRatioF(), event.position(), event.modifiers()
         self.iren.SetEventInformation(
             round(place.x() * ratio),
@@ -205,19 +205,19 @@ class RenderWidget(QOpenGLWidget):
         )
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begin to lead the camera, or what is dragged."""
+        """Begin to move the camera, or to drag a handle."""
         self._tell_place(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
         if event.button() in _BUTTONS:
             self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}PressEvent")
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """End it."""
+        """End the drag."""
         self._tell_place(event)
         if event.button() in _BUTTONS:
             self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}ReleaseEvent")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Follow the hand."""
+        """Continue the drag."""
         self._tell_place(event)
         self.iren.MouseMoveEvent()
 
@@ -234,7 +234,7 @@ class RenderWidget(QOpenGLWidget):
 
 
 def _loader() -> int:
-    """Address of what finds functions of OpenGL on Linux."""
+    """Return the address of the loader of OpenGL functions on Linux."""
     wayland = QGuiApplication.platformName().startswith("wayland")
     library, name = ("libEGL.so.1", "eglGetProcAddress") if wayland else ("libGL.so.1", "glXGetProcAddressARB")
     return ctypes.cast(getattr(ctypes.CDLL(library), name), ctypes.c_void_p).value

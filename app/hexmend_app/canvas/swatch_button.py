@@ -1,4 +1,4 @@
-"""A colour with its name and its number of elements, to be clicked on."""
+"""Clickable swatch of a colour with its name and number of elements."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
-from hexmend_app.scene.palette import BLUE, LINE, MUTED, TEXT
-from hexmend_app.widgets.style import explain
+from hexmend_app.theme.palette import BLUE, LINE, MUTED, TEXT
+from hexmend_app.theme.style import set_help
 
 _SIZE, _GAP = 12, 5
 
 
 def swatch_text(name: str, count: int) -> str:
-    """A name with its number, if there are any.
+    """Format a name with its count, if that is not 0.
 
     >>> swatch_text("inverted", 2707), swatch_text("inverted", 0)
     ('inverted (2,707)', 'inverted')
@@ -24,7 +24,7 @@ def swatch_text(name: str, count: int) -> str:
 
 
 class SwatchButton(QAbstractButton):
-    """A swatch that asks, as a link does, for the elements of its kind; pale while there are none.
+    """Link-like swatch that requests the elements of its kind; pale while there are none.
 
     Attributes
     ----------
@@ -41,18 +41,18 @@ class SwatchButton(QAbstractButton):
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def show_kind(self, name: str, count: int, colour: QColor) -> None:
-        """Stand for other elements."""
+        """Set name, count and colour."""
         if (name, count, colour) == (self.name, self.count, self._colour):
             return
         self.name, self.count, self._colour = name, count, colour
         self.setEnabled(count > 0)
         self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
-        explain(self, f"Show only what is {name}", f"Show only the hexes that are {name}; Esc brings back the rest.")
+        set_help(self, f"Show only what is {name}", f"Show only the hexes that are {name}; Esc brings back the rest.")
         self.updateGeometry()
         self.update()
 
     def sizeHint(self) -> QSize:
-        """With room for a large number, so that nothing moves while numbers change."""
+        """Return a size that fits a large number, so that nothing moves while numbers change."""
         metrics = QFontMetricsF(self.font())
         text = f"{self.name} (00,000)" if 0 < self.count < 100_000 else swatch_text(self.name, self.count)
         return QSize(math.ceil(_SIZE + _GAP + metrics.horizontalAdvance(text)) + 2, math.ceil(metrics.height()) + 4)

@@ -1,4 +1,4 @@
-"""What stands around the 3D view while several are compared: a caption above each, the wipe's choices and edge."""
+"""Decoration of compared views: a caption above each, and the choices and edge of the wipe."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections.abc import Callable, Sequence
 from PySide6.QtCore import QRect, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.canvas.captions import Caption, CaptionRow, WipeRow
+from hexmend_app.canvas.view_captions import Caption, CaptionRow, WipeRow
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.scene.arrangement import columns
-from hexmend_app.state.views import Wipe
+from hexmend_app.scene.views.arrangement import columns
+from hexmend_app.state.view.side_views import Wipe
 
 #: Most rows in which views stand.
 _ROWS = 2
 
 
 class ViewFrame(QVBoxLayout):
-    """The view with what is said of its parts; of one mesh alone, nothing is.
+    """The view with captions of its parts; a single mesh has none.
 
     Parameters
     ----------
@@ -26,9 +26,9 @@ class ViewFrame(QVBoxLayout):
     Signals
     -------
     view_closed(int)
-        The user wants a view closed: 1 is the first beside that of the mesh.
+        The user closes a view: 1 is the first beside that of the mesh.
     wipe_chosen(left, right), wipe_moved(share), wipe_stepped(way)
-        The user wants other views on either side of the wipe's edge, or the edge elsewhere, or a step aside.
+        The user chooses the views of the wipe, or moves its edge to a position, or by a step.
     """
 
     view_closed = Signal(int)
@@ -52,11 +52,11 @@ class ViewFrame(QVBoxLayout):
 
     @property
     def clickable(self) -> dict[QWidget, Callable[[], QRect]]:
-        """What lies over the view and is clicked or dragged, each with the part of it that has to stay free."""
+        """The widgets over the view that are clicked or dragged, each with the area that must stay free."""
         return {row: row.rect for row in self._rows} | {self._edge: self._edge.knob}
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
-        """Say what is seen in which view; of a wipe, on which side."""
+        """Set the captions of the views, or of the sides of a wipe."""
         self.captions = captions
         side_by_side = captions if len(captions) > 1 and wipe is None else []
         wide = columns(max(len(side_by_side), 1))
@@ -66,13 +66,13 @@ class ViewFrame(QVBoxLayout):
         self._wiped.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def set_wipe(self, wipe: Wipe | None) -> None:
-        """Show the wipe's edge where it is, or none."""
+        """Show the edge of the wipe at a position, or hide it."""
         self._edge.setVisible(wipe is not None)
         if wipe is not None:
             self._edge.set_share(wipe.at)
 
     def fit(self) -> None:
-        """Stand where everything has to: the view's size is another."""
+        """Lay out all parts for the present size of the view."""
         shown = [row for row in self._rows if not row.isHidden()]
         for at, row in enumerate(shown):
             row.stand_at(at / len(shown))

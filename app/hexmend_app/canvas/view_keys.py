@@ -1,4 +1,4 @@
-"""The keys that turn, shift and enlarge what the 3D view shows."""
+"""Keys that rotate, pan and zoom the 3D view."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _OTHERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier 
 
 
 def move_of(event: QKeyEvent, up: str) -> Callable[[vtkCamera], None] | None:
-    """What a key does to the camera, `up` being the axis that is up; None for a key that says nothing."""
+    """Return the camera movement of a key, given the vertical axis `up`; None for an unbound key."""
     if event.modifiers() & _OTHERS:
         return None
     if event.key() in _ARROWS:

@@ -1,4 +1,4 @@
-"""The edge between two views that lie over one another, to be dragged."""
+"""Draggable edge between two views of a wipe."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QWidget
 
-from hexmend_app.scene.palette import ACCENT, BLUE, FIELD, LINE, TEXT
-from hexmend_app.widgets.style import explain
+from hexmend_app.theme.palette import ACCENT, BLUE, FIELD, LINE, TEXT
+from hexmend_app.theme.style import set_help
 
 #: Pixels: of the line, and of the knob on it.
 _LINE, _KNOB = 5, 22
 
 
 class WipeHandle(QWidget):
-    """A line from top to bottom of the view with a knob in its middle; drag it, or press the arrow keys.
+    """Vertical line over the view with a knob in its middle; moved by mouse or arrow keys.
 
     Parameters
     ----------
@@ -24,9 +24,9 @@ class WipeHandle(QWidget):
     Signals
     -------
     moved(share)
-        The user wants the edge at this share of the view's width.
+        The user moves the edge to this share of the view's width.
     stepped(way)
-        The user wants it a step to the left, -1, or to the right, 1.
+        The user moves the edge by a step to the left, -1, or to the right, 1.
     """
 
     moved = Signal(float)
@@ -38,23 +38,23 @@ class WipeHandle(QWidget):
         self._grip: int | None = None  # where on the handle the mouse holds it
         self.setCursor(Qt.CursorShape.SplitHCursor)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        explain(self, "Wipe", "Drag to see more of one view and less of the other; arrow keys do the same.")
+        set_help(self, "Wipe", "Drag to see more of one view and less of the other; arrow keys do the same.")
         self.hide()
         over.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Stay where it stands as the view takes another size."""
+        """Keep the share of the width when the view is resized."""
         if event.type() == QEvent.Type.Resize:
             self._fit()
         return super().eventFilter(watched, event)
 
     def set_share(self, share: float) -> None:
-        """Stand at a share of the view's width."""
+        """Move to a share of the view's width."""
         self._share = share
         self._fit()
 
     def _fit(self) -> None:
-        """Stand where it has to: the view's size may be another."""
+        """Place the handle for the present size of the view."""
         share = self._share
         over = self.parentWidget().size()
         self.setGeometry(round(share * over.width()) - _KNOB // 2, 0, _KNOB, over.height())
@@ -65,11 +65,11 @@ class WipeHandle(QWidget):
         return QRect((_KNOB - _LINE) // 2, 0, _LINE, self.height())
 
     def knob(self) -> QRect:
-        """Where it is taken hold of most easily."""
+        """The area of the knob."""
         return QRect(0, (self.height() - _KNOB) // 2, _KNOB, _KNOB)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the line and the knob; in the accent's colour while the keys would move it."""
+        """Paint the line and the knob; in the accent colour while it has the focus."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(str(LINE)))
         inside = QColor(str(ACCENT if self.hasFocus() or self._grip is not None else TEXT))
@@ -81,31 +81,31 @@ class WipeHandle(QWidget):
         painter.setBrush(inside)
         painter.setPen(Qt.PenStyle.NoPen)
         middle = self.knob().center()
-        for way in (-1, 1):
-            tip, back = middle + QPoint(8 * way, 0), middle + QPoint(3 * way, 0)
+        for path in (-1, 1):
+            tip, back = middle + QPoint(8 * path, 0), middle + QPoint(3 * path, 0)
             painter.drawPolygon([tip, back + QPoint(0, -4), back + QPoint(0, 4)])
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Take hold of it."""
+        """Begin the drag."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._grip = round(event.position().x()) - _KNOB // 2
             self.update()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Follow the hand."""
+        """Continue the drag."""
         if self._grip is not None:
             place = self.mapToParent(event.position().toPoint()).x() - self._grip
             self.moved.emit(place / max(self.parentWidget().width(), 1))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Let go."""
+        """End the drag."""
         self._grip = None
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Step aside by an arrow key."""
-        way = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
-        if way is None:
+        """Move by a step for an arrow key."""
+        course = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        if course is None:
             super().keyPressEvent(event)
         else:
-            self.stepped.emit(way)  # from where it is by now: strokes may come faster than it is drawn
+            self.stepped.emit(course)  # from where it is by now: strokes may come faster than it is drawn

@@ -1,4 +1,4 @@
-"""The figures of `hexmend study` that show meshes; joined through the entry-point group `hexmend.figures`."""
+"""The figures of `hexmend study` that show meshes, registered in the entry-point group `hexmend.figures`."""
 
 from __future__ import annotations
 
@@ -14,37 +14,36 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.study.thesis.mesh_figures import MeshFigure
-from hexmend_app.scene.camera.pose import Pose
-from hexmend_app.scene.export.layout import Layout
-from hexmend_app.scene.export.rasters import aim
-from hexmend_app.scene.export.sheet import draw_sheet, format_of
-from hexmend_app.scene.export.subject import Subject
-from hexmend_app.scene.export.tally import tally
-from hexmend_app.scene.graphics import prepare_off_screen
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Isolation, Look, Structure
-from hexmend_app.state.scene import Camera, Page, Place, Scene
-from hexmend_app.state.stand import Stand
+from hexmend_app.picture import Camera, Page, Scene, TextPlace
+from hexmend_app.picture.appearance import Isolation, Look, Structure
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page, format_of
+from hexmend_app.scene.render.colour_count import count_colours
+from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend_app.scene.render.rasters import aim
 
 #: Width and height in pixels.
 SIZE = (900, 600)
 
-#: How often the colour bar counts when 256 colours are chosen.
+#: Weight of the colour bar when 256 colours are chosen.
 _BAR = 30
 
-#: How much of the mesh around what lies in its middle a section shows, by the extent of that.
+#: Margin of a section around the inner boundary, relative to the boundary's extent.
 _AROUND = 0.35
 
-#: How far the plane of a section is beside the middle, where elements have their centres, by the same extent.
+#: Offset of a section's plane from the middle, where elements have their centres, relative to the same extent.
 _ASIDE = -0.02
 
-#: Thickness to which the layer on what lies in the middle of a domain is pressed, so that what is seen is the surface.
+#: Factor that flattens the layer of hexes on the inner boundary, so that the picture shows the surface.
 _PRESSED = 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class _Shown:
-    """What is drawn, how, and the places (k, 3) that the picture is to hold."""
+    """A mesh, its look, and points (k, 3) that the picture must contain."""
 
     mesh: Mesh
     look: Look
@@ -52,7 +51,7 @@ class _Shown:
 
 
 def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
-    """Draw a figure of the thesis, off screen, as the path's suffix says; a PNG has few colours.
+    """Draw a figure of the thesis off screen, in the format of the path's suffix; a PNG has 256 colours.
 
     Raises
     ------
@@ -63,14 +62,12 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
     """
     prepare_off_screen()
     shown = _SHOWN[figure.shows](mesh)
-    subject, page = Subject.of(shown.mesh), Page(pixels=SIZE)
+    subject, page = PageMesh.of(shown.mesh), Page(pixels=SIZE)
     layout = Layout.of(Scene.of(shown.look, page=page), [subject])
-    bar = 0 if layout.bar is Place.NONE else layout.strip
+    bar = 0 if layout.bar is TextPlace.NONE else layout.strip
     camera = vtkCamera()
     aim(camera, Camera(figure.view, up=figure.up), shown.places, layout.panel[0] / layout.panel[1])
-    pose = Pose.of(camera)
-    stand = Stand(pose.position, pose.focal, pose.up, pose.parallel, pose.scale, figure.up)
-    sheet = draw_sheet(Scene.of(shown.look, stand, page=page), [subject])
+    sheet = draw_page(Scene.of(shown.look, pose_of(camera, figure.up), page=page), [subject])
     if format_of(path) != "PNG":
         sheet.write(path)
         return
@@ -79,10 +76,10 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
 
 
 def _with_palette(image: Image.Image, bar: int) -> Image.Image:
-    """The picture in 256 colours, which make it a third as large; small areas, and the bar so high, count for more."""
+    """Reduce a picture to 256 colours, for a third of the size; small areas and the bar (pixels high) weigh more."""
     pixels = np.asarray(image)
     seen = np.concatenate([pixels.reshape(-1, 3), np.tile(pixels[image.height - bar :].reshape(-1, 3), (_BAR, 1))])
-    colours, counts = tally(seen)
+    colours, counts = count_colours(seen)
     palette = Image.fromarray(np.repeat(colours, np.sqrt(counts).astype(int), axis=0)[None]).quantize(256, kmeans=3)
     return image.quantize(palette=palette, dither=Image.Dither.NONE)
 
@@ -96,7 +93,7 @@ def _mesh(mesh: Mesh) -> _Shown:
 
 
 def _domain(mesh: Mesh) -> _Shown:
-    """What lies in the middle, in the outline of the whole."""
+    """The inner boundary of the mesh, within the outline of the whole mesh."""
     surface = _inside(mesh)
     layer = np.flatnonzero(surface[mesh.hexes].sum(axis=1) >= 4)
     ends = mesh.hexes[layer][:, EDGES].reshape(-1, 2)
@@ -109,7 +106,7 @@ def _domain(mesh: Mesh) -> _Shown:
 
 
 def _section(mesh: Mesh) -> _Shown:
-    """The half behind the middle plane y of what lies inside, around that."""
+    """The half behind the middle plane y of the inner boundary, and the mesh around it."""
     points = mesh.points[_inside(mesh)]
     low, high = points.min(axis=0), points.max(axis=0)
     clip = PlaneClip.at((0.0, -1.0, 0.0), tuple((low + high) / 2 + _ASIDE * (high - low)))
@@ -120,7 +117,7 @@ def _section(mesh: Mesh) -> _Shown:
 
 
 def _inside(mesh: Mesh) -> np.ndarray:
-    """The nodes (n,) bool of boundary faces that are not on the mesh's box."""
+    """Nodes (n,) bool of boundary faces that are not on the mesh's bounding box."""
     used = mesh.points[mesh.topology.used]
     ends = np.stack([used.min(axis=0), used.max(axis=0)])
     on_box = np.isclose(mesh.points[:, None], ends, atol=1e-9 * np.ptp(ends)).reshape(-1, 6)

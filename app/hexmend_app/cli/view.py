@@ -1,4 +1,4 @@
-"""`hexmend [MESH]`: the viewer."""
+"""The command `hexmend [MESH]`: the viewer."""
 
 from __future__ import annotations
 
@@ -6,19 +6,21 @@ import argparse
 
 
 class ViewCommand:
-    """Opens the window."""
+    """The command that opens the window."""
 
     name = "view"
-    help = "Open the viewer; the bundled demo mesh where no mesh is named."
+    help = "Open the viewer; without a mesh, it opens the bundled demo mesh."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare the arguments."""
         parser.add_argument("mesh", metavar="MESH", nargs="?", help="the mesh file")
 
     def run(self, args: argparse.Namespace) -> int:
-        from hexmend_app.shell.display import check_display
+        """Open the window, and return the exit status when it is closed."""
+        from hexmend_app.shell.start.display import check_display  # its package imports PySide6
 
         check_display()
-        from hexmend_app.shell.program import open_window
+        from hexmend_app.shell.start.program import open_window  # Qt, which cannot be imported without a display
 
         return open_window(args.mesh)
 

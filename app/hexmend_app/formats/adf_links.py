@@ -39,7 +39,7 @@ def check_links(path: Path) -> None:
 
 
 def _is_inside(data: mmap.mmap, head: bytes, end: int) -> bool:
-    """Whether the text of a link follows its head at once, and names no file."""
+    """Return True if the text of a link follows its head at once and names no file."""
     block, offset = divmod(end, _BLOCK)
     places = (struct.pack("<qi", block, offset), struct.pack(">qi", block, offset), b"%08X%04X" % (block, offset))
     follows = head[226:230] == b"0001" and head[230:242].upper() in {place.upper() for place in places}

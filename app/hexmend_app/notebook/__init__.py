@@ -1,1 +1,1 @@
-"""Pictures of meshes for notebooks; joined through the entry-point group `hexmend.pictures`."""
+"""Pictures of meshes for notebooks, registered in the entry-point group `hexmend.pictures`."""

@@ -1,28 +1,33 @@
-"""A mesh as a notebook shows it by itself."""
+"""A still picture of a mesh in a notebook."""
 
 from __future__ import annotations
 
 from io import BytesIO
 
 from hexmend.mesh.mesh import Mesh
+from hexmend_app.scene.render.graphics import prepare_off_screen
 
 
 def still(mesh: Mesh, size: tuple[int, int]) -> bytes:
-    """The bytes of a PNG of so many pixels, coloured by q(H).
+    """Return a picture of a mesh, coloured by q(H), as the bytes of a PNG.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    size : (int, int)
+        Width and height in pixels.
 
     Raises
     ------
     GraphicsError
-        Where nothing can be drawn here.
+        If OpenGL is missing.
     """
-    from hexmend_app.scene.graphics import prepare_off_screen
-
     prepare_off_screen()
-    from hexmend_app.scene.export.sheet import draw_sheet
-    from hexmend_app.scene.export.subject import Subject
-    from hexmend_app.state.scene import Page, Scene
+    from hexmend_app.picture import Page, Scene
+    from hexmend_app.scene.page.page_mesh import PageMesh
+    from hexmend_app.scene.page.page_renderer import draw_page
 
     scene = Scene(page=Page(pixels=size, background="transparent"))
-    held = BytesIO()
-    draw_sheet(scene, [Subject.of(mesh)]).image().save(held, format="PNG")
-    return held.getvalue()
+    file = BytesIO()
+    draw_page(scene, [PageMesh.of(mesh)]).image().save(file, format="PNG")
+    return file.getvalue()

@@ -1,4 +1,4 @@
-"""What a report tells of: a mesh as it was given, and as methods left it."""
+"""The data of a report: the original mesh and the results of methods."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from hexmend.run import Run
 from hexmend.run.recipe import Recipe
 from hexmend.signal_guard import uninterrupted
 from hexmend.smoothers import Smoother
-from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
+from hexmend.study.table_row import Row, Watch, common_norm, initial_record, run_one
 from hexmend.terminal_text import printable
 
-#: What the mesh as it was given is called.
+#: Name of the original mesh.
 INITIAL = "initial"
 
 
 @dataclass(frozen=True)
 class Source:
-    """The file that a mesh came from.
+    """The file of a mesh.
 
     Parameters
     ----------
     path : str
-        As it was named.
+        As given by the user.
     size : int
         In bytes.
     sha256 : str
     seconds : float
-        That reading took.
+        Time of reading.
     """
 
     path: str
@@ -51,21 +51,21 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Version:
-    """A mesh as it was given, or as a method left it.
+    """The original mesh, or the result of a method.
 
     Parameters
     ----------
     name : str
-        What captions and legends call it.
+        In captions and legends.
     mesh : Mesh
     figures : ElementQuality
     summary : Summary
     row : Row, optional
-        What the method tells; None for the mesh as it was given.
+        Outcome of the method; None for the original mesh.
     history : sequence of mapping
-        Rows of the run that led to it, as `hexmend.iteration.Result.history` has them.
+        History of the run, as in `hexmend.iteration.Result.history`.
     advice : Advice, optional
-        Why that run ended, and what would help.
+        Reason why the run ended, and suggestions.
     """
 
     name: str
@@ -78,16 +78,16 @@ class Version:
 
     @classmethod
     def of(cls, name: str, mesh: Mesh, row: Row | None = None, result: Result | None = None) -> Version:
-        """A mesh that is yet to be measured, with the run that led to it."""
+        """Measure a mesh, the result of a run if there is one."""
         figures = measure(mesh.points, mesh.hexes)
-        told = (result.history, advise(result)) if result is not None else ()
-        return cls(name, mesh, figures, summarise(mesh, figures), row, *told)
+        outcome = (result.history, advise(result)) if result is not None else ()
+        return cls(name, mesh, figures, summarise(mesh, figures), row, *outcome)
 
-    def record(self, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
-        """Its figures, as tables take them; the objective by the p and offset that a table compares by."""
+    def record(self, norm: ObjectiveNorm = SQUARES) -> dict[str, Any]:
+        """Return the measurements for a table; its objective has the p and offset of `norm`."""
         if self.row is not None:
-            return self.row.record(power)
-        return initial_record(self.mesh, self.summary, power)
+            return self.row.record(norm)
+        return initial_record(self.mesh, self.summary, norm)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,15 +98,15 @@ class Case:
     ----------
     name : str
     source : Source or None
-        None for a mesh that came from no file.
+        None for a mesh without a file.
     versions : tuple of Version
-        The first is the mesh as it was given.
+        The original mesh first.
     failed : tuple of Row
-        Of methods that left no mesh.
+        Of methods without a result.
     stop : StoppingCriteria
         Limits of each method's run.
     interrupted : bool
-        Whether the user ended it before the last method was done.
+        The user ended it before the last method was done.
     """
 
     name: str
@@ -117,18 +117,24 @@ class Case:
     interrupted: bool = False
 
     @property
-    def power(self) -> ObjectiveNorm:
-        """p and offset of the objective by which its tables compare methods."""
-        return common_power(one.row for one in self.versions if one.row is not None)
+    def norm(self) -> ObjectiveNorm:
+        """The p and offset of the objective in tables that compare methods."""
+        return common_norm(one.row for one in self.versions if one.row is not None)
 
     @property
     def initial(self) -> Version:
-        """The mesh as it was given."""
+        """The original mesh."""
         return self.versions[0]
 
 
 def source_of(path: str) -> tuple[Mesh, Source]:
-    """Read a mesh, and say what it was read from."""
+    """Read a mesh, and return it with its file's path, size and digest.
+
+    Raises
+    ------
+    FileError
+        For a file that cannot be read.
+    """
     began = perf_counter()
     mesh = read(path)
     seconds = perf_counter() - began
@@ -148,7 +154,7 @@ def run_methods(
     names: Sequence[str] = (),
     watch: Watch | None = None,
 ) -> Case:
-    """Run methods on a mesh, each from the mesh as given; a method that fails does not keep the others from running.
+    """Run methods on a mesh, each from the original mesh; the others run even if one fails.
 
     Parameters
     ----------
@@ -158,13 +164,13 @@ def run_methods(
     stop : StoppingCriteria
         Limits of each run; a recipe has its own.
     names : sequence of str
-        What the mesh as given and the results are called, in this order; those that are missing have their own names.
+        Of the original mesh and the results, in this order; missing names are those of the methods.
     watch : callable, optional
         As in `hexmend.study.compare.compare`.
     """
     versions, failed = [Version.of(names[0] if names else INITIAL, mesh)], []
 
-    @uninterrupted  # a run that has ended is not lost to a signal
+    @uninterrupted  # a signal does not discard a finished run
     def add(number: int, row: Row, runs: Sequence[Run]) -> None:
         if row.mesh is None:
             failed.append(row)
@@ -172,7 +178,7 @@ def run_methods(
             name = names[number] if number < len(names) else row.method
             versions.append(Version.of(name, row.mesh, row, runs[0].result() if runs else None))
 
-    go_on = True
+    continue_ = True
     try:
         for number, method in enumerate(methods, 1):
             runs: list[Run] = []
@@ -181,17 +187,17 @@ def run_methods(
                 runs[:] = [run]
                 return watch(run) if watch is not None else None
 
-            row, go_on = run_one(mesh, method, stop, seen)
+            row, continue_ = run_one(mesh, method, stop, seen)
             add(number, row, runs)
-            if not go_on:
+            if not continue_:
                 break
     except KeyboardInterrupt:  # between two runs
-        go_on = False
-    return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not go_on)
+        continue_ = False
+    return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not continue_)
 
 
 def command_line(words: Sequence[str]) -> str:
-    """The words of a command as a shell takes them; bytes of a path that are no letters stay, for what can hold them.
+    """Return a command as text for a shell; undecodable bytes of a path are kept.
 
     >>> command_line(["report", "two words.vtk"])
     "hexmend report 'two words.vtk'"

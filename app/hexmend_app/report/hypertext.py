@@ -1,4 +1,4 @@
-"""Pieces of a page: every text that comes from outside passes through here, and is text there."""
+"""HTML elements of a page; all texts from outside are escaped here."""
 
 from __future__ import annotations
 
@@ -8,19 +8,22 @@ from html import escape
 from io import BytesIO
 from pathlib import Path
 
+from PIL import Image
+
 from hexmend.report.tables import Table
 from hexmend.terminal_text import WorsenedText
 from hexmend_app.report.vectors import inline
 
-#: Of pictures in pixels: half the size of PNG, and nobody sees the difference.
+#: Options of pictures in pixels: half the size of PNG, without a visible difference.
 _WEBP = {"quality": 90, "method": 4}
 
-#: Columns of a table of figures beside its first for which paper has room.
+#: Maximum number of columns of a table on paper, without the first.
 _COLUMNS = 7
 
 
 def heading(level: int, text: str, **attributes: str) -> str:
-    """
+    """Return a heading.
+
     >>> heading(2, "a < b", id="mesh-1")
     '<h2 id="mesh-1">a &lt; b</h2>'
     """
@@ -29,32 +32,38 @@ def heading(level: int, text: str, **attributes: str) -> str:
 
 
 def paragraph(text: str) -> str:
-    """A paragraph; nothing where there is no text."""
+    """Return a paragraph; "" for an empty text."""
     return f"<p>{escape(text)}</p>" if text else ""
 
 
 def listed(texts: Iterable[str]) -> str:
-    """A list; nothing where there is no text."""
+    """Return a list; "" without texts."""
     rows = "".join(f"<li>{escape(text)}</li>" for text in texts)
     return f"<ul>{rows}</ul>" if rows else ""
 
 
 def commands(lines: Iterable[str]) -> str:
-    """Lines of a shell."""
+    """Return lines of a shell."""
     return f"<pre>{escape(chr(10).join(lines))}</pre>"
 
 
 def picture(path: Path, caption: str, prefix: str) -> str:
-    """A picture within the page with its caption: of pixels, or an SVG, whose names get a prefix."""
+    """Return an embedded picture with its caption; the ids of an SVG get a prefix."""
     if path.suffix == ".svg":
         drawn = inline(path, prefix)
     else:
-        drawn = f'<img src="data:image/webp;base64,{_webp(path)}" alt="">'  # its caption tells
+        drawn = f'<img src="data:image/webp;base64,{_webp(path)}" alt="">'  # the caption describes it
     return f"<figure>{drawn}<figcaption>{escape(caption)}</figcaption></figure>"
 
 
 def contents(chapters: Iterable[tuple[str, str, Iterable[tuple[str, str]]]]) -> str:
-    """A table of contents: of each chapter its place in the page, its name, and places and names of its sections."""
+    """Return a table of contents.
+
+    Parameters
+    ----------
+    chapters : iterable of (id, name, sections)
+        Sections are pairs of id and name.
+    """
 
     def link(place: str, name: str) -> str:
         return f'<a href="#{escape(place)}">{escape(name)}</a>'
@@ -67,16 +76,14 @@ def contents(chapters: Iterable[tuple[str, str, Iterable[tuple[str, str]]]]) -> 
 
 
 def _webp(path: Path) -> str:
-    """A picture in pixels, in base64."""
-    from PIL import Image
-
+    """Return a picture as WebP in base64."""
     with Image.open(path) as image, BytesIO() as file:
         image.save(file, "WEBP", **_WEBP)
         return base64.b64encode(file.getvalue()).decode("ascii")
 
 
 def table(table: Table, words: int = 0) -> str:
-    """A table; the last `words` columns hold sentences."""
+    """Return a table; the last `words` columns contain sentences."""
     width = len(table.head)
 
     def cell(text: str, column: int) -> str:
@@ -95,7 +102,7 @@ def table(table: Table, words: int = 0) -> str:
 
 
 def tables(whole: Table) -> str:
-    """A table that is laid across as many as have room on paper, each with its first column."""
+    """Return a table, split by columns into tables that fit on paper, each with the first column."""
     last = max(2, len(whole.head))
     parts = [slice(k, k + _COLUMNS) for k in range(1, last, _COLUMNS)]
     return "".join(
@@ -112,7 +119,7 @@ def tables(whole: Table) -> str:
 
 
 def facts(pairs: Mapping[str, str]) -> str:
-    """Names and what belongs to them, as a table without a head."""
+    """Return pairs of name and text as a table without a head."""
     rows = "".join(
         f'<tr><th scope="row">{escape(name)}</th><td class="words hash">{escape(text)}</td></tr>'
         for name, text in pairs.items()

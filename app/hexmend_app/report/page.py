@@ -1,4 +1,4 @@
-"""The report as one page that needs nothing besides itself."""
+"""The report as one self-contained page."""
 
 from __future__ import annotations
 
@@ -20,31 +20,31 @@ from hexmend.terminal_text import printable
 from hexmend_app.report import hypertext as html
 from hexmend_app.report.case import Case, Version, command_line
 from hexmend_app.report.figure_set import Style, table_of, write_behind, write_figures
-from hexmend_app.report.viewer import Shown, script, viewer
+from hexmend_app.report.viewer import ViewerState, script, viewer
 from hexmend_app.report.worst import Locked, worst_table
 from hexmend_app.resources import resource
 
-#: What a browser lets the page do: nothing beyond itself.
+#: Content security policy: the page loads nothing from outside.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
-#: Parts of the figure set that stand in the page, by their kind.
+#: Parts of the figure set in the page, by format.
 _PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
 
-#: The width of a drawing, in mm, by which its letters have the size of those around it.
+#: Width of a plot in mm, for which its letters have the size of the page's.
 _PLOT = 120.0
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """What the page tells of one mesh.
+    """The chapter of the page on one mesh.
 
     Parameters
     ----------
     name : str
     place : str
-        What leads to it.
+        Id of its heading.
     row : sequence of str
-        Of the table above all chapters.
+        Of the summary table.
     preface : str
         HTML.
     sections : sequence of (heading, HTML)
@@ -57,51 +57,53 @@ class Chapter:
     sections: Sequence[tuple[str, str]]
 
 
-def chapter(case: Case, style: Style, again: Sequence[Sequence[str]], *, alive: bool, place: str = "mesh-1") -> Chapter:
-    """Tell of a mesh.
+def chapter(
+    case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
+) -> Chapter:
+    """Write the chapter of a mesh.
 
     Parameters
     ----------
     case : Case
     style : Style
         Of its figures.
-    again : sequence of sequence of str
-        The words of commands that repeat it.
-    alive : bool
-        Whether the mesh can be turned in the page, which takes a browser.
+    repeat : sequence of sequence of str
+        Words of the commands that give the same results.
+    interactive : bool
+        The mesh can be rotated in the page, which needs a browser.
     place : str
-        What its place in the page is called.
+        Id of the chapter's heading.
     """
-    held = [Locked.of(one.mesh, one.figures) for one in case.versions]
+    locked = [Locked.of(one.mesh, one.figures) for one in case.versions]
     sections = {
-        "The mesh": _figures(case, style, alive, place),
+        "The mesh": _figures(case, style, interactive, place),
         "Figures of quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
-        "The worst hexes": _worst(case, held),
-        "What is locked, and what would help": _locked(case, held),
+        "The worst hexes": _worst(case, locked),
+        "Locked hexes and suggestions": _locked(case, locked),
         "Runs": _runs(case),
-        "Where this comes from": [_origin(case)],
-        "Commands that repeat it": [html.commands(map(command_line, again))],
+        "Source": [_origin(case)],
+        "Commands to reproduce this": [html.commands(map(command_line, repeat))],
     }
     first, last = case.initial.summary, case.versions[-1].summary
     row = [case.name, format_count(first.hexes), _change(first.inverted, last.inverted, format_count)]
     row += [_change(one, other, format_quality) for one, other in (
         (first.q_min, last.q_min), (first.q_mean, last.q_mean), (first.scaled_jacobian_min, last.scaled_jacobian_min)
     )]  # fmt: skip
-    told = [(name, "\n".join(filter(None, parts))) for name, parts in sections.items()]
-    return Chapter(case.name, place, row, _preface(case), told)
+    written = [(name, "\n".join(filter(None, parts))) for name, parts in sections.items()]
+    return Chapter(case.name, place, row, _preface(case), written)
 
 
-def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) -> str:
-    """The page of some chapters.
+def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: bool) -> str:
+    """Return the page as HTML.
 
     Parameters
     ----------
     title : str
     chapters : sequence of Chapter
     command : str
-        What makes it again.
-    alive : bool
-        Whether it has a program, which takes a browser.
+        The command that writes the page.
+    interactive : bool
+        The page has scripts, which need a browser.
     """
     style = resource("report/page.css").read_text(encoding="utf-8")
     made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
@@ -122,55 +124,55 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, alive: bool) 
     for number, one in enumerate(chapters, 1):
         kind = {"class_": "first"} if number == 1 else {}
         parts += ["<section>", html.heading(2, one.name, id=one.place, **kind), one.preface]
-        for (place, heading), (_, told) in zip(_places(one), one.sections, strict=True):
-            parts += [html.heading(3, heading, id=place), told]
+        for (place, heading), (_, text) in zip(_places(one), one.sections, strict=True):
+            parts += [html.heading(3, heading, id=place), text]
         parts += ["</section>"]
     parts += [f"</main><footer><p>{escape('This page was made by:')}</p>{html.commands([command])}</footer>"]
-    parts += [f"<script>{script()}</script>"] if alive else []
+    parts += [f"<script>{script()}</script>"] if interactive else []
     whole = "\n".join([*parts, "</body></html>"])
-    return whole.encode("utf-8", "replace").decode("utf-8")  # names of files need not be text
+    return whole.encode("utf-8", "replace").decode("utf-8")  # names of files can have undecodable bytes
 
 
 def _places(one: Chapter) -> list[tuple[str, str]]:
-    """What leads to the sections of a chapter, and their headings."""
+    """Ids and headings of the sections of a chapter."""
     return [(f"{one.place}-{number}", heading) for number, (heading, _) in enumerate(one.sections, 1)]
 
 
 def write_page(path: Path, text: str) -> None:
-    """Write a page as a whole or not at all."""
+    """Write a page atomically."""
     with atomic_write(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
 
 
 def _preface(case: Case) -> str:
     first = case.initial.summary
-    said = [
+    sentence = [
         f"{format_count(first.hexes)} hexes, {format_count(first.nodes)} nodes, of which "
         f"{format_count(first.free_nodes)} are free."
     ]
-    said.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {format_quality(first.q_min)}.")
+    sentence.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {format_quality(first.q_min)}.")
     for one in case.versions[1:]:
-        said.append(
+        sentence.append(
             f"{one.name}: {_inverted(one.summary.inverted).lower()}, least q {format_quality(one.summary.q_min)}."
         )
     if case.interrupted:
-        said.append("The runs were interrupted: what is told is what was reached until then.")
-    return html.paragraph(" ".join(said))
+        sentence.append("The runs were interrupted: the report shows the results so far.")
+    return html.paragraph(" ".join(sentence))
 
 
 def _inverted(number: int) -> str:
     return f"{format_count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
 
 
-def _figures(case: Case, style: Style, alive: bool, place: str) -> list[str]:
-    """The mesh, and the pictures."""
+def _figures(case: Case, style: Style, interactive: bool, place: str) -> list[str]:
+    """The interactive view of the mesh, and the pictures."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
         drawn = [write_behind(case, Path(folder), style)]
-        for part, how in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
-            drawn += write_figures(case, Path(folder), how, _PICTURES[part])
+        for part, options in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
+            drawn += write_figures(case, Path(folder), options, _PICTURES[part])
         pictures = {one.part: html.picture(one.paths[0], one.caption, f"{place}-{one.part}-") for one in drawn}
-    states = [Shown(one.name, one.mesh.points) for one in case.versions]
-    whole = viewer(case.initial.mesh, states, pictures["surface"]) if alive else pictures["surface"]
+    states = [ViewerState(one.name, one.mesh.points) for one in case.versions]
+    whole = viewer(case.initial.mesh, states, pictures["surface"]) if interactive else pictures["surface"]
     plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
     return [whole, pictures["behind"], pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
 
@@ -179,27 +181,27 @@ def _failed(row: Row) -> str:
     return html.paragraph(f"{row.method}: {row.message}")
 
 
-def _worst(case: Case, held: Sequence[Locked]) -> list[str]:
+def _worst(case: Case, locked: Sequence[Locked]) -> list[str]:
     return [
         f'<div data-version="{version}">{html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)}</div>'
-        for version, (one, own) in enumerate(zip(case.versions, held, strict=True))
+        for version, (one, own) in enumerate(zip(case.versions, locked, strict=True))
     ]
 
 
-def _locked(case: Case, held: Sequence[Locked]) -> list[str]:
-    """What is locked before; what the runs left, and what is known to help."""
-    words = held[0].words() or "Nothing is locked: no inverted hex is held in inversion by fixed nodes alone."
+def _locked(case: Case, locked: Sequence[Locked]) -> list[str]:
+    """Locked hexes of the original mesh, the state after each run, and suggestions."""
+    words = locked[0].words() or "Nothing is locked: no inverted hex is held in inversion by fixed nodes alone."
     parts = [html.paragraph(words)]
     for one in case.versions[1:]:
         if one.advice is not None:
-            said = " ".join(filter(None, [one.advice.left, one.advice.surface]))
-            parts.append(html.paragraph(f"{one.name}: {said}"))
+            sentence = " ".join(filter(None, [one.advice.state, one.advice.surface]))
+            parts.append(html.paragraph(f"{one.name}: {sentence}"))
             parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in one.advice.suggestions))
     return parts
 
 
 def _runs(case: Case) -> list[str]:
-    """Parameters, outcome and times of each method."""
+    """A table of parameters, outcome and times of each method."""
     rows = [_run(one) for one in case.versions[1:] if one.row is not None]
     if not rows:
         return [html.paragraph("No method was run.")]
@@ -212,9 +214,9 @@ def _run(one: Version) -> list[str]:
     row = one.row
     values = dict(row.parameters)
     if row.stages:
-        said = "; ".join(f"{stage.method}: {_values(stage.parameters)}" for stage in row.stages)
+        sentence = "; ".join(f"{stage.method}: {_values(stage.parameters)}" for stage in row.stages)
     else:
-        said = _values(values)
+        sentence = _values(values)
     name = one.name if one.name == row.method else f"{one.name} ({row.method})"
     return [
         name,
@@ -222,7 +224,7 @@ def _run(one: Version) -> list[str]:
         format_significant(row.seconds),
         format_count(row.iterations),
         row.message,
-        said,
+        sentence,
     ]
 
 

@@ -1,4 +1,4 @@
-"""The report as PDF: the page, without its program, set on A4 by WeasyPrint."""
+"""The report as PDF: the page without scripts, on A4, by WeasyPrint."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from hexmend.io.storage.atomic import atomic_write
 
 
 def write_paper(path: Path, text: str) -> None:
-    """Write a page as PDF, as a whole or not at all.
+    """Write a page as PDF, atomically.
 
     Raises
     ------
     HexmendError
-        Where WeasyPrint, or Pango that it sets letters with, is missing.
+        If WeasyPrint or Pango is missing.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     check_paper()
     from weasyprint import HTML
     from weasyprint.urls import URLFetcher
 
-    fetcher = URLFetcher(allowed_protocols=["data"])  # the page names nothing outside itself
+    fetcher = URLFetcher(allowed_protocols=["data"])  # the page is self-contained
     with atomic_write(path) as temporary:
         HTML(string=text, url_fetcher=fetcher).write_pdf(temporary)
 
 
 def check_paper() -> None:
-    """Raise `HexmendError` where no PDF can be written."""
+    """Raise `HexmendError` if no PDF can be written."""
     try:
         import weasyprint as _  # noqa: F401
     except ImportError:

@@ -1,4 +1,4 @@
-"""The mesh as the page of a report holds it: what `resources/report/*.js` turn, cut and colour without a network."""
+"""The interactive mesh of a report: data that `resources/report/*.js` rotate, cut and colour offline."""
 
 from __future__ import annotations
 
@@ -13,29 +13,30 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, Metric, measure
+from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.resources import resource
-from hexmend_app.scene.colours import INVERTED, MAPS, table
+from hexmend_app.scene.colour.colouring import INVERTED
 
-#: Hexes beyond which a page grows too large for a browser.
+#: Maximum number of hexes; a larger page is too large for a browser.
 MOST_HEXES = 250_000
 
-#: In how many steps the values are kept that a click tells exactly, and those of other metrics; the number after them
-#: stands for none.
+#: Numbers of steps to which values are rounded, of the metrics that a click shows exactly and of the others; the number
+#: after the last step means no value.
 _EXACT, _STEPS = {"q": 65534, "scaled-jacobian": 65534}, 4000
 
-#: Places are kept to this share of the mesh's size, which no screen shows.
+#: Resolution of positions relative to the mesh's size; no screen shows the difference.
 _FINEST = 2.0**-21
 
-#: Shares of the values at the ends of the colours, of a metric whose range has no end: far outliers do not count.
+#: Quantiles at the ends of the colours, of a metric with an infinite range.
 _ENDS = (0.005, 0.995)
 
-#: What the page is made alive with, in this order.
+#: Scripts of the page, in order.
 _SCRIPTS = ("mesh.js", "camera.js", "steering.js", "painter.js", "viewer.js", "start.js")
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
-    """A state of a mesh.
+class ViewerState:
+    """A named state of a mesh.
 
     Parameters
     ----------
@@ -48,25 +49,25 @@ class Shown:
 
 
 def script() -> str:
-    """The program of the page."""
+    """Return the scripts of the page."""
     return "\n".join(resource(f"report/{name}").read_text(encoding="utf-8") for name in _SCRIPTS)
 
 
-def viewer(mesh: Mesh, states: Sequence[Shown], picture: str) -> str:
-    """A section of a page in which a mesh can be turned, as HTML.
+def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
+    """Return the HTML of an interactive view of a mesh.
 
     Parameters
     ----------
     mesh : Mesh
-    states : sequence of Shown
-        As it was given first, then as methods left it.
+    states : sequence of ViewerState
+        The original mesh first, then the results.
     picture : str
-        HTML that stands in its place where it cannot be drawn, and on paper.
+        HTML to show instead without WebGL, and on paper.
     """
     if mesh.n_hexes > MOST_HEXES:
-        said = f"The mesh cannot be turned here: a page holds {MOST_HEXES:,} hexes, and it has {mesh.n_hexes:,}."
-        said += " Open it in the viewer: hexmend MESH"
-        return f'<div class="viewer">{picture}<p class="cannot screen">{said}</p></div>'
+        sentence = f"The mesh cannot be turned here: a page holds {MOST_HEXES:,} hexes, and it has {mesh.n_hexes:,}."
+        sentence += " Open it in the viewer: hexmend MESH"
+        return f'<div class="viewer">{picture}<p class="cannot screen">{sentence}</p></div>'
     head, blob = packed(mesh, states)
     colour = "#{:02x}{:02x}{:02x}".format(*INVERTED)
     parts = [
@@ -83,20 +84,20 @@ def viewer(mesh: Mesh, states: Sequence[Shown], picture: str) -> str:
 
 
 def in_script(data: Any) -> str:
-    """JSON that ends no script, whatever texts it holds."""
+    """Return JSON in which no text can end a script."""
     return json.dumps(data, allow_nan=False).replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def packed(mesh: Mesh, states: Sequence[Shown]) -> tuple[dict[str, Any], str]:
-    """A mesh for the page.
+def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], str]:
+    """Encode a mesh for the page.
 
     Returns
     -------
     head : dict
-        What the arrays are, and where each begins among the bytes and how many numbers it has.
+        Description of the arrays: offset in bytes and number of entries of each.
     blob : str
-        The bytes: of each array the first bytes of all its numbers, then the second ones..., which gzip makes smaller;
-        then gzip, then base64.
+        The arrays: the first bytes of all numbers of an array, then the second ones, ..., which compress better;
+        compressed by gzip, in base64.
     """
     used = mesh.topology.used
     low, high = (end(axis=0) for end in (mesh.points[used].min, mesh.points[used].max))
@@ -118,35 +119,35 @@ def packed(mesh: Mesh, states: Sequence[Shown]) -> tuple[dict[str, Any], str]:
             }
             for k, one in enumerate(states)
         ],
-        "maps": [{"name": name, "table": arrays.add(table(name))} for name in MAPS],
+        "maps": [{"name": name, "table": arrays.add(COLOUR_MAPS[name].table)} for name in value_maps()],
         "inverted": INVERTED,
     }
     return head, arrays.blob()
 
 
 class _Arrays:
-    """Bytes of arrays, one after another."""
+    """Concatenated bytes of arrays."""
 
     def __init__(self) -> None:
         self._pieces: list[bytes] = []
         self._size = 0
 
     def add(self, array: np.ndarray) -> tuple[int, int]:
-        """Take an array; where it begins and how many numbers it has."""
-        plain = np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
+        """Append an array; return its offset in bytes and its number of entries."""
+        simple = np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
         start = self._size
-        self._pieces.append(plain.reshape(-1, 1).view(np.uint8).T.tobytes())
-        self._size += plain.nbytes
-        return start, plain.size
+        self._pieces.append(simple.reshape(-1, 1).view(np.uint8).T.tobytes())
+        self._size += simple.nbytes
+        return start, simple.size
 
     def blob(self) -> str:
         return base64.b64encode(gzip.compress(b"".join(self._pieces), 9, mtime=0)).decode("ascii")
 
 
 def _metric(
-    metric: Metric, mesh: Mesh, states: Sequence[Shown], figures: Sequence[ElementQuality]
+    metric: Metric, mesh: Mesh, states: Sequence[ViewerState], figures: Sequence[ElementQuality]
 ) -> tuple[dict[str, Any], list[np.ndarray]]:
-    """What the page knows of a metric, and its values of each state, (m,) uint16."""
+    """Return the description of a metric for the page, and its values of each state, (m,) uint16."""
     values = [metric.of(one.points, mesh.hexes, own) for one, own in zip(states, figures, strict=True)]
     low, high = _range(metric, values, figures)
     most = _EXACT.get(metric.name, _STEPS)
@@ -162,15 +163,15 @@ def _metric(
         "steps": most,
         "from": low,
         "to": high,
-        "open": not declared,  # what lies beyond these two is kept as they are
-        "low": max(low, 0.0) if declared else low,  # what is negative is inverted, and has a colour of its own
+        "open": not declared,  # values beyond these two are clipped
+        "low": max(low, 0.0) if declared else low,  # inverted hexes have a separate colour
         "high": high,
     }
     return kind, kept
 
 
 def _range(metric: Metric, values: Sequence[np.ndarray], figures: Sequence[ElementQuality]) -> tuple[float, float]:
-    """The values that are kept: those that a metric can take, or, where that has no end, those of most sound hexes."""
+    """Return the range of values: the metric's own or, if that is infinite, that of most valid hexes."""
     if np.isfinite(metric.full_range).all():
         return tuple(map(float, metric.full_range))
     every = np.concatenate(values)

@@ -1,4 +1,4 @@
-"""What a picture of meshes shows, in words: from where they are seen, how they are cut open, what colours mean."""
+"""Phrases for captions: direction of view, cut and colours of a picture."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from dataclasses import replace
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
+from hexmend_app.picture import Camera, Colours, Cut, Plane
+from hexmend_app.picture.camera_pose import Vector
+from hexmend_app.picture.cut import CutStyle
 from hexmend_app.scene.camera.directions import direction_of
-from hexmend_app.state.scene import Camera, Colours, Cut, Plane
-from hexmend_app.state.scene.cut import CutStyle
-from hexmend_app.state.stand import Vector
 
 _AXES = "xyz"
 
 
 def listed(names: Sequence[str]) -> str:
-    """
+    """Join names with commas and "and".
+
     >>> listed(["initial", "laplacian", "mend"])
     'initial, laplacian and mend'
     """
@@ -24,7 +25,7 @@ def listed(names: Sequence[str]) -> str:
 
 
 def opposite(camera: Camera) -> Camera:
-    """The camera that sees what another does not: from the opposite side, with the same axis up.
+    """Return the camera that looks from the opposite side, with the same axis up.
 
     >>> opposite(Camera(from_="+x")).from_
     (-1.0, -0.0, -0.0)
@@ -36,7 +37,8 @@ def opposite(camera: Camera) -> Camera:
 
 
 def seen_from(camera: Camera) -> str:
-    """
+    """Return the direction of view.
+
     >>> seen_from(Camera()), seen_from(Camera(from_="-y")), seen_from(Camera(from_=(1.0, 0.5, 0.0)))
     ('seen from a corner', 'seen from -y', 'seen from direction (1, 0.5, 0)')
     """
@@ -48,7 +50,8 @@ def seen_from(camera: Camera) -> str:
 
 
 def cut_open(cut: Cut) -> str:
-    """
+    """Return the description of a cut.
+
     >>> cut_open(Cut((Plane(position=0.25),)))
     'cut open across x at 25 % of its extent'
     >>> cut_open(Cut((Plane((0.0, 0.0, -1.0), point=(0.0, 0.0, 2.0)), Plane()), style=CutStyle.SMOOTH))
@@ -64,14 +67,14 @@ def cut_open(cut: Cut) -> str:
 
 
 def coloured_by(colours: Colours, inverted: bool) -> str:
-    """What the colours mean, as a sentence; `inverted`: whether one of the meshes has inverted hexes.
+    """Return a sentence on the colours; it mentions inverted hexes if `inverted` is true.
 
     >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
     'Coloured by Scaled Jacobian; inverted hexes are magenta.'
     """
     known = {**METRICS, **DISPLACEMENT_QUANTITIES}
-    said = "Without colours" if colours.neutral else f"Coloured by {known[colours.metric].title}"
-    return f"{said}; inverted hexes are magenta." if inverted else f"{said}."
+    text = "Without colours" if colours.neutral else f"Coloured by {known[colours.metric].title}"
+    return f"{text}; inverted hexes are magenta." if inverted else f"{text}."
 
 
 def _plane(plane: Plane) -> str:
@@ -83,7 +86,8 @@ def _plane(plane: Plane) -> str:
 
 
 def _named(direction: Vector) -> str:
-    """
+    """Return an axis with its sign, or the components of a direction.
+
     >>> _named((0.0, -2.0, 0.0)), _named((1.0, 1.0, 0.0))
     ('-y', 'direction (1, 1, 0)')
     """

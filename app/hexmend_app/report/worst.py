@@ -1,4 +1,4 @@
-"""The worst hexes of a mesh, and what holds those that are locked."""
+"""The worst hexes of a mesh, and the reasons why some are locked."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ import numpy as np
 from hexmend.boundary import freed_by_sliding
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import ElementQuality, corner_determinants, locked, rank_worst
+from hexmend.quality import ElementQuality, corner_determinants, locked_hexes, rank_worst
 from hexmend.quantity import format_count, format_quality
 from hexmend.report.tables import Table
 
-#: Hexes that are told of one by one.
+#: Number of hexes in the table.
 MOST = 12
 
 
 @dataclass(frozen=True, eq=False)
 class Locked:
-    """Which hexes fixed nodes alone hold in inversion.
+    """The hexes that are inverted because of fixed nodes alone.
 
     Parameters
     ----------
     locked : (m,) bool
     freed : (m,) bool
-        Those of them that nothing holds any more once the boundary slides.
+        Locked hexes that can be mended if the boundary slides.
     """
 
     locked: np.ndarray
@@ -33,12 +33,12 @@ class Locked:
 
     @classmethod
     def of(cls, mesh: Mesh, figures: ElementQuality) -> Locked:
-        """Look for them."""
-        held = locked(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
-        return cls(held, freed_by_sliding(mesh, held))
+        """Find the locked hexes."""
+        mask = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
+        return cls(mask, freed_by_sliding(mesh, mask))
 
     def words(self) -> str:
-        """How many there are, as sentences; "" for none."""
+        """Return sentences on the number of locked hexes; "" for none."""
         many, freed = int(self.locked.sum()), int(self.freed.sum())
         if not many:
             return ""
@@ -52,8 +52,8 @@ class Locked:
         )
 
 
-def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) -> Table:
-    """The worst hexes by q: number from 0, q, scaled Jacobian, centre in the mesh's unit, and what is to be said of it.
+def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) -> Table:
+    """Return a table of the worst hexes by q: number from 0, q, scaled Jacobian, centre in the mesh's unit, and state.
 
     Inverted hexes come first.
     """
@@ -64,24 +64,26 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, held: Locked) ->
             format_quality(figures.q[hex]),
             format_quality(figures.scaled_jacobian[hex]),
             ", ".join(_number(part) for part in mesh.points[mesh.hexes[hex]].mean(axis=0)),
-            reason(mesh, figures, held, int(hex)),
+            reason(mesh, figures, locked, int(hex)),
         ]
         for hex in order
     ]
     return Table(f"The worst hexes: {name}", ["hex", "q", "scaled Jacobian", "centre", "state"], rows)
 
 
-def reason(mesh: Mesh, figures: ElementQuality, held: Locked, hex: int) -> str:
-    """What keeps a hex as it is, in words."""
-    if held.locked[hex]:
-        return f"locked {_corners(mesh, hex)}; {'sliding frees it' if held.freed[hex] else 'sliding does not free it'}"
+def reason(mesh: Mesh, figures: ElementQuality, locked: Locked, hex: int) -> str:
+    """Return the state of a hex: locked, inverted or sound, and its free nodes."""
+    if locked.locked[hex]:
+        return (
+            f"locked {_corners(mesh, hex)}; {'sliding frees it' if locked.freed[hex] else 'sliding does not free it'}"
+        )
     free = int(mesh.free[mesh.hexes[hex]].sum())
     state = "inverted, not locked" if figures.inverted[hex] else "sound"
     return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
 
 
 def _corners(mesh: Mesh, hex: int) -> str:
-    """The corners that fixed nodes alone hold in inversion, by their nodes."""
+    """Return a phrase with the nodes of the corners that are inverted because of fixed nodes alone."""
     tetrahedra = mesh.hexes[hex][CORNER_TETRAHEDRA]  # (8, 4)
     sigma = corner_determinants(mesh.points, mesh.hexes, np.array([hex]))[0]
     corners = np.flatnonzero(mesh.fixed[tetrahedra].all(axis=1) & ~(sigma > 0))

@@ -1,4 +1,4 @@
-"""The page of mouse and keys: how the view is driven, and every action that has keys."""
+"""The page of mouse and keys: controls of the view, and every action with keys."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from hexmend_app.feature import MENUS, Action
 
-#: How the view is driven by the mouse and by keys of its own.
+#: Mouse and key controls of the view.
 VIEW = (
     ("Turn", "drag, arrow keys"),
     ("Zoom", "wheel, right drag, + and −"),
@@ -26,7 +26,7 @@ def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, st
     actions : iterable of Action
     """
     actions = list(actions)
-    found = [("In the view", [(what, how, "") for what, how in VIEW])]
+    found = [("In the view", [(topic, style, "") for topic, style in VIEW])]
     for menu in (*MENUS, ""):
         rows = [(words(one), one.keys, one.help) for one in actions if one.menu == menu]
         if rows:
@@ -35,7 +35,7 @@ def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, st
 
 
 def words(action: Action) -> str:
-    """An action's text as it is read."""
+    """Text of an action without its ampersand."""
     return action.text.replace("&", "").rstrip("…")
 
 
@@ -44,6 +44,6 @@ def as_markdown(actions: Iterable[Action]) -> str:
     parts = ["# Mouse and keys", "", "Written by `make docs` from what the features declare.", ""]
     for title, rows in tables(actions):
         parts += [f"## {title}", "", "| what | keys | |", "|---|---|---|"]
-        parts += [f"| {what} | {keys and f'`{keys}`'} | {help} |" for what, keys, help in rows]
+        parts += [f"| {subject} | {keys and f'`{keys}`'} | {help} |" for subject, keys, help in rows]
         parts.append("")
     return "\n".join(parts)

@@ -1,4 +1,4 @@
-"""The page of mouse and keys as a window beside the window."""
+"""The window that lists mouse actions and keys."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from html import escape
 from PySide6.QtWidgets import QDialog, QLineEdit, QTextBrowser, QVBoxLayout, QWidget
 
 from hexmend_app.feature import Action
-from hexmend_app.scene.palette import MUTED
 from hexmend_app.shell.keys import tables
-from hexmend_app.widgets.style import dress, explain
+from hexmend_app.theme.palette import MUTED
+from hexmend_app.theme.style import on_theme_change, set_help
 
 
 class KeysPage(QDialog):
-    """Lists every action with its keys; letters typed above leave those that have them.
+    """Lists every action with its keys; the text field filters the list.
 
     Parameters
     ----------
@@ -28,18 +28,18 @@ class KeysPage(QDialog):
         self._field = QLineEdit()
         self._field.setPlaceholderText("Type some letters")
         self._field.setClearButtonEnabled(True)
-        explain(self._field, "Find", "Leaves what has these letters in its name, its keys or its help.")
+        set_help(self._field, "Find", "Leaves what has these letters in its name, its keys or its help.")
         self._page = QTextBrowser()
-        explain(self._page, "Mouse and keys", "")
+        set_help(self._page, "Mouse and keys", "")
         layout = QVBoxLayout(self)
         layout.addWidget(self._field)
         layout.addWidget(self._page)
         self._field.textChanged.connect(self._fill)
-        dress(self, self._fill)
+        on_theme_change(self, self._fill)
         self.resize(640, 620)
 
     def text(self) -> str:
-        """What is listed, as plain text."""
+        """The list as plain text."""
         return self._page.toPlainText()
 
     def _fill(self, *_: object) -> None:
@@ -53,7 +53,7 @@ class KeysPage(QDialog):
         self._page.setHtml(f"<table width='100%' cellspacing=0 cellpadding=2>{''.join(parts)}</table>")
 
 
-def _row(what: str, keys: str, help: str) -> str:
+def _row(subject: str, keys: str, help: str) -> str:
     about = f"<br><small style='color:{MUTED}'>{escape(help)}</small>" if help else ""
     shown = escape(keys).replace(" ", "&nbsp;") if len(keys) < 24 else escape(keys)
-    return f"<tr><td>{escape(what)}{about}</td><td align=right><b>{shown}</b></td></tr>"
+    return f"<tr><td>{escape(subject)}{about}</td><td align=right><b>{shown}</b></td></tr>"

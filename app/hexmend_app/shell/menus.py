@@ -1,4 +1,4 @@
-"""Menus, tool bar and shortcuts, made from what features declare."""
+"""Menus, tool bar and shortcuts, made from the actions of features."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.feature import MENUS, Action
-from hexmend_app.shell.letters import letter_of, letters, marked
-from hexmend_app.widgets.style import icon
+from hexmend_app.shell.mnemonics import letter_of, letters, marked
+from hexmend_app.theme.style import icon
 
 
 class Menus:
-    """The window's menus with their actions, which are brought up to date together.
+    """The window's menus with their actions.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Menus:
         for trailing in self._bar.actions()[-1:]:
             if trailing.isSeparator():
                 self._bar.removeAction(trailing)
-        self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides what it has room for
+        self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides buttons that fit
         self._window.menuBar().setCornerWidget(self._bar, Qt.Corner.TopRightCorner)
 
     def _fill(self, name: str, actions: list[Action]) -> None:
@@ -88,7 +88,7 @@ class Menus:
         action.setCheckable(declared.checked is not None)
         handle = declared.handle
         if declared.checked is not None:
-            action.triggered.connect(handle)  # not as `refresh` says that it is on
+            action.triggered.connect(handle)  # `toggled` would be sent by `refresh` too
         else:
             action.triggered.connect(lambda checked=False: handle())
         self._declared[declared.id] = declared
@@ -96,12 +96,12 @@ class Menus:
         return action
 
     def refresh(self, is_open: bool) -> None:
-        """Say of every action whether it can be done, whether it is on, and what it is about.
+        """Update enabled state, checked state and text of every action.
 
         Parameters
         ----------
         is_open : bool
-            Whether a mesh is open.
+            A mesh is open.
         """
         for id, declared in self._declared.items():
             action = self.actions[id]
@@ -113,15 +113,15 @@ class Menus:
                 action.setIconText(declared.tool or declared.text.replace("&", ""))
 
     def declared(self) -> Iterable[Action]:
-        """Every action as it was declared."""
+        """The declarations of all actions."""
         return self._declared.values()
 
     def in_view(self) -> QMenu:
-        """A menu of what can be done where the view was clicked."""
+        """The context menu of the view."""
         menu = QMenu(self._window)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         before = None
-        # What is about the hex that was clicked comes first.
+        # Actions for the clicked hex come first.
         for id, declared in sorted(self._declared.items(), key=lambda one: one[1].menu != "Hex"):
             if declared.in_view and self.actions[id].isEnabled():
                 if before not in (None, declared.menu):
@@ -132,7 +132,7 @@ class Menus:
 
 
 def _give_letters(actions: Sequence[QAction]) -> None:
-    """Let each entry of a menu be reached by a letter of its own."""
+    """Give the entries of a menu distinct mnemonics."""
     for action, letter in zip(actions, letters([action.text() for action in actions]), strict=True):
         action.setText(marked(action.text(), letter))
 

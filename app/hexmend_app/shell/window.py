@@ -1,43 +1,49 @@
-"""The window: it gives features their places, and has everything refreshed once whatever has changed."""
+"""The main window: builds features, and refreshes them once for all changes of a moment."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
+from time import monotonic
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QPoint, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QMainWindow, QWidget
+from PySide6.QtWidgets import QMainWindow, QWidget
 
-from hexmend_app.feature import Panel, Place
-from hexmend_app.shell.counts import Counts
-from hexmend_app.shell.docks import Docks
-from hexmend_app.shell.type_to_find import TypeToFind
-from hexmend_app.state import settings
-from hexmend_app.state.task import wait_for_dropped
+from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.shell.palette.type_to_find import TypeToFind
+from hexmend_app.shell.panels.docks import Docks
+from hexmend_app.shell.panels.hex_counts import Counts
+from hexmend_app.shell.refresh_timer import RefreshTimer
+from hexmend_app.state.settings import settings
+from hexmend_app.state.tasks.task import wait_for_dropped
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
-from hexmend_app.widgets.opengl import make_room
+from hexmend_app.widgets.opengl import reserve_opengl
 from hexmend_app.widgets.overlay import Overlay
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
+    from hexmend_app.canvas.plotter import CanvasPlotter
     from hexmend_app.feature import Feature
     from hexmend_app.shell.menus import Menus
-    from hexmend_app.state.session import Session
+    from hexmend_app.state.session.session import Session
+
+#: Seconds between refreshes of the menus while iterations are shown.
+_MENUS_PERIOD = 0.5
 
 
 class Window(QMainWindow):
-    """Hexmend's one window, which is every feature's host.
+    """The main window, host of all features.
 
-    It is shown before what is slow to load: `begin` builds what opens and draws a mesh, `build_canvas` the 3D view,
-    `furnish` the other features with all panels and menus.
+    It is shown before the slow imports: `begin` builds the features that open and draw a mesh, `build_canvas` the 3D
+    view, `build_features` the other features with all panels and menus.
 
     Signals
     -------
-    furnished
-        All is in its place.
+    ready
+        All features are built.
 
     Attributes
     ----------
@@ -45,95 +51,91 @@ class Window(QMainWindow):
     features : dict of Feature
         By the names of their folders.
     docks : Docks
-        Where panels stand.
+        The panels.
     canvas : Canvas or None
     messages : MessageBar
     busy : Busy
     """
 
-    furnished = Signal()
+    ready = Signal()
 
     def __init__(self) -> None:
         super().__init__()
         self.setWindowTitle("Hexmend")
         self.messages, self.busy = MessageBar(), Busy()
-        self.docks = Docks()
+        self.docks = Docks(self)
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
-        self.setCentralWidget(self.docks)
-        make_room(self)
+        reserve_opengl(self)
         TypeToFind(self)
         self._counts = Counts()
-        corner = QWidget()
-        line = QHBoxLayout(corner)
-        line.setContentsMargins(4, 0, 8, 3)  # on a line with the tabs
-        for part in (self.busy, self._counts):
-            line.addWidget(part)
-        self.docks.drawer.setCornerWidget(corner, Qt.Corner.TopRightCorner)
+        self._build_status_bar()
         self.session: Session | None = None
         self.canvas: Canvas | None = None
         self.features: dict[str, Feature] = {}
         self._menus: Menus | None = None
-        self._soon = QTimer(self, singleShot=True, interval=0)
-        self._soon.timeout.connect(self.refresh)
+        self._timer = RefreshTimer(self)
+        self._timer.all_changed.connect(self.refresh)
+        self._timer.iteration_changed.connect(self.refresh_iteration)
+        self._menus_shown = 0.0
         self._first_size()
 
     # Building
 
+    def _build_status_bar(self) -> None:
+        bar = self.statusBar()
+        bar.setSizeGripEnabled(False)
+        bar.setMaximumHeight(24)
+        bar.layout().setContentsMargins(0, 0, 6, 0)
+        bar.addWidget(self.docks.row, 1)
+        for part in (self.busy, self._counts):
+            bar.addPermanentWidget(part)
+
     def begin(self) -> None:
         """Build the session, and the features that open and draw a mesh."""
-        from hexmend_app.shell.features import FIRST, kind_of
-        from hexmend_app.state.session import Session
+        from hexmend_app.shell.features import first_names, in_order, kind_of, name_of
+        from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
-        self.features = {name: kind_of(name)(self) for name in FIRST}
-        self.docks.add([panel for panel in self._panels() if panel.place is Place.EMPTY])
-        for told in (self.session.changed, self.docks.changed, self.messages.filled, self.messages.emptied):
-            told.connect(self.refresh_soon)
-        self.docks.restore(settings.PANELS.get(), panels=False)
+        self.features = {name_of(kind): kind(self) for kind in in_order(map(kind_of, first_names()))}
+        self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
+        for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):
+            signal.connect(self.refresh_soon)
+        self.session.changed.connect(lambda: self._timer.refresh(iteration_only=self.session.run.iterating))
+        self.docks.reserve(settings.PANELS.get())
         self.refresh()
 
-    def furnishing(self) -> Iterator[None]:
-        """Build the other features step by step, and give what all offer its places in the last."""
-        from hexmend_app.shell.features import found, kind_of, name_of, names
+    def building_features(self) -> Iterator[None]:
+        """Build the other features step by step; in the last step, add all panels and menus."""
+        from hexmend_app.shell.features import building
         from hexmend_app.shell.menus import Menus
-        from hexmend_app.shell.own import own_actions
+        from hexmend_app.shell.window_actions import own_actions
 
-        for name in names():
-            kind_of(name)  # what it imports takes longer than building it
-            yield
-        first, kinds = self.features, found()
-        built = dict(first)
-        for kind in kinds:
-            if name_of(kind) not in built:
-                try:
-                    built[name_of(kind)] = kind(self)
-                except Exception:  # whatever it is, the others are there
-                    sys.excepthook(*sys.exc_info())
-                yield
-        self.features = {name_of(kind): built[name_of(kind)] for kind in kinds if name_of(kind) in built}
+        first = self.features
+        self.features = yield from building(self, first)
         panels = self._panels()
-        self.docks.add([panel for panel in panels if panel.place is not Place.EMPTY])
-        actions = [action for feature in self.features.values() for action in feature.actions()]
+        self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
+        listed = sorted(self.features.values(), key=lambda one: one.menu_order)
+        actions = [action for feature in listed for action in feature.actions()]
         self._menus = Menus(self, [*actions, *own_actions(self, panels)])
         if self.canvas is not None:
             for name in self.features.keys() - first.keys():
                 self.features[name].canvas_ready(self.canvas)
-        self.docks.restore(settings.PANELS.get(), room=False)
+        self.docks.restore(settings.PANELS.get())
         self.refresh()
-        self.furnished.emit()
+        self.ready.emit()
 
-    def furnish(self) -> None:
+    def build_features(self) -> None:
         """Build all features."""
         if self.session is None:
             self.begin()
-        for _ in self.furnishing():
+        for _ in self.building_features():
             pass
 
     def _panels(self) -> list[Panel]:
         return [panel for feature in self.features.values() for panel in feature.panels()]
 
     def build_canvas(self) -> None:
-        """Load what draws in 3D, and put it in the view's place."""
+        """Build the 3D view."""
         from hexmend_app.canvas.canvas import Canvas
 
         self.canvas = Canvas()
@@ -146,11 +148,16 @@ class Window(QMainWindow):
             feature.canvas_ready(self.canvas)
         self.refresh()
 
-    # What features have of it
+    # Host of features
+
+    @property
+    def plotter(self) -> CanvasPlotter | None:
+        """PyVista's plotter on the 3D view, made when first asked for; None before there is a view."""
+        return None if self.canvas is None else self.canvas.plotter
 
     @property
     def dialog_parent(self) -> QWidget:
-        """The window, before which dialogs stand."""
+        """The window, as parent of dialogs."""
         return self
 
     @property
@@ -160,41 +167,41 @@ class Window(QMainWindow):
 
     @property
     def menus(self) -> Menus:
-        """The menus with what they were made from."""
+        """The menus and the declarations of their actions."""
         return self._menus
 
     def action(self, id: str) -> QAction:
-        """The action of some feature, once all are there."""
+        """Return the action of any feature; available once all features are built."""
         return self._menus.actions[id]
 
     def show_panel(self, id: str) -> None:
-        """Bring a panel to the front, and unfold what it stands in."""
+        """Open a panel in front of its tabs."""
         self.docks.show_panel(id)
 
     def offer_panel(self, id: str) -> None:
-        """Bring a panel to the front of what it stands in, unfolded or not: the view keeps its room."""
+        """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
         self.docks.offer_panel(id)
 
     def in_front(self, id: str) -> bool:
-        """Whether a panel can be seen."""
+        """Return True if a panel is visible."""
         return self.docks.in_front(id)
 
     def toggle_panels(self) -> None:
-        """Leave the window to the view, or bring all panels back."""
+        """Hide all panels, or show them again."""
         self.docks.set_hidden(not self.docks.hidden)
 
     def may_leave(self) -> bool:
-        """Whether every feature lets the open mesh go."""
+        """Return True if no feature objects to closing the mesh."""
         return all(feature.may_leave() for feature in self.features.values())
 
     @property
     def stem(self) -> str:
-        """What a file that is saved is proposed to be called, without what tells its kind."""
+        """Default name of files to save, without suffix."""
         document = self.session.document
         return document.path.stem if document.path else "mesh"
 
-    def said(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
-        """Do something and say `success`, or, under the title `failure`, why it was not done; whether it was."""
+    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
+        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""
         from hexmend.errors import HexmendError
 
         try:
@@ -207,54 +214,68 @@ class Window(QMainWindow):
         return True
 
     def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-        """Wait until something is over, with `leave` on a button that does not wait; whether to go on then."""
-        from hexmend_app.widgets.waiting import wait_until
+        """Wait until `over()` is true; return False if the user pressed the button `leave` instead."""
+        from hexmend_app.widgets.dialogs.waiting import wait_until
 
         return wait_until(self, text, over, leave)
 
     def refresh_soon(self) -> None:
-        """Have everything refreshed once, after all that happens at this moment has happened."""
-        if not self._soon.isActive():
-            self._soon.start()
+        """Refresh everything once, in the next turn of the event loop."""
+        self._timer.refresh_all()
 
     def refresh(self) -> None:
-        """Show the session as it is now."""
-        self._soon.stop()
+        """Show the present session."""
+        self._timer.stop()
         if self.session is None:
             return
-        document = self.session.document
-        for feature in self.features.values():
-            try:
-                feature.refresh()
-            except Exception:  # whatever it is, the others are shown as they are now
-                sys.excepthook(*sys.exc_info())
-        if self._menus is not None:
-            self._menus.refresh(document.is_open)
-        # Esc is for a message first, then for what is being opened.
+        self._refresh_features(lambda feature: feature.refresh())
+        self._refresh_menus()
+        # Esc closes a message first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
+        document = self.session.document
         if document.is_open:
             self._counts.refresh(self.session)
         self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
         self.setWindowModified(self.session.modified)
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self._refresh_features(lambda feature: feature.refresh_iteration())
+        if monotonic() - self._menus_shown > _MENUS_PERIOD:
+            self._refresh_menus()
+        self._counts.refresh(self.session)
+
+    def _refresh_features(self, refresh: Callable[[Feature], object]) -> None:
+        for feature in sorted(self.features.values(), key=lambda one: one.refresh_order):
+            try:
+                refresh(feature)
+            except Exception:  # the other features are refreshed whatever one raises
+                sys.excepthook(*sys.exc_info())
+
+    def _refresh_menus(self) -> None:
+        if self._menus is not None:
+            self._menus.refresh(self.session.document.is_open)
+            self._menus_shown = monotonic()
+
     def _open_menu(self, hit: tuple[int, int] | None, at: QPoint) -> None:
-        """Offer what can be done with what was clicked in the view."""
+        """Open the context menu of the view."""
         if hit is not None:
             self.session.selection.choose(*hit)
         self.refresh()
         if self._menus is not None:
             self._menus.in_view().popup(at)
 
-    # Coming and going
+    # Closing
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """End the threads and the 3D view before the window goes; all threads are waited for together."""
+        """End threads and the 3D view; wait for all threads together."""
         if not self.may_leave():
             event.ignore()
             return
         settings.GEOMETRY.set(self.saveGeometry())
-        if self._menus is not None:  # or there are panels that have no place yet
+        if self._menus is not None:  # otherwise panels are not added yet
             settings.PANELS.set(self.docks.state())
+        self.docks.set_hidden(True)  # floating ones are windows
         self.hide()  # threads may take a while to end
         for feature in self.features.values():
             feature.close()
@@ -263,17 +284,17 @@ class Window(QMainWindow):
         if self.canvas is not None:
             self.canvas.close()
         wait_for_dropped()
-        self._soon.stop()
+        self._timer.stop()
         event.accept()
 
     def changeEvent(self, event: QEvent) -> None:
-        """Show everything in the theme that is worn now."""
+        """Refresh everything after a change of theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self.refresh_soon()
 
     def _first_size(self) -> None:
-        """As large as it was, or as the screen has room for and serves."""
-        room = self.screen().availableGeometry()
-        self.resize(min(1600, round(room.width() * 0.94)), min(1000, round(room.height() * 0.92)))
-        self.restoreGeometry(settings.GEOMETRY.get())  # nothing happens where nothing was kept
+        """Restore the size, or fit the screen."""
+        space = self.screen().availableGeometry()
+        self.resize(min(1600, round(space.width() * 0.94)), min(1000, round(space.height() * 0.92)))
+        self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry

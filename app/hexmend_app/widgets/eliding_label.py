@@ -1,4 +1,4 @@
-"""A label that is cut off where there is no room for it."""
+"""A label that elides its text."""
 
 from __future__ import annotations
 
@@ -8,16 +8,18 @@ from PySide6.QtWidgets import QLabel
 
 
 class ElidingLabel(QLabel):
-    """One line of plain text, which ends in an ellipsis where the label is narrower."""
+    """One line of plain text, elided if the label is too narrow."""
 
     def minimumSizeHint(self) -> QSize:
-        """Room for the ellipsis."""
+        """Size of the ellipsis."""
         return QSize(self.fontMetrics().horizontalAdvance("…"), super().minimumSizeHint().height())
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Write as much as there is room for."""
-        room = self.contentsRect()
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room.width())
+        """Paint the elided text."""
+        space = self.contentsRect()
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, space.width())
         painter = QPainter(self)
-        how = self.alignment().value | Qt.TextFlag.TextSingleLine.value
-        self.style().drawItemText(painter, room, how, self.palette(), self.isEnabled(), text, self.foregroundRole())
+        options = self.alignment().value | Qt.TextFlag.TextSingleLine.value
+        self.style().drawItemText(
+            painter, space, options, self.palette(), self.isEnabled(), text, self.foregroundRole()
+        )

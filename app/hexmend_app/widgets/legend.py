@@ -6,8 +6,8 @@ from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from hexmend_app.scene.palette import Role
-from hexmend_app.widgets.style import note
+from hexmend_app.theme.palette import Role
+from hexmend_app.theme.style import note
 
 
 class Swatch(QWidget):

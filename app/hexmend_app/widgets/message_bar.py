@@ -1,4 +1,4 @@
-"""What went wrong, what to look out for, and what has been done, in a bar over the view."""
+"""A bar over the view with errors, warnings and results."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QGuiApplication, QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
 
-from hexmend_app.scene.palette import AMBER, BLUE, TOLD, WARNED, WORSE, WRONG
-from hexmend_app.widgets.style import dress, explain, icon
+from hexmend_app.theme.palette import AMBER, BLUE, INFO, WARNED, WORSE, WRONG
+from hexmend_app.theme.style import icon, on_theme_change, set_help
 
 _MAX_SHOWN = 700
 _MAX_KEPT = 100
@@ -34,7 +34,7 @@ class _Message:
 _KINDS = {
     "error": ("alert-circle", WORSE, WRONG),
     "warning": ("alert", AMBER, WARNED),
-    "info": ("information", BLUE, TOLD),
+    "info": ("information", BLUE, INFO),
 }
 _PRESSING = list(_KINDS)
 
@@ -83,7 +83,7 @@ class MessageBar(QFrame):
         self._next = QToolButton()
         self._next.setAutoRaise(True)
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        explain(self._next, "Next message", "Show the next of the messages that are waiting.")
+        set_help(self._next, "Next message", "Show the next of the messages that are waiting.")
         self._next.clicked.connect(self._show_next)
         self._copy, self._dismiss = QToolButton(), QToolButton()
         for button, picture, slot in (
@@ -94,8 +94,8 @@ class MessageBar(QFrame):
             button.setAutoRaise(True)
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(slot)
-        explain(self._copy, "Copy message", "Copy the whole message to the clipboard.")
-        explain(self._dismiss, "Dismiss message", "Dismiss this message (Esc).")
+        set_help(self._copy, "Copy message", "Copy the whole message to the clipboard.")
+        set_help(self._dismiss, "Dismiss message", "Dismiss this message (Esc).")
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
         self._escape.setEnabled(False)
         self._timer = QTimer(self)
@@ -119,7 +119,7 @@ class MessageBar(QFrame):
         self._choices.addStretch()
         layout.addLayout(self._choices, 2, 1, 1, 2)
         self.hide()
-        dress(self, self._paint)
+        on_theme_change(self, self._paint)
 
     def show_error(self, title: str, text: str = "", report: str = "") -> None:
         """Show what went wrong; it stays until dismissed. `report` is copied with it, for who is to mend it."""

@@ -1,4 +1,4 @@
-"""What OpenGL is drawn by in the program's windows, to be said before there are any."""
+"""OpenGL settings of the program's windows, made before the first window."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def choose_format() -> None:
     QSurfaceFormat.setDefaultFormat(chosen)
 
 
-def make_room(window: QWidget) -> None:
+def reserve_opengl(window: QWidget) -> None:
     """Have a window take OpenGL later: one made without it is taken down by Qt for that, and made anew on the screen.
 
     Parameters

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
 
-from hexmend_app.state.settings import place_of
+from hexmend_app.state.settings.settings import place_of
 
 _MARGIN = 8
 
@@ -68,7 +68,7 @@ class Overlay(QObject):
 
     @property
     def place(self) -> tuple[float, float]:
-        """Where it stands, as shares of the room beside it."""
+        """Position as shares of the free width and height."""
         return self._place
 
     def move_to(self, place: tuple[float, float]) -> None:
@@ -92,12 +92,12 @@ class Overlay(QObject):
     def fit(self) -> None:
         """Stand where it has to, as large as there is room for."""
         size = self._size()
-        room = self._room(size)
-        x, y = (round(_MARGIN + share * most) for share, most in zip(self._place, room, strict=True))
-        self._widget.setGeometry(self._beside_others(QRect(QPoint(x, y), size)))
+        space = self._space(size)
+        x, y = (round(_MARGIN + share * most) for share, most in zip(self._place, space, strict=True))
+        self._widget.setGeometry(self._next_to_others(QRect(QPoint(x, y), size)))
         self._widget.raise_()
 
-    def _beside_others(self, wanted: QRect) -> QRect:
+    def _next_to_others(self, wanted: QRect) -> QRect:
         """The place nearest to a wanted one, as high as there is room for, that leaves free what has to be."""
         bottom = self._over.height()
         taken = [(bottom, bottom)]
@@ -131,7 +131,7 @@ class Overlay(QObject):
             wanted.setHeight(widget.heightForWidth(width))
         return QSize(max(width, 1), max(min(wanted.height(), most.height()), 1))
 
-    def _room(self, size: QSize) -> tuple[int, int]:
+    def _space(self, size: QSize) -> tuple[int, int]:
         free = self._over.size() - size - QSize(2 * _MARGIN, 2 * _MARGIN)
         return max(free.width(), 0), max(free.height(), 0)
 
@@ -182,10 +182,10 @@ class Overlay(QObject):
 
     def _drag(self, at: QPointF) -> None:
         corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(_MARGIN, _MARGIN)
-        room = self._room(self._widget.size())
+        free_space = self._space(self._widget.size())
         here = corner.x(), corner.y()
         self.move_to(
-            tuple(was if most == 0 else x / most for x, most, was in zip(here, room, self._place, strict=True))
+            tuple(was if most == 0 else x / most for x, most, was in zip(here, free_space, self._place, strict=True))
         )
 
     def _keep(self) -> None:

@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QFrame
 
-from hexmend_app.scene.palette import LINE, MUTED, Role
-from hexmend_app.widgets.style import dress, smaller, tabular
+from hexmend_app.theme.palette import LINE, MUTED, Role
+from hexmend_app.theme.style import on_theme_change, smaller, tabular
 
 
 class CalmAxis(pg.AxisItem):
@@ -51,6 +51,6 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
     font = tabular(smaller(plot.font()))
     for axis in axes.values():
         axis.setTickFont(font)
-        dress(plot, axis.paint_lines)
-    dress(plot, plot.resetCachedContent)  # Qt keeps the panel behind it as a picture
+        on_theme_change(plot, axis.paint_lines)
+    on_theme_change(plot, plot.resetCachedContent)  # Qt keeps the panel behind it as a picture
     return plot

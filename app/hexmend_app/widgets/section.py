@@ -6,8 +6,8 @@ from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 from superqt import QCollapsible
 
-from hexmend_app.scene.palette import BLUE, HOVER, MUTED
-from hexmend_app.widgets.style import dress, explain, icon
+from hexmend_app.theme.palette import BLUE, HOVER, MUTED
+from hexmend_app.theme.style import icon, on_theme_change, set_help
 
 # Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
 _UNBOUNDED = (1 << 24) - 1
@@ -37,13 +37,13 @@ class Section(QCollapsible):
         inside.setMaximumHeight(0)
         self.setContent(inside)
         button = self.toggleButton()
-        dress(button, lambda: button.setStyleSheet(_sheet()))
-        explain(button, title, help)
+        on_theme_change(button, lambda: button.setStyleSheet(_sheet()))
+        set_help(button, title, help)
         self.toggled.connect(self._fit)
         self._fit(False)
 
     def minimumSizeHint(self) -> QSize:
-        """As wide as what is folded away needs: whatever is around keeps its width as it unfolds."""
+        """Return the width of the folded content too, so that the surroundings keep their width as it unfolds."""
         size = super().minimumSizeHint()
         return QSize(max(size.width(), self.content().minimumSizeHint().width()), size.height())
 

@@ -13,6 +13,7 @@ from hexmend.aliases import reads_old_names
 from hexmend.iteration import Outcome, Result
 from hexmend.quality import describe_regressions
 from hexmend.run.messages import kept_message
+from hexmend.terminal_text import count_phrase
 
 
 @reads_old_names
@@ -24,9 +25,9 @@ class Advice:
     ----------
     reason : str
         Reason of the end, as sentences, with the iteration that was kept if it is not the last.
-    left : str
+    state : str
         State of the mesh after the run, as sentences.
-    worse : str
+    regressions : str
         Figures that are worse than before the run, as a sentence; may be empty.
     locked, unlocked : (k,) int64
         Numbers, from 0, of the inverted hexes that no move of free nodes can repair, and of the other inverted ones.
@@ -42,8 +43,8 @@ class Advice:
     """
 
     reason: str
-    left: str
-    worse: str
+    state: str
+    regressions: str
     locked: np.ndarray
     unlocked: np.ndarray
     surface: str
@@ -69,20 +70,18 @@ def advise(result: Result) -> Advice:
     if result.outcome is Outcome.NOTHING_FREE:
         suggestions = [one for one in suggestions if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
-    no_suggestion = "" if untried else "No further suggestions."
-    fallen = describe_regressions(result.before, result.after)
-    limits, none = result.limits, np.empty(0, dtype=np.int64)
+    limits, none = result.active, np.empty(0, dtype=np.int64)
     return Advice(
         reason=_reason(now),
-        left=_left(now),
-        worse=fallen,
+        state=_state(now),
+        regressions=describe_regressions(result.before, result.after),
         locked=now.locked,
         unlocked=now.unlocked,
         surface="" if result.surface is None else result.surface.sentence,
         limiting=none if limits is None else np.unique(limits.hexes),
         locked_below=none if limits is None else limits.locked[~now.quality.inverted[limits.locked]],
         suggestions=tuple(suggestions),
-        no_suggestion=no_suggestion,
+        no_suggestion="" if untried else "No further suggestions.",
     )
 
 
@@ -98,7 +97,7 @@ def _end(now: Situation) -> str:
     still = f" The last one still moved a node by {move:.2g} mean edge lengths." if move > stop.tolerance else ""
     stage = result.stages[-1].stage
     many = sum(one.iterations for one in result.stages if one.stage == stage)
-    count = f"{many:,} iteration{'s' * (many != 1)}"
+    count = count_phrase(many, "iteration")
     if result.outcome is Outcome.CONVERGED and many:
         return (
             f"Converged: in the last of {count} no node moved further than {stop.tolerance:g} mean edge lengths."
@@ -116,48 +115,43 @@ def _end(now: Situation) -> str:
     return result.outcome.value
 
 
-def _left(now: Situation) -> str:
+def _state(now: Situation) -> str:
     """Describe the inverted hexes and why they are inverted; else the quality of the worst hex."""
     before, after = now.result.before, now.result.after
     if not after.inverted:
         done = " This is close to the best possible." if after.q_min >= 0.99 else ""
-        count = before.inverted
-        mended = f" {count:,} {'was' if count == 1 else 'were'} inverted at the start." if count else ""
+        mended = f" {count_phrase(before.inverted, 'was', 'were')} inverted at the start." if before.inverted else ""
         least = f"{after.q_min:.3f}"
-        if now.result.limits is not None:
+        if now.result.active is not None:
             least += f", the least scaled Jacobian is {after.scaled_jacobian_min:.4f}"
         return f"No hex is inverted; the worst has q = {least}.{mended}{done}"
-    words = [f"{after.inverted:,} of {after.hexes:,} hexes {'is' if after.inverted == 1 else 'are'} inverted."]
+    hexes = f"of {after.hexes:,} hexes"
+    words = [f"{count_phrase(after.inverted, f'{hexes} is', f'{hexes} are')} inverted."]
     if before.inverted != after.inverted:
-        words.append(f"{_inverted(before.inverted)} at the start.")
+        earlier = count_phrase(before.inverted, "was", "were") if before.inverted else "None was"
+        words.append(f"{earlier} at the start.")
     if now.locked.size:
         words.append(_locked(now))
     return " ".join(words)
 
 
-def _inverted(count: int) -> str:
-    return f"{count:,} {'was' if count == 1 else 'were'}" if count else "None was"
-
-
 def _locked(now: Situation) -> str:
-    many, one = now.locked.size, now.locked.size == 1
-    every = many == now.result.after.inverted
-    which = ("It is" if one else "All of them are") if every else f"{many:,} of them {'is' if one else 'are'}"
-    text = f"{which} locked: fixed nodes alone hold {'it' if one else 'them'} in inversion"
-    if now.result.surface is None:
-        freed = now.freed
-        if not freed:
-            text += f", and sliding alone does not free {'it' if one else 'them'}."
-            remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide:"
-            remedy += " it also moves nodes off the surface within the tolerance."
-        else:
-            text += ", and no method moves these unless the boundary slides: "
-            rest = f", {many - freed:,} cannot" if freed < many else ""
-            text += f"then {freed:,} can be freed by sliding alone{rest}."
-            remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
-    else:
-        text += f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
+    many = now.locked.size
+    them = "it" if many == 1 else "them"
+    which = count_phrase(many, "of them is", "of them are")
+    if many == now.result.after.inverted:
+        which = "It is" if many == 1 else "All of them are"
+    if now.result.surface is not None:
+        rest = f" where the boundary is fixed, and sliding has not freed these{' so far' * now.cut_short}."
         remedy = "" if now.cut_short else " Correct the boundary where the mesh was made."
-    if not now.pinned_nodes(now.locked).size:
-        text += remedy
-    return text
+    elif now.freed:
+        others = f", {many - now.freed:,} cannot" if now.freed < many else ""
+        rest = ", and no method moves these unless the boundary slides: "
+        rest += f"then {now.freed:,} can be freed by sliding alone{others}."
+        remedy = " Let it slide (boundary = slide), or correct it where the mesh was made."
+    else:
+        rest = f", and sliding alone does not free {them}."
+        remedy = " Correct the boundary where the mesh was made, or try mend with boundary = slide: it also moves nodes"
+        remedy += " off the surface within the tolerance."
+    text = f"{which} locked: fixed nodes alone hold {them} in inversion{rest}"
+    return text if now.pinned_nodes(now.locked).size else text + remedy

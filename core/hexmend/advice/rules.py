@@ -36,28 +36,19 @@ def unpin(now: Situation) -> Suggestion | None:
     pins = now.pinned_nodes(np.concatenate([now.locked, remaining]))
     if not pins.size:
         return None
-    one = pins.size == 1
-    return Suggestion(
-        "Unpin, then Mend",
-        f"Unpin {'the node' if one else f'the {pins.size:,} nodes'} of inverted hexes that "
-        f"{'is' if one else 'are'} fixed only by {'a pin' if one else 'pins'}, then run Mend, which can move "
-        f"{'it' if one else 'them'} then.",
-        "inverted",
-        Mend(**now.objective),
-        unpin=pins,
-    )
+    nodes, fixed, them = f"{pins.size:,} nodes", "are fixed only by pins", "them"
+    if pins.size == 1:
+        nodes, fixed, them = "node", "is fixed only by a pin", "it"
+    text = f"Unpin the {nodes} of inverted hexes that {fixed}, then run Mend, which can move {them} then."
+    return Suggestion("Unpin, then Mend", text, "inverted", Mend(**now.objective), unpin=pins)
 
 
 def untangle(now: Situation) -> Suggestion | None:
     """Suggest Mend for inverted hexes that are not locked, after another method."""
     if not now.unlocked.size or _is_mend(now):
         return None
-    return Suggestion(
-        "Mend",
-        "Run Mend: it untangles all hexes that the fixed nodes allow, more reliably than other methods.",
-        "inverted",
-        Mend(**now.objective),
-    )
+    text = "Run Mend: it untangles all hexes that the fixed nodes allow, more reliably than other methods."
+    return Suggestion("Mend", text, "inverted", Mend(**now.objective))
 
 
 def slide(now: Situation) -> Suggestion | None:
@@ -66,37 +57,27 @@ def slide(now: Situation) -> Suggestion | None:
         return None
     many = now.locked.size
     which = "The locked hex can" if many == 1 else f"{now.freed:,} of the {many:,} locked hexes can"
-    return Suggestion(
-        "Mend with sliding boundary",
+    text = (
         f"Run Mend with boundary = slide. {which} be freed where nodes of the boundary slide on its surface; where "
-        "that is not enough, Mend moves nodes off it within surface_tolerance.",
-        "inverted",
-        Mend(**now.objective, boundary="slide"),
+        "that is not enough, Mend moves nodes off it within surface_tolerance."
     )
+    return Suggestion("Mend with sliding boundary", text, "inverted", Mend(**now.objective, boundary="slide"))
 
 
 def undo_inversion(now: Situation) -> Suggestion | None:
     """Suggest a safe method after one that inverted hexes."""
     if now.result.before.inverted or not now.unlocked.size:
         return None
-    return Suggestion(
-        "Undo, then Smart Laplacian",
+    text = (
         "Undo the run, before which no hex was inverted, and run Smart Laplacian: it rejects every move that would "
-        "invert a hex.",
-        "inverted",
-        SmartLaplacian(),
-        undo=True,
+        "invert a hex."
     )
+    return Suggestion("Undo, then Smart Laplacian", text, "inverted", SmartLaplacian(), undo=True)
 
 
 def continue_run(now: Situation) -> Suggestion | None:
     """Suggest to continue an optimiser that was ended while it still improved the mesh."""
-    if (
-        not now.cut_short
-        or not now.smoother.optimises
-        or (now.unlocked.size and not _is_mend(now))
-        or not now.improving
-    ):
+    if not _still_optimises(now) or (now.unlocked.size and not _is_mend(now)):
         return None
     stop, more = larger_limits(now)
     stop, keeping = with_last_kept(now, stop)
@@ -118,44 +99,31 @@ def restart_longer(now: Situation) -> Suggestion | None:
     if not (limited and detours) or continue_run(now) is not None:
         return None
     stop, more = larger_limits(now)
-    return Suggestion(
-        "Undo, then the same with larger limits",
+    text = (
         f"Undo the run and start the same{more}: it ended before the worst corners had improved. In between the mesh "
-        "is worse for a while, and continuing from here would pass through that again.",
-        "inverted",
-        now.smoother,
-        stop,
-        undo=True,
+        "is worse for a while, and continuing from here would pass through that again."
     )
+    return Suggestion("Undo, then the same with larger limits", text, "inverted", now.smoother, stop, undo=True)
 
 
 def suggest_newton(now: Situation) -> Suggestion | None:
     """Suggest Mend for a slower optimiser that reached its limit."""
-    if not now.cut_short or not now.smoother.optimises or now.unlocked.size or _is_mend(now) or not now.improving:
+    if not _still_optimises(now) or now.unlocked.size or _is_mend(now):
         return None
-    return Suggestion(
-        "Mend",
-        f"Run Mend: its Newton steps go to the same optimum as {now.smoother.title} in far fewer iterations.",
-        now.aim,
-        Mend(**now.objective),
-    )
+    text = f"Run Mend: its Newton steps go to the same optimum as {now.smoother.title} in far fewer iterations."
+    return Suggestion("Mend", text, now.aim, Mend(**now.objective))
 
 
 def tighten_tolerance(now: Situation) -> Suggestion | None:
     """Suggest the usual tolerance for an optimiser that ended early under a larger one."""
-    usual = StoppingCriteria().tolerance
+    usual, own = StoppingCriteria().tolerance, now.stop.tolerance
     if now.result.outcome is not Outcome.CONVERGED or not now.smoother.optimises or now.unlocked.size:
         return None
-    if now.stop.tolerance <= usual or not now.improving:
+    if own <= usual or not now.improving:
         return None
     stop, keeping = with_last_kept(now, replace(now.stop, tolerance=usual))
-    return Suggestion(
-        "Tighter tolerance",
-        f"Run it once more with a tolerance of {usual:g} in place of {now.stop.tolerance:g}: it still gained.{keeping}",
-        now.aim,
-        now.smoother,
-        stop,
-    )
+    text = f"Run it once more with a tolerance of {usual:g} in place of {own:g}: it still gained.{keeping}"
+    return Suggestion("Tighter tolerance", text, now.aim, now.smoother, stop)
 
 
 def optimum(now: Situation) -> Suggestion | None:
@@ -163,38 +131,28 @@ def optimum(now: Situation) -> Suggestion | None:
     heuristic = not now.smoother.optimises and not isinstance(now.smoother, SequentialGETMe)
     if not (heuristic or now.result.outcome is Outcome.SUFFICIENT) or not _sound_below(now, PERFECT):
         return None
-    return Suggestion(
-        "Mend",
+    text = (
         "Run Mend: it moves the mesh to the optimum of the objective, where the worst hexes gain most; the mean may "
-        "fall a little.",
-        "objective",
-        Mend(**now.objective),
+        "fall a little."
     )
+    return Suggestion("Mend", text, "objective", Mend(**now.objective))
 
 
 def improve_worst(now: Situation) -> Suggestion | None:
     """Suggest a method for the worst hexes of an optimised mesh."""
-    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
+    if not _worst_can_gain(now):
         return None
-    return Suggestion(
-        "GETMe, sequential",
-        "Run sequential GETMe: it improves the worst hexes one by one and hardly changes the mean.",
-        "q_min",
-        SequentialGETMe(),
-    )
+    text = "Run sequential GETMe: it improves the worst hexes one by one and hardly changes the mean."
+    return Suggestion("GETMe, sequential", text, "q_min", SequentialGETMe())
 
 
 def raise_p(now: Situation) -> Suggestion | None:
     """Suggest a higher p, which improves the worst hexes of an optimised mesh."""
-    if not _at_an_optimum(now) or not _sound_below(now, GOOD) or now.max_p >= HIGH_P:
+    if not _worst_can_gain(now):
         return None
-    return Suggestion(
-        f"Mend, p up to {HIGH_P:g}",
-        f"Run Mend with p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean.",
-        "q_min",
-        Mend(**now.objective, max_p=HIGH_P),
-        StoppingCriteria(max_iterations=max(500, now.stop.max_iterations)),
-    )
+    text = f"Run Mend with p up to {HIGH_P:g}: it improves the worst hexes at the expense of the mean."
+    stop = StoppingCriteria(max_iterations=max(500, now.stop.max_iterations))
+    return Suggestion(f"Mend, p up to {HIGH_P:g}", text, "q_min", Mend(**now.objective, max_p=HIGH_P), stop)
 
 
 def guard(now: Situation) -> Suggestion | None:
@@ -202,14 +160,11 @@ def guard(now: Situation) -> Suggestion | None:
     before, after = now.result.before, now.result.after
     if not _is_mend(now) or now.smoother.guard or before.inverted or after.inverted or after.q_min >= before.q_min:
         return None
-    return Suggestion(
-        "Undo, then Mend with guard",
+    text = (
         f"Undo the run, in which q min fell from {before.q_min:.3f} to {after.q_min:.3f}, and run Mend with guard: it "
-        "keeps the best iteration that lowers neither q min nor the least scaled Jacobian.",
-        "q_min",
-        replace(now.smoother, guard=True),
-        undo=True,
+        "keeps the best iteration that lowers neither q min nor the least scaled Jacobian."
     )
+    return Suggestion("Undo, then Mend with guard", text, "q_min", replace(now.smoother, guard=True), undo=True)
 
 
 def regularise(now: Situation) -> Suggestion | None:
@@ -217,12 +172,8 @@ def regularise(now: Situation) -> Suggestion | None:
     if not now.unlocked.size or getattr(now.smoother, "delta", None) != 0 or now.smoother.delta_policy != "fixed":
         return None
     usual = type(now.smoother)().delta
-    return Suggestion(
-        f"δ = {usual:g}",
-        f"Run the same with δ = {usual:g}: with δ = 0 the energy of an inverted hex is infinite.",
-        "inverted",
-        replace(now.smoother, delta=usual),
-    )
+    text = f"Run the same with δ = {usual:g}: with δ = 0 the energy of an inverted hex is infinite."
+    return Suggestion(f"δ = {usual:g}", text, "inverted", replace(now.smoother, delta=usual))
 
 
 RULES: tuple[Rule, ...] = (
@@ -251,5 +202,11 @@ def _sound_below(now: Situation, quality: float) -> bool:
     return not now.unlocked.size and not now.locked.size and now.result.after.q_min < quality and now.worst_can_move
 
 
-def _at_an_optimum(now: Situation) -> bool:
-    return now.smoother.optimises and now.result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT)
+def _still_optimises(now: Situation) -> bool:
+    return now.cut_short and now.smoother.optimises and now.improving
+
+
+def _worst_can_gain(now: Situation) -> bool:
+    """Return True at an optimum of low p whose worst hex is not good."""
+    at_optimum = now.smoother.optimises and now.result.outcome in (Outcome.CONVERGED, Outcome.NO_DESCENT)
+    return at_optimum and _sound_below(now, GOOD) and now.max_p < HIGH_P

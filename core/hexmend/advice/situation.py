@@ -7,12 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.boundary import freed_by_sliding
-from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES
 from hexmend.iteration import Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure, objective
-from hexmend.quality.measure import locked
+from hexmend.quality.measure import locked_hexes
 from hexmend.smoothers import METHODS, Smoother
 
 #: Outcomes of runs that a limit or the user ended.
@@ -50,7 +49,7 @@ class Situation:
         self.smoother: Smoother = METHODS[last.method](**last.parameters)
         self.stop: StoppingCriteria = last.stop
         self.quality: ElementQuality = measure(self.mesh.points, self.mesh.hexes)
-        is_locked = locked(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
+        is_locked = locked_hexes(self.mesh.points, self.mesh.hexes, self.mesh.fixed, self.quality.inverted)
         self.locked = np.flatnonzero(is_locked)
         self.unlocked = np.flatnonzero(self.quality.inverted & ~is_locked)
 
@@ -77,9 +76,9 @@ class Situation:
     @property
     def aim(self) -> str:
         """Name of the figure that an optimiser improves; q_norm if the objective is infinite."""
-        if objective(self.quality, *self.smoother.power) is None:
+        if objective(self.quality, *self.smoother.norm) is None:
             return "q_norm"
-        return "objective" if self.smoother.power == SQUARES else "energy"
+        return "objective" if self.smoother.norm == SQUARES else "energy"
 
     @cached_property
     def improving(self) -> bool:
@@ -92,7 +91,7 @@ class Situation:
             return now["inverted"] < then["inverted"]
         same = now["objective_formula"] == then["objective_formula"]  # else they are of two objectives
         if same and now["objective"] is not None and then["objective"] is not None:
-            least = self.smoother.power.least * self.mesh.n_hexes
+            least = self.smoother.norm.cube_value * self.mesh.n_hexes
             return then["objective"] - now["objective"] > _MIN_RELATIVE_FALL * (then["objective"] - least)
         return now["q_mean"] > then["q_mean"] + _MIN_RISE
 
@@ -107,8 +106,7 @@ class Situation:
         """Number of the locked hexes that a sliding boundary can free."""
         which = np.zeros(self.mesh.n_hexes, dtype=bool)
         which[self.locked] = True
-        degrees = self.smoother.values().get("feature_angle", FEATURE_ANGLE)
-        return int(np.count_nonzero(freed_by_sliding(self.mesh, which, degrees)))
+        return int(np.count_nonzero(freed_by_sliding(self.mesh, which, self.smoother.feature_angle)))
 
     def pinned_nodes(self, hexes: np.ndarray) -> np.ndarray:
         """Return the nodes of hexes (k,) that only a pin fixes: their numbers in ascending order, (j,) int."""

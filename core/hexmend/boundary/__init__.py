@@ -5,9 +5,9 @@ from hexmend.boundary.band import Deviations
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of, classify
 from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees
 from hexmend.boundary.comparison import SkinSurface, SurfaceChange, mutual_distances, surface_change
-from hexmend.boundary.corner_detection import sliding_boundary
+from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.sliding import SlidingBoundary
-from hexmend.boundary.surface import Surface
+from hexmend.boundary.surface import PartitionedSurface
 from hexmend.boundary.unlocking import freed_by_sliding
 
 __all__ = [
@@ -16,15 +16,15 @@ __all__ = [
     "ClosestPoints",
     "Deviations",
     "NodeClass",
+    "PartitionedSurface",
     "SkinSurface",
     "SlidingBoundary",
-    "Surface",
     "SurfaceChange",
     "boundary_of",
+    "boundary_with_kept_corners",
     "classify",
     "freed_by_sliding",
     "mutual_distances",
-    "sliding_boundary",
     "surface_change",
 ]
 

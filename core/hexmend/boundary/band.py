@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary.comparison import SkinSurface
 
 #: Relative rounding error of a distance; also the smallest tolerance, as a share of the boundary's diagonal.
@@ -39,8 +41,26 @@ class Deviations:
     weights: np.ndarray
 
 
+class InitialDistances(NamedTuple):
+    """Distances of samples of a surface from the boundary before sliding.
+
+    Parameters
+    ----------
+    distances : (s,) float64
+        In the mesh's unit.
+    nodes : (s, 4) int
+        Boundary nodes whose weighted mean is the closest point.
+    weights : (s, 4) float64
+        Their weights.
+    """
+
+    distances: np.ndarray
+    nodes: np.ndarray
+    weights: np.ndarray
+
+
 class Band:
-    """Two-sided distance between a boundary and the surface on which it slides, against a tolerance.
+    """Two-sided distance between a boundary and the surface on which it slides, against a limit.
 
     Nodes of the boundary lie on the surface; its edges and faces deviate where the surface is curved.
 
@@ -54,17 +74,17 @@ class Band:
         Node positions before sliding, with the nodes on the surface.
     target : SkinSurface or None
         The surface; None if it is the original boundary.
-    tolerance : float
+    max_deviation : float
         Largest distance allowed, in the mesh's unit; 0 allows rounding only.
     """
 
     def __init__(
-        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, tolerance: float
+        self, points: np.ndarray, faces: np.ndarray, start: np.ndarray, target: SkinSurface | None, max_deviation: float
     ):
         self.points, self._faces, self._start, self._given = points, faces, start, target
         corners = points[faces.ravel()]
         size = float(np.linalg.norm(np.ptp(corners, axis=0))) if corners.size else 0.0
-        self.tolerance = max(tolerance, _ROUNDING * size)
+        self.max_deviation = max(max_deviation, _ROUNDING * size)
 
     @cached_property
     def skin(self) -> SkinSurface:
@@ -77,7 +97,7 @@ class Band:
         return self._given or self.skin
 
     @cached_property
-    def midpoints(self) -> np.ndarray:
+    def samples(self) -> np.ndarray:
         """Samples of the boundary, (s, 4) int: each is the mean of four nodes.
 
         They are the midpoints of edges (with each node twice) and of faces, then the nodes themselves.
@@ -85,11 +105,9 @@ class Band:
         nodes = np.tile(self.skin.nodes[:, None], 4)
         return np.concatenate([np.tile(self.skin.edges.nodes, 2), self._faces, nodes])
 
-    def midpoints_of(self, nodes: np.ndarray) -> np.ndarray:
-        """Find the samples of `midpoints` that move with some nodes (j,), as (k,) int64."""
-        moved = np.zeros(len(self.points), dtype=bool)
-        moved[nodes] = True
-        return np.flatnonzero(moved[self.midpoints].any(axis=1))
+    def samples_at(self, nodes: np.ndarray) -> np.ndarray:
+        """Find the samples of `samples` that move with some nodes (j,), as (k,) int64."""
+        return np.flatnonzero(mask(nodes, len(self.points))[self.samples].any(axis=1))
 
     def boundary_deviation(
         self, points: np.ndarray, indices: np.ndarray, limit: float | np.ndarray = 0.0
@@ -101,7 +119,7 @@ class Band:
         points : (n, 3) float64
             Node positions.
         indices : (k,) int64
-            Samples of `midpoints` to be examined.
+            Samples of `samples` to be examined.
         limit : float or (k,) float64
             In the mesh's unit; one for all samples, or one for each.
 
@@ -110,16 +128,14 @@ class Band:
         Deviations
         """
         limit = np.broadcast_to(limit, indices.shape)
-        moved = (points - self._start)[self.midpoints[indices]].mean(axis=1)
+        moved = (points - self._start)[self.samples[indices]].mean(axis=1)
         # A sample cannot be further away than it was at first plus its own move: no search for the others.
         near = self._initial_boundary_deviation[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
         indices, limit = indices[near], limit[near]
-        x = points[self.midpoints[indices]].mean(axis=1)
+        nodes = self.samples[indices]
+        x = points[nodes].mean(axis=1)
         closest = self.target.closest(x, max(float(limit.min(initial=np.inf)), 0.0))
-        distances, directions = _distance_and_direction(x, closest)
-        out = distances > limit
-        nodes = self.midpoints[indices[out]]
-        return Deviations(indices[out], distances[out], directions[out], nodes, np.full(nodes.shape, 0.25))
+        return _deviations_above(limit, indices, x, closest, nodes, np.full(nodes.shape, 0.25))
 
     def surface_deviation(
         self, points: np.ndarray, indices: np.ndarray | None = None, limit: float | np.ndarray = 0.0
@@ -140,22 +156,19 @@ class Band:
         Deviations
         """
         initial, nodes, weights = self.initial_surface_deviation
-        if indices is None:
-            indices = np.arange(len(initial))
+        indices = np.arange(len(initial)) if indices is None else indices
         limit = np.broadcast_to(limit, indices.shape)
         moved = np.einsum("sk,ski->si", weights[indices], (points - self._start)[nodes[indices]])
         near = initial[indices] + np.linalg.norm(moved, axis=1) > np.maximum(limit, 0.0)
         indices, limit = indices[near], limit[near]
         if not indices.size:
             return Deviations(indices, np.empty(0), np.empty((0, 3)), nodes[indices], weights[indices])
-        x = self._samples[indices]
+        x = self._target_samples[indices]
         enough = max(float(limit.min(initial=np.inf)), 0.0)
         closest, nodes, weights = self.skin.with_points(points).closest_on(x, enough)
-        distances, directions = _distance_and_direction(x, closest)
-        out = distances > limit
-        return Deviations(indices[out], distances[out], directions[out], nodes[out], weights[out])
+        return _deviations_above(limit, indices, x, closest, nodes, weights)
 
-    def outside_band(self, points: np.ndarray) -> np.ndarray:
+    def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
         """Find nodes at which the boundary is outside the band and further from the surface than at first.
 
         Where a sample of the surface is too far from the boundary, these are the nodes of the face closest to it now
@@ -171,43 +184,43 @@ class Band:
         (k,) int
             Numbers of nodes, ascending.
         """
-        if not np.isfinite(self.tolerance):
+        if not np.isfinite(self.max_deviation):
             return NO_NODES
         initial, nodes, _ = self.initial_surface_deviation
         boundary_limit = self._allowed(self._initial_boundary_deviation)
-        boundary = self.boundary_deviation(points, np.arange(len(self.midpoints)), boundary_limit)
+        boundary = self.boundary_deviation(points, np.arange(len(self.samples)), boundary_limit)
         surface = self.surface_deviation(points, limit=self._allowed(initial))
         return np.unique(np.concatenate([x.ravel() for x in (boundary.nodes, surface.nodes, nodes[surface.indices])]))
 
     def _allowed(self, initial: np.ndarray) -> np.ndarray:
-        return np.maximum(initial, self.tolerance) * (1 + _ROUNDING)
+        return np.maximum(initial, self.max_deviation) * (1 + _ROUNDING)
 
     @cached_property
-    def _samples(self) -> np.ndarray:
-        return self._start[self.midpoints].mean(axis=1) if self._given is None else self._given.samples()
+    def _target_samples(self) -> np.ndarray:
+        return self._start[self.samples].mean(axis=1) if self._given is None else self._given.samples()
 
     @cached_property
     def _initial_boundary_deviation(self) -> np.ndarray:
-        """Distance of `midpoints` from the surface before sliding, (s,)."""
+        """Distance of `samples` from the surface before sliding, (s,)."""
         if self._given is None:
-            return np.zeros(len(self.midpoints))
-        return self.target.distances(self._start[self.midpoints].mean(axis=1))
+            return np.zeros(len(self.samples))
+        return self.target.distances(self._start[self.samples].mean(axis=1))
 
     @cached_property
-    def initial_surface_deviation(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Distance of the surface's samples from the boundary before sliding, (s,), with what is closest to them.
-
-        The latter is given by boundary nodes, (s, 4) int, and their weights, (s, 4).
-        """
+    def initial_surface_deviation(self) -> InitialDistances:
+        """Distances of the surface's samples from the boundary before sliding."""
         if self._given is None:
-            return np.zeros(len(self.midpoints)), self.midpoints, np.full(self.midpoints.shape, 0.25)
-        x = self._samples
+            return InitialDistances(np.zeros(len(self.samples)), self.samples, np.full(self.samples.shape, 0.25))
+        x = self._target_samples
         closest, nodes, weights = self.skin.with_points(self._start).closest_on(x)
-        return np.linalg.norm(x - closest, axis=1), nodes, weights
+        return InitialDistances(np.linalg.norm(x - closest, axis=1), nodes, weights)
 
 
-def _distance_and_direction(x: np.ndarray, closest: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Distances (k,) of x (k, 3) from the closest points (k, 3), and unit vectors from these to x (k, 3)."""
-    difference = x - closest
-    distances = np.linalg.norm(difference, axis=1)
-    return distances, difference / np.maximum(distances, np.finfo(float).tiny)[:, None]
+def _deviations_above(
+    limit: np.ndarray, indices: np.ndarray, x: np.ndarray, closest: np.ndarray, nodes: np.ndarray, weights: np.ndarray
+) -> Deviations:
+    """Deviations of the samples x (k, 3) whose distance from the closest points (k, 3) exceeds a limit (k,)."""
+    distances = np.linalg.norm(x - closest, axis=1)
+    out = distances > limit
+    directions = (x - closest)[out] / np.maximum(distances[out], np.finfo(float).tiny)[:, None]
+    return Deviations(indices[out], distances[out], directions, nodes[out], weights[out])

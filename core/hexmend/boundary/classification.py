@@ -7,6 +7,8 @@ from enum import IntEnum
 
 import numpy as np
 
+from hexmend.aliases import old_keywords, reads_old_names
+from hexmend.arrays import mask
 from hexmend.boundary.edges import SurfaceEdges, chains
 from hexmend.boundary.features import (
     FEATURE_ANGLE,
@@ -32,6 +34,7 @@ class NodeClass(IntEnum):
     PATCH = 3
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Boundary:
     """Boundary divided into patches of faces, curves of feature edges, and corners.
@@ -40,7 +43,7 @@ class Boundary:
     ----------
     node_class : (n,) uint8
         `NodeClass` of each node.
-    part : (n,) int32
+    component : (n,) int32
         Number of the curve of a curve node or of the patch of a patch node, each from 0; -1 for other nodes.
     faces : (k, 4) or (k, 3) int32
         Nodes of each face, counter-clockwise from outside.
@@ -53,7 +56,7 @@ class Boundary:
     """
 
     node_class: np.ndarray
-    part: np.ndarray
+    component: np.ndarray
     faces: np.ndarray
     patch_of_face: np.ndarray
     segments: np.ndarray
@@ -74,9 +77,10 @@ class Boundary:
         return int(np.count_nonzero(self.node_class == node_class))
 
 
+@old_keywords("boundary_of")
 def boundary_of(
     mesh: Mesh,
-    degrees: float = FEATURE_ANGLE,
+    feature_angle: float = FEATURE_ANGLE,
     *,
     turn: float | None = None,
     whisker: float = WHISKER_FACTOR,
@@ -88,13 +92,13 @@ def boundary_of(
     Parameters
     ----------
     mesh : Mesh
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is a feature.
     turn : float, optional
-        Angle between successive segments beyond which a curve has a corner, in degrees; `degrees` by default.
+        Angle between successive segments beyond which a curve has a corner, in degrees; `feature_angle` by default.
     whisker : float
         Feature edges that end in the middle of a patch, or are isolated, are dropped if the sum of their dihedral
-        angles is less than this multiple of `degrees`; 0 keeps them all.
+        angles is less than this multiple of `feature_angle`; 0 keeps them all.
     sharp : (e, 2) int, optional
         Edges that are features whatever their angle. By default those that the mesh's file marks (Medit's Ridges and
         RequiredEdges, and edges at which references of Quadrilaterals change).
@@ -119,21 +123,14 @@ def boundary_of(
     """
     sharp = marked_edges(mesh) if sharp is None else sharp
     corners = marked_corners(mesh) if corners is None else corners
-    return classify(
-        mesh.points,
-        mesh.topology.boundary_faces,
-        degrees,
-        turn=turn,
-        whisker=whisker,
-        sharp=sharp,
-        corners=corners,
-    )
+    marks = {"sharp": sharp, "corners": corners}
+    return classify(mesh.points, mesh.topology.boundary_faces, feature_angle, turn=turn, whisker=whisker, **marks)
 
 
 def classify(
     points: np.ndarray,
     faces: np.ndarray,
-    degrees: float = FEATURE_ANGLE,
+    feature_angle: float = FEATURE_ANGLE,
     *,
     turn: float | None = None,
     whisker: float = WHISKER_FACTOR,
@@ -150,7 +147,7 @@ def classify(
     ----------
     points : (n, 3) float64
     faces : (k, 4) or (k, 3) int32
-    degrees, turn, whisker, sharp, corners
+    feature_angle, turn, whisker, sharp, corners
         See `boundary_of`; no edges and corners are given by default.
 
     Returns
@@ -164,15 +161,14 @@ def classify(
     """
     points = as_points(points)
     n = len(points)
-    faces, kept = as_faces(faces, n), np.zeros(n, dtype=bool)
-    kept[as_set([] if corners is None else corners, "corners", n)] = True
+    faces, kept = as_faces(faces, n), mask(as_set([] if corners is None else corners, "corners", n), n)
     edges = SurfaceEdges(faces, n)
     given = np.isin(edges.key, edges.keys_of(_edges([] if sharp is None else sharp, n)))
-    feature = feature_edges(points, edges, degrees, given, kept, whisker)
+    feature = feature_edges(points, edges, feature_angle, given, kept, whisker)
     segments = edges.nodes[feature]
     valence = np.bincount(segments.ravel(), minlength=n)
     corner = kept | ((valence != 2) & (valence != 0)) | (edges.fans > 1)
-    corner |= turning_angles(points, segments, ~corner & (valence == 2)) > (degrees if turn is None else turn)
+    corner |= turning_angles(points, segments, ~corner & (valence == 2)) > (feature_angle if turn is None else turn)
     curve_of_segment = chains(segments, corner)
     patch_of_face = components(len(faces), edges.neighbours[~feature & (edges.count == 2)])
 

@@ -13,7 +13,7 @@ from hexmend.mesh.fields import as_set
 from hexmend.mesh.validation import as_faces, as_points, points_like
 
 #: Squares of coordinates beyond this overflow.
-MAX_COORDINATE = 1e150
+MAX_CLOSEST_COORDINATE = 1e150
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +30,7 @@ class ClosestPoints:
         Barycentric coordinates of each with respect to the corners of its piece.
     """
 
-    places: np.ndarray
+    points: np.ndarray
     pieces: np.ndarray
     weights: np.ndarray
 
@@ -85,7 +85,7 @@ class ClosestPointTrees:
         closest_point.refit(points, self.pieces, self.links, other.boxes)
         return other
 
-    def closest(self, x: np.ndarray, group: np.ndarray, enough: float = 0.0) -> ClosestPoints:
+    def closest(self, x: np.ndarray, group: np.ndarray, stop_distance: float = 0.0) -> ClosestPoints:
         """Find the point of a group that is closest to each given point.
 
         Parameters
@@ -93,7 +93,7 @@ class ClosestPointTrees:
         x : (k, 3) float64
         group : (k,) int
             Group to be searched for each point.
-        enough : float
+        stop_distance : float
             The search ends at any point within this distance.
 
         Returns
@@ -110,11 +110,11 @@ class ClosestPointTrees:
         if len(group) != len(x):
             raise MeshError(f"there are {len(group)} groups: expected one for each of {len(x)} places")
         piece, places, weights = np.empty(len(x), dtype=np.int32), np.empty_like(x), np.empty_like(x)
-        closest_point.closest(self.box_trees, x, self.roots[group], enough, piece, places, weights)
+        closest_point.closest(self.box_trees, x, self.roots[group], stop_distance, piece, places, weights)
         if len(piece) and piece.min() < 0:
             wrong = x[np.flatnonzero(piece < 0)[0]].tolist()
             raise MeshError(
-                f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_COORDINATE:g}"
+                f"nothing is closest to the point {wrong}: expected finite numbers, below {MAX_CLOSEST_COORDINATE:g}"
             )
         return ClosestPoints(places, piece, weights)
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.aliases import old_keywords
 from hexmend.boundary.classification import boundary_of
-from hexmend.boundary.closest_point import ClosestPointTrees, triangulate
+from hexmend.boundary.closest_point import ClosestPoints, ClosestPointTrees, triangulate
 from hexmend.boundary.edges import SurfaceEdges
 from hexmend.boundary.features import FEATURE_ANGLE, dihedral_angles
 from hexmend.errors import MeshError
@@ -114,7 +115,8 @@ class SkinSurface:
         faces = as_faces(faces, len(points))
         self.points, self.faces, self.name = points, faces, name
         self.nodes, self.edges = np.unique(faces), SurfaceEdges(faces, len(points))
-        self._trees = _one_tree(points, faces)
+        vertices, triangles, _ = triangulate(points, faces)
+        self._trees = ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
 
     def with_points(self, points: np.ndarray) -> SkinSurface:
         """Return a surface of the same faces with other node positions (n, 3) float64."""
@@ -132,13 +134,13 @@ class SkinSurface:
         """Return the distance of each point x (k, 3) from the surface, (k,), in the mesh's unit."""
         return np.linalg.norm(self.closest(x) - x, axis=1)
 
-    def closest_on(self, x: np.ndarray, enough: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def closest_on(self, x: np.ndarray, stop_distance: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Find the points of the surface closest to x, with the nodes of their faces.
 
         Parameters
         ----------
         x : (k, 3) float64
-        enough : float
+        stop_distance : float
             The search ends at any point within this distance.
 
         Returns
@@ -149,19 +151,22 @@ class SkinSurface:
         weights : (k, 4) or (k, 3) float64
             Weights of these nodes, whose mean is the point.
         """
-        found = self._trees.closest(x, np.zeros(len(x), dtype=np.int64), enough)
+        found = self._found(x, stop_distance)
         pieces, width = self._trees.pieces[found.pieces], self.faces.shape[1]
         if width == 3:
-            return found.places, pieces, found.weights
+            return found.points, pieces, found.weights
         nodes = self.faces[pieces[:, 2] - len(self.points)]
         weights = np.repeat(found.weights[:, 2:] / width, width, axis=1)
         for end in range(2):
             weights += np.where(nodes == pieces[:, end, None], found.weights[:, end, None], 0.0)
-        return found.places, nodes, weights
+        return found.points, nodes, weights
 
-    def closest(self, x: np.ndarray, enough: float = 0.0) -> np.ndarray:
-        """Return the points of the surface closest to x (k, 3), or any within `enough`, (k, 3)."""
-        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), enough).places
+    def closest(self, x: np.ndarray, stop_distance: float = 0.0) -> np.ndarray:
+        """Return the points of the surface closest to x (k, 3), or any within `stop_distance`, (k, 3)."""
+        return self._found(x, stop_distance).points
+
+    def _found(self, x: np.ndarray, stop_distance: float) -> ClosestPoints:
+        return self._trees.closest(x, np.zeros(len(x), dtype=np.int64), stop_distance)
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
@@ -169,14 +174,12 @@ class SkinSurface:
         far = float(np.quantile(self.distances(mesh.surface_points[on]), 0.9)) / (mesh.mean_edge_length or 1.0)
         if far <= MAX_TARGET_DISTANCE:
             return
-        boxes = (
-            " x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0))
-            for x in (self.points[self.nodes], mesh.surface_points[on])
-        )
+        both = self.points[self.nodes], mesh.surface_points[on]
+        boxes = (" x ".join(f"{side:.3g}" for side in np.ptp(x, axis=0)) for x in both)
         raise MeshError(
             f"{self.name or 'the surface'}: one in ten nodes of the mesh's boundary is {far:.3g} mean edge lengths "
             f"or more from it: expected at most {MAX_TARGET_DISTANCE:g}. It measures {next(boxes)}, the boundary "
-            f"{next(boxes)}: scale or shift it if its unit or place is another, or name the surface of this mesh."
+            f"{next(boxes)}: scale or move it if its unit or position differs, or choose the surface of this mesh."
         )
 
     def volume(self) -> float:
@@ -186,24 +189,20 @@ class SkinSurface:
         return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
 
 
-def _one_tree(points: np.ndarray, faces: np.ndarray) -> ClosestPointTrees:
-    vertices, triangles, _ = triangulate(points, faces)
-    return ClosestPointTrees(vertices, triangles, np.zeros(len(triangles), dtype=np.int64))
-
-
 def mutual_distances(one: SkinSurface, other: SkinSurface) -> tuple[np.ndarray, np.ndarray]:
     """Return the distances of the first surface's samples from the second, (s,), and the reverse, (t,)."""
     return other.distances(one.samples()), one.distances(other.samples())
 
 
-def surface_change(before: Mesh, after: Mesh, degrees: float = FEATURE_ANGLE) -> SurfaceChange:
+@old_keywords("surface_change")
+def surface_change(before: Mesh, after: Mesh, feature_angle: float = FEATURE_ANGLE) -> SurfaceChange:
     """Measure the change of a mesh's boundary between two states.
 
     Parameters
     ----------
     before, after : Mesh
         Meshes with the same hexes. The original boundary is given by `before.surface_points`.
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is sharp.
 
     Returns
@@ -230,8 +229,8 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = FEATURE_ANGLE) ->
     new = old.with_points(after.points)
     both = mutual_distances(after.target or old, new)
     was, now = old.points[old.nodes], new.points[old.nodes]
-    sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, degrees).segments))
-    sharp &= dihedral_angles(old.points, old.edges) > degrees
+    sharp = np.isin(old.edges.key, old.edges.keys_of(boundary_of(before, feature_angle).segments))
+    sharp &= dihedral_angles(old.points, old.edges) > feature_angle
     volume = old.volume()
     return SurfaceChange(
         max_distance=float(max(one.max() for one in both)),
@@ -241,6 +240,6 @@ def surface_change(before: Mesh, after: Mesh, degrees: float = FEATURE_ANGLE) ->
         volume_change=(new.volume() - volume) / volume if volume else 0.0,
         moved=int(np.count_nonzero(np.linalg.norm(now - was, axis=1) > _MOVE_TOLERANCE * before.mean_edge_length)),
         features=int(np.count_nonzero(sharp)),
-        features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > degrees))),
+        features_kept=int(np.count_nonzero(sharp & (dihedral_angles(new.points, new.edges) > feature_angle))),
         reference="" if after.target is None else after.target.name or "the surface",
     )

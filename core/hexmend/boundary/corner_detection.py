@@ -5,20 +5,21 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass, boundary_of
+from hexmend.boundary.edges import edge_keys
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import corner_determinants
 
 
-def sliding_boundary(mesh: Mesh, degrees: float = FEATURE_ANGLE) -> Boundary:
+def boundary_with_kept_corners(mesh: Mesh, feature_angle: float = FEATURE_ANGLE) -> Boundary:
     """Classify the original boundary of a mesh for sliding, with `bend_corners` as corners.
 
     Parameters
     ----------
     mesh : Mesh
         Its `surface_points` define the original boundary.
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
     Returns
@@ -26,11 +27,11 @@ def sliding_boundary(mesh: Mesh, degrees: float = FEATURE_ANGLE) -> Boundary:
     Boundary
     """
     original = mesh.with_points(mesh.surface_points)
-    boundary = boundary_of(original, degrees)
+    boundary = boundary_of(original, feature_angle)
     corners = bend_corners(original, boundary)
     if not corners.size:
         return boundary
-    return boundary_of(original, degrees, corners=np.concatenate([marked_corners(mesh), corners]))
+    return boundary_of(original, feature_angle, corners=np.concatenate([marked_corners(mesh), corners]))
 
 
 def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:
@@ -51,14 +52,10 @@ def bend_corners(mesh: Mesh, boundary: Boundary) -> np.ndarray:
         Numbers of nodes, ascending.
     """
     hexes, sides = np.nonzero(mesh.topology.face_neighbours < 0)
-    ahead = _keys(boundary.faces, np.roll(boundary.faces, -1, axis=1), mesh.n_nodes)
-    on_curve = np.isin(ahead, _keys(*boundary.segments.T, mesh.n_nodes))
+    sides_ahead = np.stack([boundary.faces, np.roll(boundary.faces, -1, axis=1)], axis=-1)
+    on_curve = np.isin(edge_keys(sides_ahead, mesh.n_nodes), edge_keys(boundary.segments, mesh.n_nodes))
     at = on_curve & np.roll(on_curve, 1, axis=1) & (boundary.node_class[boundary.faces] == NodeClass.CURVE)
     face, place = np.nonzero(at)
     sigma = corner_determinants(mesh.points, mesh.hexes, hexes[face])
     corner = FACES[sides[face], place]
     return np.unique(boundary.faces[face, place][sigma[np.arange(face.size), corner] > 0])
-
-
-def _keys(one: np.ndarray, other: np.ndarray, n: int) -> np.ndarray:
-    return np.minimum(one, other).astype(np.int64) * n + np.maximum(one, other)

@@ -18,12 +18,13 @@ from hexmend.quality import METRICS, ElementQuality, HexQuantity
 #: Changes of q, and displacements in mean edge lengths, up to this are rounding errors.
 ROUNDING = 1e-9
 
-_MOVED = "of where each node is and where it was, in mean edge lengths of the mesh as it was opened"
+_UNIT = "mean edge lengths"
+_MOVED = f"of where each node is and where it was, in {_UNIT} of the mesh as it was opened"
 
 
 @dataclass(frozen=True, kw_only=True)
 class DisplacementQuantity(HexQuantity):
-    """Quantity of every hex that compares two states of one mesh.
+    """Quantity of every hex that compares two states of one mesh; by default a distance.
 
     Parameters
     ----------
@@ -38,10 +39,12 @@ class DisplacementQuantity(HexQuantity):
     label: str
     since: str
     of: Callable[[Displacement], np.ndarray]
-
-
-def _moved(movement: Displacement, of_corners: Callable[..., None]) -> np.ndarray:
-    return _of_nodes(movement, movement.distances, of_corners)
+    source: str = "Hexmend"
+    full_range: tuple[float, float] = (0.0, np.inf)
+    acceptable: tuple[float, float] = (0.0, np.inf)
+    better: int = 0
+    meaning: str = "Where the mesh has changed."
+    unit: str = _UNIT
 
 
 def _of_nodes(movement: Displacement, distances: np.ndarray, of_corners: Callable[..., None]) -> np.ndarray:
@@ -51,68 +54,49 @@ def _of_nodes(movement: Displacement, distances: np.ndarray, of_corners: Callabl
     return values
 
 
+_QUANTITIES = (
+    DisplacementQuantity(
+        name="moved-most",
+        title="Largest displacement",
+        label="Displacement",
+        since=f"{_UNIT} moved",
+        formula=f"greatest distance, over the nodes of a hex, {_MOVED}",
+        of=lambda movement: _of_nodes(movement, movement.distances, corner_values.largest),
+    ),
+    DisplacementQuantity(
+        name="moved-mean",
+        title="Mean displacement",
+        label="Mean displacement",
+        since=f"{_UNIT} moved on average",
+        formula=f"mean distance, over the nodes of a hex, {_MOVED}",
+        of=lambda movement: _of_nodes(movement, movement.distances, corner_values.mean),
+    ),
+    DisplacementQuantity(
+        name="q-change",
+        title="Change of q(H)",
+        label="Δq",
+        since="change of q(H)",
+        formula="q(H) now, less q(H) then",
+        full_range=(-1.0, 1.0),
+        acceptable=(-np.inf, np.inf),
+        better=1,
+        meaning="Which hexes have paid for what others have gained.",
+        unit="",
+        of=lambda movement: movement.quality.q - movement.before.quality.q,
+    ),
+    DisplacementQuantity(
+        name="surface-distance",
+        title="Distance from the surface",
+        label="Off surface",
+        since=f"{_UNIT} off the surface",
+        formula="greatest distance, over the boundary nodes of a hex, from the boundary as it was, "
+        f"in {_UNIT} of the mesh as it was opened",
+        meaning="Where a boundary that slides has left the surface.",
+        of=lambda movement: _of_nodes(movement, movement.off_surface, corner_values.largest),
+    ),
+)
 #: Displacement quantities by name.
-DISPLACEMENT_QUANTITIES: dict[str, DisplacementQuantity] = {
-    one.name: one
-    for one in (
-        DisplacementQuantity(
-            name="moved-most",
-            title="Largest displacement",
-            label="Displacement",
-            since="mean edge lengths moved",
-            formula=f"greatest distance, over the nodes of a hex, {_MOVED}",
-            source="Hexmend",
-            full_range=(0.0, np.inf),
-            acceptable=(0.0, np.inf),
-            better=0,
-            meaning="Where the mesh has changed.",
-            unit="mean edge lengths",
-            of=lambda movement: _moved(movement, corner_values.largest),
-        ),
-        DisplacementQuantity(
-            name="moved-mean",
-            title="Mean displacement",
-            label="Mean displacement",
-            since="mean edge lengths moved on average",
-            formula=f"mean distance, over the nodes of a hex, {_MOVED}",
-            source="Hexmend",
-            full_range=(0.0, np.inf),
-            acceptable=(0.0, np.inf),
-            better=0,
-            meaning="Where the mesh has changed.",
-            unit="mean edge lengths",
-            of=lambda movement: _moved(movement, corner_values.mean),
-        ),
-        DisplacementQuantity(
-            name="q-change",
-            title="Change of q(H)",
-            label="Δq",
-            since="change of q(H)",
-            formula="q(H) now, less q(H) then",
-            source="Hexmend",
-            full_range=(-1.0, 1.0),
-            acceptable=(-np.inf, np.inf),
-            better=1,
-            meaning="Which hexes have paid for what others have gained.",
-            of=lambda movement: movement.quality.q - movement.before.quality.q,
-        ),
-        DisplacementQuantity(
-            name="surface-distance",
-            title="Distance from the surface",
-            label="Off surface",
-            since="mean edge lengths off the surface",
-            formula="greatest distance, over the boundary nodes of a hex, from the boundary as it was, in mean edge "
-            "lengths of the mesh as it was opened",
-            source="Hexmend",
-            full_range=(0.0, np.inf),
-            acceptable=(0.0, np.inf),
-            better=0,
-            meaning="Where a boundary that slides has left the surface.",
-            unit="mean edge lengths",
-            of=lambda movement: _of_nodes(movement, movement.off_surface, corner_values.largest),
-        ),
-    )
-}
+DISPLACEMENT_QUANTITIES = {one.name: one for one in _QUANTITIES}
 
 #: Values of `Displacement.inversion_changes`, in the order of the legend of `q-change`.
 NEWLY_INVERTED, STILL_INVERTED, MENDED = 1, 2, 3
@@ -140,13 +124,13 @@ class ReferenceState:
     points: np.ndarray
     quality: ElementQuality
     name: str
-    _skins: dict[str, SkinSurface] = field(default_factory=dict)
+    _skins: list[SkinSurface] = field(default_factory=list)
 
     def skin(self, mesh: Mesh) -> SkinSurface:
         """Return the boundary of the mesh in this state; it is built once."""
-        if "whole" not in self._skins:
-            self._skins["whole"] = SkinSurface(self.points, mesh.topology.boundary_faces)
-        return self._skins["whole"]
+        if not self._skins:
+            self._skins.append(SkinSurface(self.points, mesh.topology.boundary_faces))
+        return self._skins[0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,19 +205,19 @@ class Displacement:
     @cached_property
     def counts(self) -> DisplacementCounts:
         """Counts of moved nodes and changed hexes."""
-        distances = self.distances / self.unit
+        distances, change, inversion = self.distances / self.unit, self.values("q-change"), self.inversion_changes
         moved = distances > ROUNDING
-        change = self.values("q-change")
-        return DisplacementCounts(
-            int(np.count_nonzero(moved)),
-            int(np.count_nonzero(moved & self.mesh.topology.boundary)),
-            float(distances[moved].mean()) if moved.any() else 0.0,
-            float(distances.max(initial=0.0)),
-            int(np.count_nonzero(change > ROUNDING)),
-            int(np.count_nonzero(change < -ROUNDING)),
-            int(np.count_nonzero(self.inversion_changes == NEWLY_INVERTED)),
-            int(np.count_nonzero(self.inversion_changes == MENDED)),
-        )
+        mean, largest = float(distances[moved].mean()) if moved.any() else 0.0, float(distances.max(initial=0.0))
+        counts = {
+            "moved": moved,
+            "slid": moved & self.mesh.topology.boundary,
+            "better": change > ROUNDING,
+            "worse": change < -ROUNDING,
+            "newly_inverted": inversion == NEWLY_INVERTED,
+            "mended": inversion == MENDED,
+        }
+        counts = {name: int(np.count_nonzero(marks)) for name, marks in counts.items()}
+        return DisplacementCounts(mean=mean, largest=largest, **counts)
 
 
 @dataclass(frozen=True)

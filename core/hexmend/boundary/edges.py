@@ -49,8 +49,7 @@ class SurfaceEdges:
 
     def keys_of(self, edges: np.ndarray) -> np.ndarray:
         """Return the unique number of each edge (m, 2), whatever its direction, (m,) int64."""
-        edges = np.sort(np.asarray(edges, dtype=np.int64), axis=1)
-        return edges[:, 0] * self.n + edges[:, 1]
+        return edge_keys(edges, self.n)
 
     @cached_property
     def fans(self) -> np.ndarray:
@@ -77,6 +76,31 @@ class SurfaceEdges:
         return np.bincount(self.faces.ravel()[representative], minlength=self.n)
 
 
+def edge_keys(edges: np.ndarray, n: int) -> np.ndarray:
+    """Return the unique number of each edge (..., 2) of n nodes, whatever its direction, (...) int64."""
+    edges = np.sort(np.asarray(edges, dtype=np.int64), axis=-1)
+    return edges[..., 0] * n + edges[..., 1]
+
+
+def segment_pairs(segments: np.ndarray, between: np.ndarray) -> np.ndarray:
+    """Find the two segments that meet at each of some nodes, in the order of the nodes.
+
+    Parameters
+    ----------
+    segments : (s, 2) int32
+    between : (n,) bool
+        True for nodes at which exactly two segments meet.
+
+    Returns
+    -------
+    (j, 2) int64
+        Ends of segments, numbered as `segments.ravel()`: end e is that of segment e // 2, whose other end is e ^ 1.
+    """
+    ends = segments.ravel()
+    at = np.flatnonzero(between[ends])
+    return at[np.argsort(ends[at], kind="stable")].reshape(-1, 2)
+
+
 def chains(segments: np.ndarray, ends: np.ndarray) -> np.ndarray:
     """Group segments into chains that run through nodes at which no chain ends.
 
@@ -91,7 +115,4 @@ def chains(segments: np.ndarray, ends: np.ndarray) -> np.ndarray:
     (s,) int32
         Chain number of each segment, from 0.
     """
-    through = ~ends[segments.ravel()]
-    at = np.flatnonzero(through)
-    met = at[np.argsort(segments.ravel()[at], kind="stable")] // 2
-    return components(len(segments), met.reshape(-1, 2))
+    return components(len(segments), segment_pairs(segments, ~ends) // 2)

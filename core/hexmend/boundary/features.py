@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary.edges import SurfaceEdges, chains
+from hexmend.boundary.edges import SurfaceEdges, chains, segment_pairs
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
 
@@ -18,7 +18,7 @@ _MIN_AREA_RATIO = 1e-6
 
 
 def feature_edges(
-    points: np.ndarray, edges: SurfaceEdges, degrees: float, given: np.ndarray, kept: np.ndarray, whisker: float
+    points: np.ndarray, edges: SurfaceEdges, feature_angle: float, given: np.ndarray, kept: np.ndarray, whisker: float
 ) -> np.ndarray:
     """Find the feature edges of a surface.
 
@@ -26,7 +26,7 @@ def feature_edges(
     ----------
     points : (n, 3) float64
     edges : SurfaceEdges
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is a feature.
     given : (e,) bool
         Edges that are features whatever their angle.
@@ -41,8 +41,8 @@ def feature_edges(
     """
     certain = given | (edges.count != 2)
     angle = dihedral_angles(points, edges)
-    feature = certain | (angle > degrees)
-    weight = np.where(certain, np.inf, angle / max(degrees, np.finfo(float).tiny))
+    feature = certain | (angle > feature_angle)
+    weight = np.where(certain, np.inf, angle / max(feature_angle, np.finfo(float).tiny))
     while True:
         chosen = np.flatnonzero(feature)
         segments = edges.nodes[chosen]
@@ -84,11 +84,9 @@ def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
 
 def turning_angles(points: np.ndarray, segments: np.ndarray, between: np.ndarray) -> np.ndarray:
     """Angles by which curves turn at nodes `between` (n,) bool two segments, in degrees, 0 elsewhere; (n,) float64."""
-    ends = segments.ravel()
-    at = np.flatnonzero(between[ends])
-    at = at[np.argsort(ends[at], kind="stable")].reshape(-1, 2)
-    node = ends[at[:, 0]]
-    before, after = points[node] - points[ends[at[:, 0] ^ 1]], points[ends[at[:, 1] ^ 1]] - points[node]
+    ends, (first, second) = segments.ravel(), segment_pairs(segments, between).T
+    node = ends[first]
+    before, after = points[node] - points[ends[first ^ 1]], points[ends[second ^ 1]] - points[node]
     across = np.linalg.norm(np.cross(before, after), axis=1)
     angle = np.zeros(len(points))
     angle[node] = np.degrees(np.arctan2(across, np.einsum("ij,ij->i", before, after)))

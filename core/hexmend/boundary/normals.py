@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.boundary.classification import Boundary, NodeClass
+from hexmend.boundary.edges import segment_pairs
 
 
 def triangle_normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -64,9 +65,7 @@ def curve_tangents(points: np.ndarray, boundary: Boundary) -> np.ndarray:
     """
     own = segment_tangents(points, boundary.segments)
     tangents = np.repeat(own[:, None], 2, axis=1)
-    ends = boundary.segments.ravel()
-    at = np.flatnonzero(boundary.node_class[ends] == NodeClass.CURVE)
-    at = at[np.argsort(ends[at], kind="stable")].reshape(-1, 2)
+    ends, at = boundary.segments.ravel(), segment_pairs(boundary.segments, boundary.node_class == NodeClass.CURVE)
     chord = unit_vectors(points[ends[at[:, 1] ^ 1]] - points[ends[at[:, 0] ^ 1]])
     for end in at.T:
         along = np.where(np.einsum("ij,ij->i", chord, own[end // 2]) < 0, -1.0, 1.0)

@@ -7,14 +7,16 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.aliases import reads_old_names
+from hexmend.arrays import index_of
 from hexmend.boundary.band import NO_NODES, Band
 from hexmend.boundary.classification import NodeClass, classify
-from hexmend.boundary.closest_point import MAX_COORDINATE, ClosestPoints, triangulate
+from hexmend.boundary.closest_point import MAX_CLOSEST_COORDINATE, ClosestPoints, triangulate
 from hexmend.boundary.comparison import MAX_TARGET_DISTANCE
-from hexmend.boundary.corner_detection import sliding_boundary
+from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
 from hexmend.boundary.normals import unit_vectors, vertex_normals
-from hexmend.boundary.surface import Surface
+from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
 from hexmend.mesh.mesh import Mesh
@@ -26,6 +28,7 @@ from hexmend.mesh.validation import as_points, points_like
 _INTERIOR_WEIGHT = 1e-3
 
 
+@reads_old_names
 class SlidingBoundary(Band):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
 
@@ -35,9 +38,9 @@ class SlidingBoundary(Band):
     ----------
     mesh : Mesh
         Nodes slide on its `target`, or else on the boundary that its `surface_points` define.
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
-    tolerance : float
+    max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
 
     Attributes
@@ -54,13 +57,13 @@ class SlidingBoundary(Band):
         Sliding nodes, ascending.
     """
 
-    def __init__(self, mesh: Mesh, degrees: float = FEATURE_ANGLE, tolerance: float = np.inf):
-        self.boundary = sliding_boundary(mesh, degrees)
+    def __init__(self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf):
+        self.boundary = boundary_with_kept_corners(mesh, feature_angle)
         target, start = mesh.target, mesh.surface_points
         if target is None:
-            self.surface = Surface(start, self.boundary)
+            self.surface = PartitionedSurface(start, self.boundary)
         else:
-            whole = Surface(target.points, classify(target.points, target.faces, degrees))
+            whole = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
             self.surface = whole.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
         self.node_class = self.surface.node_class
         slides = self.node_class >= NodeClass.CURVE
@@ -68,11 +71,10 @@ class SlidingBoundary(Band):
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
         self._group = self.surface.group_of(self.nodes)
-        self._number = np.full(mesh.n_nodes, -1, dtype=np.int64)
-        self._number[self.nodes] = np.arange(self.nodes.size)
+        self._number = index_of(self.nodes, mesh.n_nodes)
         if target is not None:
-            start, mesh = self._projected(start), mesh.with_points(self._projected(mesh.points))
-        super().__init__(mesh.surface_points, self.boundary.faces, start, target, tolerance)
+            start, mesh = self.projected(start), mesh.with_points(self.projected(mesh.points))
+        super().__init__(mesh.surface_points, self.boundary.faces, start, target, max_deviation)
         self.mesh = mesh.with_fixed(mesh.fixed & ~slides)
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
@@ -98,7 +100,13 @@ class SlidingBoundary(Band):
         MeshError
             For coordinates that are not finite or are too large.
         """
-        return self._closest(x, nodes).places
+        return self._closest(x, nodes).points
+
+    def projected(self, points: np.ndarray) -> np.ndarray:
+        """Return a copy of the points of all nodes, (n, 3), with the sliding nodes projected as by `project`."""
+        points = points.copy()
+        points[self.nodes] = self.project(points[self.nodes])
+        return points
 
     def tangent_bases(self, x: np.ndarray, nodes: np.ndarray | None = None) -> np.ndarray:
         """Compute orthonormal directions in which sliding nodes may move.
@@ -140,13 +148,12 @@ class SlidingBoundary(Band):
     def sliding_surface(self) -> kernels.SlidingSurface:
         """The curves, patches and boundary quads as the kernels of methods take them."""
         trees, faces = self.surface.trees, self.boundary.faces
-        slots = self._number.astype(np.int32)
-        at = slots[faces.ravel()]
+        at = self._number[faces.ravel()]
         order = np.argsort(at, kind="stable")
         quads_at = order[np.searchsorted(at[order], 0) :].astype(np.int32)
         start = np.searchsorted(at[quads_at], np.arange(self.nodes.size + 1)).astype(np.int32)
         quads = kernels.BoundaryQuads(start, quads_at, faces, self.outward)
-        return kernels.SlidingSurface(slots, trees.roots[self._group], trees.box_trees, quads)
+        return kernels.SlidingSurface(self._number, trees.roots[self._group], trees.box_trees, quads)
 
     @cached_property
     def outward(self) -> np.ndarray:
@@ -187,7 +194,7 @@ class SlidingBoundary(Band):
         """
         before, after = (points_like(points, self.mesh.points.shape) for points in (before, after))
         found = np.empty(len(self.boundary.faces), dtype=bool)
-        kernels.newly_inverted(before, after, self.boundary.faces, self.outward, found)
+        kernels.flipped_quads(before, after, self.boundary.faces, self.outward, found)
         return np.flatnonzero(found)
 
     def rejected_nodes(self, before: np.ndarray, after: np.ndarray) -> np.ndarray:
@@ -199,7 +206,7 @@ class SlidingBoundary(Band):
             Node positions.
         """
         flipped = self.boundary.faces[self.flipped_quads(before, after)].ravel()
-        return np.union1d(flipped, self.outside_band(after))
+        return np.union1d(flipped, self.nodes_outside_band(after))
 
     def reject_flips(self, before: np.ndarray, after: np.ndarray, exempt: np.ndarray | None = None) -> np.ndarray:
         """Undo the moves of nodes whose quads a step flips, until none is flipped.
@@ -242,24 +249,19 @@ class SlidingBoundary(Band):
         """
         return _undone(before, after, lambda points: np.union1d(self.rejected_nodes(before, points), harmed(points)))
 
-    def _projected(self, points: np.ndarray) -> np.ndarray:
-        points = points.copy()
-        points[self.nodes] = self.project(points[self.nodes])
-        return points
-
     def _closest(self, x: np.ndarray, nodes: np.ndarray | None) -> ClosestPoints:
         x = as_points(x, "places of sliding nodes")
         try:
             return self.surface.trees.closest(x, self._group if nodes is None else self._group[self._number[nodes]])
         except MeshError:
-            far = np.flatnonzero(~(np.abs(x) < MAX_COORDINATE).all(axis=1))
+            far = np.flatnonzero(~(np.abs(x) < MAX_CLOSEST_COORDINATE).all(axis=1))
             if not far.size:
                 raise
             row = far[0]
             node = int((self.nodes if nodes is None else nodes)[row])
             raise MeshError(
                 f"node {node} cannot slide: no place of the surface is closest to {x[row].tolist()}; expected finite "
-                f"coordinates below {MAX_COORDINATE:g}. Correct its place, or pin it."
+                f"coordinates below {MAX_CLOSEST_COORDINATE:g}. Correct its place, or pin it."
             ) from None
 
 

@@ -15,7 +15,7 @@ from hexmend.errors import MeshError
 _MIN_MEAN_NORMAL = 1e-6
 
 
-class Surface:
+class PartitionedSurface:
     """Surface of a boundary: triangles in patches and segments in curves.
 
     Quads are divided into four triangles around their centres. Normals of patches and tangents of curves are
@@ -41,7 +41,7 @@ class Surface:
     >>> from hexmend.boundary import boundary_of
     >>> cube = make("cube", size=27)
     >>> boundary = boundary_of(cube)
-    >>> surface = Surface(cube.points, boundary)
+    >>> surface = PartitionedSurface(cube.points, boundary)
     >>> sliding = np.flatnonzero(boundary.node_class == NodeClass.PATCH)
     >>> found = surface.trees.closest(cube.points[sliding] + 0.1, surface.group_of(sliding))
     >>> sorted(set(np.abs(surface.directions(found)).sum(axis=1).tolist()))
@@ -49,19 +49,17 @@ class Surface:
     """
 
     def __init__(self, points: np.ndarray, boundary: Boundary):
-        self.node_class, self.part = boundary.node_class, boundary.part
+        self.node_class, self.component = boundary.node_class, boundary.component
         self.n_patches, self.n_curves = boundary.n_patches, boundary.n_curves
         vertices, triangles, face = triangulate(points, boundary.faces)
         patch, segments = boundary.patch_of_face[face], boundary.segments
-        self.trees = ClosestPointTrees(
-            vertices,
-            np.concatenate([triangles, segments[:, [0, 1, 1]]]),
-            np.concatenate([patch, self.n_patches + boundary.curve_of_segment]),
-        )
+        pieces = np.concatenate([triangles, segments[:, [0, 1, 1]]])
+        group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])
+        self.trees = ClosestPointTrees(vertices, pieces, group)
         flat = triangle_normals(vertices, triangles), segment_tangents(points, segments)
         smooth = vertex_normals(vertices, triangles, patch), curve_tangents(points, boundary)[:, [0, 1, 1]]
         self._flat, self._smooth = (np.concatenate(both)[self.trees.order] for both in (flat, smooth))
-        self._group = np.concatenate([patch, self.n_patches + boundary.curve_of_segment])[self.trees.order]
+        self._group = group[self.trees.order]
 
     def group_of(self, nodes: np.ndarray) -> np.ndarray:
         """Return the group of `trees` on which each of some nodes slides.
@@ -84,7 +82,7 @@ class Surface:
         if len(stays):
             node, name = int(np.asarray(nodes)[stays[0]]), NodeClass(node_class[stays[0]]).name
             raise MeshError(f"node {node} (counted from 0) is of kind {name}: expected CURVE or PATCH, which slide")
-        return self.part[nodes] + np.where(node_class == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
+        return self.component[nodes] + np.where(node_class == NodeClass.CURVE, np.int32(self.n_patches), np.int32(0))
 
     def directions(self, found: ClosestPoints, smooth: bool = True) -> np.ndarray:
         """Compute normals of patches and tangents of curves at closest points.
@@ -108,7 +106,7 @@ class Surface:
         size = np.linalg.norm(mean, axis=1, keepdims=True)
         return np.where(size > _MIN_MEAN_NORMAL, mean / np.maximum(size, _MIN_MEAN_NORMAL), flat)
 
-    def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> Surface:
+    def attached(self, points: np.ndarray, boundary: Boundary, reach: float = np.inf) -> PartitionedSurface:
         """Return this surface for the nodes of another boundary, which slide on its nearest curves and patches.
 
         Curve nodes without a curve within a quarter of `reach` slide on patches; nodes without a patch within `reach`
@@ -132,18 +130,16 @@ class Surface:
         nearest = ClosestPointTrees(self.trees.points, self.trees.pieces, curve.astype(np.int32))
         if not self.n_curves:
             node_class[node_class == NodeClass.CURVE] = NodeClass.PATCH
-        for of, other, most in (
-            (NodeClass.CURVE, NodeClass.PATCH, reach / 4),
-            (NodeClass.PATCH, NodeClass.CORNER, reach),
-        ):
+        steps = (NodeClass.CURVE, NodeClass.PATCH, reach / 4), (NodeClass.PATCH, NodeClass.CORNER, reach)
+        for of, other, most in steps:
             nodes = np.flatnonzero(node_class == of)
             if not nodes.size:
                 continue
             found = nearest.closest(points[nodes], np.full(len(nodes), int(of == NodeClass.CURVE)))
-            near = np.linalg.norm(found.places - points[nodes], axis=1) <= most
+            near = np.linalg.norm(found.points - points[nodes], axis=1) <= most
             node_class[nodes[~near]] = other
             group = self._group[nearest.order[found.pieces[near]]]
             part[nodes[near]] = group - (self.n_patches if of == NodeClass.CURVE else 0)
         other = copy.copy(self)
-        other.node_class, other.part = node_class, part
+        other.node_class, other.component = node_class, part
         return other

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary.classification import Boundary
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.boundary.sliding import SlidingBoundary
@@ -15,7 +16,7 @@ from hexmend.quality import corner_determinants
 _FLATNESS_TOLERANCE = 1e-9
 
 
-def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_ANGLE) -> np.ndarray:
+def freed_by_sliding(mesh: Mesh, locked: np.ndarray, feature_angle: float = FEATURE_ANGLE) -> np.ndarray:
     """Find locked hexes that may become valid once boundary nodes slide.
 
     A corner tetrahedron with sigma <= 0 stays inverted if its nodes are all fixed, all lie on one flat patch, or three
@@ -26,7 +27,7 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_AN
     mesh : Mesh
     locked : (m,) bool
         Locked hexes; see `hexmend.quality.locked`.
-    degrees : float
+    feature_angle : float
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
 
     Returns
@@ -37,13 +38,11 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_AN
     where = np.flatnonzero(locked)
     if not where.size:
         return freed
-    sliding = SlidingBoundary(mesh, degrees)
+    sliding = SlidingBoundary(mesh, feature_angle)
     tetrahedra = mesh.hexes[where][:, CORNER_TETRAHEDRA]  # (k, 8, 4)
     blocked = sliding.mesh.fixed[tetrahedra].all(axis=2)
     for nodes, most in _flat_parts(mesh, sliding.boundary):
-        on = np.zeros(mesh.n_nodes, dtype=bool)
-        on[nodes] = True
-        blocked |= on[tetrahedra].sum(axis=2) > most
+        blocked |= mask(nodes, mesh.n_nodes)[tetrahedra].sum(axis=2) > most
     inverted = ~(corner_determinants(mesh.points, mesh.hexes, where) > 0)
     freed[where] = ~(blocked & inverted).any(axis=1)
     return freed
@@ -51,16 +50,13 @@ def freed_by_sliding(mesh: Mesh, locked: np.ndarray, degrees: float = FEATURE_AN
 
 def _flat_parts(mesh: Mesh, boundary: Boundary) -> list[tuple[np.ndarray, int]]:
     """Nodes of each flat patch and straight curve, and how many of a valid tetrahedron may lie on it: 3 and 2."""
-    parts = [(boundary.faces, boundary.patch_of_face, boundary.n_patches, 2)]
-    parts += [(boundary.segments, boundary.curve_of_segment, boundary.n_curves, 1)]
     found = []
-    for pieces, part, count, dimensions in parts:
-        if not count:
-            continue
+    kinds = (boundary.faces, boundary.patch_of_face, 2), (boundary.segments, boundary.curve_of_segment, 1)
+    for pieces, part, dimensions in kinds:
         order = np.argsort(part, kind="stable")
-        starts = np.searchsorted(part[order], np.arange(1, count))
-        for one in np.split(pieces[order], starts):
-            nodes = np.unique(one)
+        starts = np.flatnonzero(np.diff(part[order])) + 1
+        for of_part in np.split(pieces[order], starts) if part.size else ():
+            nodes = np.unique(of_part)
             x = mesh.points[nodes] - mesh.points[nodes].mean(axis=0)
             least = np.linalg.eigh(x.T @ x)[1][:, : 3 - dimensions]  # the directions in which they extend least
             if np.abs(x @ least).max() <= _FLATNESS_TOLERANCE * mesh.mean_edge_length:

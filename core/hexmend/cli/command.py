@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from importlib import import_module
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from hexmend.signal_guard import uninterrupted
 
@@ -33,3 +33,16 @@ def action(module: str) -> Callable[[argparse.Namespace], int]:
     """Import a module and return its function `run`, which does the work of a command."""
     import_module("numpy")  # every command needs it; deep within other imports Python 3.11 takes 10 ms longer for it
     return import_module(module).run
+
+
+class CoreCommand(NamedTuple):
+    """A command of the core: its declaration, and the module whose function `run` does the work."""
+
+    name: str
+    help: str
+    arguments: Callable[[argparse.ArgumentParser], None]
+    module: str
+
+    def run(self, args: argparse.Namespace) -> int:
+        """Run the command and return its exit status."""
+        return action(self.module)(args)

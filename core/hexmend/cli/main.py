@@ -147,11 +147,8 @@ def _looks_like_a_command(word: str) -> bool:
 
 
 def _unknown(word: str, loaders: dict[str, Callable[[], Command]]) -> int:
-    known = ", ".join(loaders)
-    print(
-        f"hexmend: {word!r} is neither a command nor a file. Commands: {known}; a file opens in the viewer.",
-        file=sys.stderr,
-    )
+    known = f"Commands: {', '.join(loaders)}; a file opens in the viewer."
+    print(f"hexmend: {word!r} is neither a command nor a file. {known}", file=sys.stderr)
     return 2
 
 

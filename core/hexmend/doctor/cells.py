@@ -4,29 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import Finding, Problem, count_phrase, register_problem
+from hexmend.doctor.problem import Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, keep_hexes
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 #: Corners of a hex that form a wedge, in VTK's order, for each pair of opposite edges of a face that are collapsed.
 _WEDGES = {
-    ((a, b), (c, d)): order
-    for (a, b), (c, d), order in (
-        ((0, 4), (3, 7), (0, 5, 1, 3, 6, 2)),
-        ((4, 7), (0, 3), (4, 6, 5, 0, 2, 1)),
-        ((1, 2), (5, 6), (1, 3, 0, 5, 7, 4)),
-        ((2, 6), (1, 5), (2, 7, 3, 1, 4, 0)),
-        ((0, 1), (4, 5), (0, 2, 3, 4, 6, 7)),
-        ((1, 5), (0, 4), (1, 6, 2, 0, 7, 3)),
-        ((3, 7), (2, 6), (3, 4, 0, 2, 5, 1)),
-        ((7, 6), (3, 2), (7, 5, 4, 3, 1, 0)),
-        ((0, 3), (1, 2), (0, 7, 4, 1, 6, 5)),
-        ((3, 2), (0, 1), (3, 6, 7, 0, 5, 4)),
-        ((4, 5), (7, 6), (4, 1, 0, 7, 2, 3)),
-        ((5, 6), (4, 7), (5, 2, 1, 4, 3, 0)),
-    )
+    frozenset({(0, 4), (3, 7)}): (0, 5, 1, 3, 6, 2),
+    frozenset({(4, 7), (0, 3)}): (4, 6, 5, 0, 2, 1),
+    frozenset({(1, 2), (5, 6)}): (1, 3, 0, 5, 7, 4),
+    frozenset({(2, 6), (1, 5)}): (2, 7, 3, 1, 4, 0),
+    frozenset({(0, 1), (4, 5)}): (0, 2, 3, 4, 6, 7),
+    frozenset({(1, 5), (0, 4)}): (1, 6, 2, 0, 7, 3),
+    frozenset({(3, 7), (2, 6)}): (3, 4, 0, 2, 5, 1),
+    frozenset({(6, 7), (2, 3)}): (7, 5, 4, 3, 1, 0),
+    frozenset({(0, 3), (1, 2)}): (0, 7, 4, 1, 6, 5),
+    frozenset({(2, 3), (0, 1)}): (3, 6, 7, 0, 5, 4),
+    frozenset({(4, 5), (6, 7)}): (4, 1, 0, 7, 2, 3),
+    frozenset({(5, 6), (4, 7)}): (5, 2, 1, 4, 3, 0),
 }
 
 
@@ -36,23 +34,20 @@ class DuplicateHexes(Problem):
 
     name, title = "duplicate-hexes", "Duplicate hexes"
     rank = 3
+    remedy = "Remove the duplicates."
     action = "keep the first of each"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(_repeated(np.sort(mesh.hexes, axis=1)))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return self.finding(
-            where,
-            f"{count_phrase(where.size, 'hex stands', 'hexes stand')} on the nodes of others.",
-            "Remove the duplicates.",
-        )
+        phrase = count_phrase(where.size, "hex stands", "hexes stand")
+        return self.finding(where, f"{phrase} on the nodes of others.")
 
     def mend(self, mesh: Mesh) -> Mesh:
-        rows = np.sort(mesh.hexes, axis=1)
-        again = _repeated(rows)
-        _, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
-        return keep_hexes(mesh, ~again, stands_for=first[which.reshape(-1)])
+        _, first, which = np.unique(np.sort(mesh.hexes, axis=1), axis=0, return_index=True, return_inverse=True)
+        representative = first[which.reshape(-1)]
+        return keep_hexes(mesh, representative == np.arange(mesh.n_hexes), representative)
 
 
 @register_problem
@@ -61,6 +56,7 @@ class DegenerateHexes(Problem):
 
     name, title = "degenerate-hexes", "Collapsed hexes"
     rank = 5
+    remedy = "Make them wedges, or mesh them anew."
     action = "keep wedges as wedges, whose nodes stay, and remove flat ones, with the sides on them"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -73,7 +69,6 @@ class DegenerateHexes(Problem):
             where,
             f"{count_phrase(where.size, 'hex uses', 'hexes use')} a node twice, so that edges are collapsed"
             f"{'; ' + kinds if kinds else ''}: as hexes they can never be good.",
-            "Make them wedges, or mesh them anew.",
             mendable=0 < len(wedges) + len(flat) < mesh.n_hexes,
         )
 
@@ -82,18 +77,16 @@ class DegenerateHexes(Problem):
         gone = np.array([*wedges, *flat], dtype=np.int64)
         if not gone.size or gone.size == mesh.n_hexes:
             return mesh
-        kept = np.ones(mesh.n_hexes, dtype=bool)
-        kept[gone] = False
         cells = mesh.cells
         pinned = np.zeros(mesh.n_nodes, dtype=bool) if mesh.pinned is None else mesh.pinned.copy()
         if wedges:
             nodes = np.array(list(wedges.values()), dtype=np.int32)
             pinned[nodes] = True
             which = np.array(list(wedges))
-            data = {name: np.asarray(values)[which] for name, values in mesh.hex_data.items()}
+            data = {name: values[which] for name, values in mesh.hex_data.items()}
             sets = {name: np.flatnonzero(np.isin(which, members)) for name, members in mesh.hex_sets.items()}
             cells = (*cells, Cells("wedge", nodes, data, {name: rows for name, rows in sets.items() if rows.size}))
-        return keep_hexes(mesh, kept).replace(cells=cells, pinned=pinned)
+        return keep_hexes(mesh, ~np.isin(np.arange(mesh.n_hexes), gone)).replace(cells=cells, pinned=pinned)
 
 
 def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], list[int]]:
@@ -104,11 +97,9 @@ def _wedges(mesh: Mesh, which: np.ndarray) -> tuple[dict[int, tuple[int, ...]], 
         if len(set(nodes.tolist())) <= 4:
             flat.append(h)
             continue
-        closed = {tuple(sorted(edge)) for edge in EDGES.tolist() if nodes[edge[0]] == nodes[edge[1]]}
-        if len(set(nodes.tolist())) == 6 and len(closed) == 2:
-            for pair, corners in _WEDGES.items():
-                if {tuple(sorted(edge)) for edge in pair} == closed:
-                    wedges[h] = tuple(int(k) for k in nodes[list(corners)])
+        collapsed = frozenset((min(a, b), max(a, b)) for a, b in EDGES.tolist() if nodes[a] == nodes[b])
+        if len(set(nodes.tolist())) == 6 and collapsed in _WEDGES:
+            wedges[h] = tuple(nodes[list(_WEDGES[collapsed])].tolist())
     return wedges, flat
 
 

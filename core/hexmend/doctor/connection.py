@@ -8,6 +8,7 @@ from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_proble
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import parts_of
+from hexmend.terminal_text import count_phrase
 
 
 @register_problem
@@ -16,6 +17,7 @@ class NonManifoldFaces(Problem):
 
     name, title = "crowded-faces", "Non-manifold faces"
     rank = 8
+    remedy = "Look for overlapping hexes."
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if not mesh.topology.n_nonmanifold_faces:
@@ -29,7 +31,6 @@ class NonManifoldFaces(Problem):
         return self.finding(
             where,
             f"{count:,} faces (counted once a hex) belong to more than two hexes; they are treated as boundary.",
-            "Look for overlapping hexes.",
             count=count,
         )
 
@@ -40,6 +41,10 @@ class DisconnectedParts(Problem):
 
     name, title = "parts", "Parts apart"
     rank = 9
+    remedy = (
+        "Where they should be joined, merge their coincident nodes: hexmend repair MESH -o OUT --only "
+        "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself."
+    )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if mesh.topology.parts < 2:
@@ -52,9 +57,7 @@ class DisconnectedParts(Problem):
         more = len(sizes) - 1
         return self.finding(
             where,
-            f"The mesh has {more:,} part{'s' * (more > 1)} besides the largest that hang together with no other "
+            f"The mesh has {count_phrase(more, 'part')} besides the largest that hang together with no other "
             f"({sizes.max():,} hexes, then {', '.join(f'{n:,}' for n in np.sort(sizes)[::-1][1:4])}).",
-            "Where they should be joined, merge their coincident nodes: hexmend repair MESH -o OUT --only "
-            "coincident-nodes, or Edit > Doctor in the window. Others are smoothed each for itself.",
             count=more,
         )

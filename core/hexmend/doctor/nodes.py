@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, count_phrase, register_problem
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.doctor.removal import has_repeated_node, referenced_nodes, renumber_nodes
 from hexmend.mesh.components import components
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 #: Largest distance of coincident nodes, in mean edge lengths.
 MERGE_DISTANCE = 1e-6
@@ -20,6 +21,7 @@ class CoincidentNodes(Problem):
     name, title = "coincident-nodes", "Coincident nodes"
     items = "nodes"
     rank = 4
+    remedy = "Merge them, unless parts are meant to slide on each other."
     action = "merge them, so that faces on each other become one"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -31,12 +33,8 @@ class CoincidentNodes(Problem):
         faces = np.sort(_merge_targets(mesh)[mesh.topology.boundary_faces], axis=1)
         pairs = len(faces) - len(np.unique(faces, axis=0))
         blocks = f" {pairs:,} pairs of boundary faces lie on each other: blocks that are not merged." if pairs else ""
-        return self.finding(
-            where,
-            f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{blocks}"
-            + ("" if blocks else " Hexes that should be joined may be apart there."),
-            "Merge them, unless parts are meant to slide on each other.",
-        )
+        effect = blocks or " Hexes that should be joined may be apart there."
+        return self.finding(where, f"{count_phrase(where.size, 'node lies', 'nodes lie')} on others.{effect}")
 
     def mend(self, mesh: Mesh) -> Mesh:
         target = _merge_targets(mesh)
@@ -50,17 +48,15 @@ class UnusedNodes(Problem):
     name, title = "unused-nodes", "Unused nodes"
     items = "nodes"
     rank = 6
+    remedy = "Remove them."
     action = "remove them"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         return np.flatnonzero(~referenced_nodes(mesh))
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
-        return self.finding(
-            where,
-            f"{count_phrase(where.size, 'node belongs', 'nodes belong')} to no cell: kept, and never moved.",
-            "Remove them.",
-        )
+        phrase = count_phrase(where.size, "node belongs", "nodes belong")
+        return self.finding(where, f"{phrase} to no cell: kept, and never moved.")
 
     def mend(self, mesh: Mesh) -> Mesh:
         used = referenced_nodes(mesh)
@@ -74,6 +70,10 @@ class HangingNodes(Problem):
     name, title = "hanging-nodes", "Hanging nodes"
     items = "nodes"
     rank = 7
+    remedy = (
+        "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
+        "transitions frees them."
+    )
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
         if quick:
@@ -89,10 +89,7 @@ class HangingNodes(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         return self.finding(
-            where,
-            f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them.",
-            "They count as boundary and stay where they are, as the coarse side does; a mesher that makes conforming "
-            "transitions frees them.",
+            where, f"{where.size:,} nodes hang in the middle of edges or faces of hexes that do not use them."
         )
 
 

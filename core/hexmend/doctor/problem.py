@@ -45,15 +45,7 @@ class Finding:
 
     def to_dict(self, most: int = 10) -> dict[str, Any]:
         """Return the finding as plain data, with its first `most` hexes and nodes."""
-        return {
-            "kind": self.kind,
-            "count": self.count,
-            "message": self.message,
-            "remedy": self.remedy,
-            "mendable": self.mendable,
-            "hexes": self.hexes[:most].tolist(),
-            "nodes": self.nodes[:most].tolist(),
-        }
+        return {**vars(self), "hexes": self.hexes[:most].tolist(), "nodes": self.nodes[:most].tolist()}
 
     def location_text(self, most: int = 5) -> str:
         """Name the first hexes or nodes that have the problem.
@@ -63,20 +55,11 @@ class Finding:
         >>> Finding("flipped-hexes", 1, "", hexes=np.array([12])).location_text()
         'hex 12'
         """
-        name, numbers = ("hex", self.hexes) if len(self.hexes) else ("node", self.nodes)
+        numbers, one, several = (self.hexes, "hex", "hexes") if len(self.hexes) else (self.nodes, "node", "nodes")
         if not len(numbers):
             return ""
-        plural = {"hex": "hexes", "node": "nodes"}[name] if len(numbers) > 1 else name
-        return f"{plural} {', '.join(str(int(k)) for k in numbers[:most])}{', ...' if len(numbers) > most else ''}"
-
-
-def count_phrase(count: int, one: str, several: str) -> str:
-    """Put a count before the singular or plural of a phrase.
-
-    >>> count_phrase(1, "hex is", "hexes are"), count_phrase(2000, "hex is", "hexes are")
-    ('1 hex is', '2,000 hexes are')
-    """
-    return f"{count:,} {one if count == 1 else several}"
+        first = ", ".join(map(str, numbers[:most]))
+        return f"{several if len(numbers) > 1 else one} {first}{', ...' if len(numbers) > most else ''}"
 
 
 class Problem(ABC):
@@ -87,6 +70,8 @@ class Problem(ABC):
     title: ClassVar[str]
     #: Position in the order of search and repair.
     rank: ClassVar[int]
+    #: Advice of its findings, as sentences.
+    remedy: ClassVar[str]
     #: Action of `repair`, as words after "to"; "" if there is none.
     action: ClassVar[str] = ""
     #: Kind of numbers that `locate` returns, "hexes" or "nodes".
@@ -106,7 +91,7 @@ class Problem(ABC):
         """Describe the problem; `where` is the result of `locate` and not empty."""
 
     def finding(
-        self, where: np.ndarray, message: str, remedy: str, *, count: int | None = None, mendable: bool | None = None
+        self, where: np.ndarray, message: str, *, count: int | None = None, mendable: bool | None = None
     ) -> Finding:
         """Make the finding of this problem.
 
@@ -114,8 +99,8 @@ class Problem(ABC):
         ----------
         where : (k,) int
             Hexes or nodes that have the problem.
-        message, remedy : str
-            Description and advice, as sentences.
+        message : str
+            Description as a sentence.
         count : int, optional
             Number that the message names; that of `where` by default.
         mendable : bool, optional
@@ -123,7 +108,7 @@ class Problem(ABC):
         """
         count = where.size if count is None else count
         mendable = bool(self.action) if mendable is None else mendable
-        return Finding(self.name, count, message, remedy, mendable, **{self.items: where})
+        return Finding(self.name, count, message, self.remedy, mendable, **{self.items: where})
 
     def mend(self, mesh: Mesh) -> Mesh:
         """Return the mesh with the problem repaired as far as possible."""

@@ -8,7 +8,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 
 
-def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = None) -> Mesh:
+def keep_hexes(mesh: Mesh, kept: np.ndarray, representative: np.ndarray | None = None) -> Mesh:
     """Return the mesh with some of its hexes; all nodes stay.
 
     Parameters
@@ -16,7 +16,7 @@ def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = Non
     mesh : Mesh
     kept : (m,) bool
         True for hexes to be kept.
-    stands_for : (m,) int, optional
+    representative : (m,) int, optional
         Hex that replaces each hex in sets, such as the kept one of duplicates.
 
     Returns
@@ -26,15 +26,12 @@ def keep_hexes(mesh: Mesh, kept: np.ndarray, stands_for: np.ndarray | None = Non
     rows = np.flatnonzero(kept)
     place = np.full(mesh.n_hexes, -1)
     place[rows] = np.arange(len(rows))
-    if stands_for is not None:
-        place = place[stands_for]
-    sides = {
-        name: np.column_stack([place[np.asarray(faces)[:, 0]], np.asarray(faces)[:, 1]])
-        for name, faces in mesh.side_sets.items()
-    }
+    if representative is not None:
+        place = place[representative]
+    sides = {name: np.column_stack([place[side[:, 0]], side[:, 1]]) for name, side in mesh.side_sets.items()}
     return mesh.rebuilt(
         hexes=mesh.hexes[rows],
-        hex_data={name: np.asarray(values)[rows] for name, values in mesh.hex_data.items()},
+        hex_data={name: values[rows] for name, values in mesh.hex_data.items()},
         hex_sets=_renumbered_sets(mesh.hex_sets, place),
         side_sets={name: faces[faces[:, 0] >= 0] for name, faces in sides.items() if (faces[:, 0] >= 0).any()},
         mid_nodes=None if mesh.mid_nodes is None else mesh.mid_nodes[rows],
@@ -57,14 +54,12 @@ def renumber_nodes(mesh: Mesh, target: np.ndarray) -> Mesh:
     kept, first = np.unique(target, return_index=True)
     first = first[kept >= 0]
     mids = mesh.mid_nodes
-    if mids is not None:
-        mids = np.where(mids >= 0, target[mids], -1)
     return mesh.rebuilt(
         points=mesh.points[first],
         hexes=target[mesh.hexes],
-        mid_nodes=mids,
-        pinned=None if mesh.pinned is None else _any_by_target(mesh.pinned, target, len(first)),
-        node_data={name: np.asarray(values)[first] for name, values in mesh.node_data.items()},
+        mid_nodes=None if mids is None else np.where(mids >= 0, target[mids], -1),
+        pinned=None if mesh.pinned is None else np.isin(np.arange(len(first)), target[mesh.pinned]),
+        node_data={name: values[first] for name, values in mesh.node_data.items()},
         node_sets=_renumbered_sets(mesh.node_sets, target),
         cells=tuple(Cells(c.kind, target[c.nodes].astype(np.int32), c.data, c.sets) for c in mesh.cells),
     )
@@ -84,7 +79,7 @@ def referenced_nodes(mesh: Mesh) -> np.ndarray:
     for cells in mesh.cells:
         used[cells.nodes] = True
     for members in mesh.node_sets.values():  # such as a reference point
-        used[np.asarray(members, dtype=np.int64)] = True
+        used[members] = True
     return used
 
 
@@ -92,14 +87,8 @@ def _renumbered_sets(sets: dict, place: np.ndarray) -> dict[str, np.ndarray]:
     """Sets in new numbers, without removed members and empty sets."""
     answer = {}
     for name, members in sets.items():
-        there = place[np.asarray(members, dtype=np.int64)]
+        there = place[members]
         there = np.unique(there[there >= 0])
         if len(there):
             answer[name] = there
-    return answer
-
-
-def _any_by_target(marks: np.ndarray, target: np.ndarray, count: int) -> np.ndarray:
-    answer = np.zeros(count, dtype=bool)
-    answer[target[marks & (target >= 0)]] = True
     return answer

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, count_phrase, register_problem
+from hexmend.doctor.problem import NONE_FOUND, Finding, Problem, register_problem
 from hexmend.mesh.hexahedron import FACES, VOXEL_ORDER
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import mirror_hexes, mirrored_parts
 from hexmend.quality import corner_determinants
+from hexmend.terminal_text import count_phrase
+
+_RENUMBER = "Number them the other way: nodes stay where they are."
 
 
 @register_problem
@@ -17,6 +20,7 @@ class MirroredParts(Problem):
 
     name, title = "mirrored-parts", "Mirrored parts"
     rank = 0
+    remedy = _RENUMBER
     action = "number their hexes the other way"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -24,11 +28,7 @@ class MirroredParts(Problem):
 
     def describe(self, mesh: Mesh, where: np.ndarray) -> Finding:
         whole = "All hexes" if where.size == mesh.n_hexes else f"{where.size:,} hexes, which make whole parts,"
-        return self.finding(
-            where,
-            f"{whole} are inside out: their corners are numbered left-handed.",
-            "Number them the other way: nodes stay where they are.",
-        )
+        return self.finding(where, f"{whole} are inside out: their corners are numbered left-handed.")
 
     def mend(self, mesh: Mesh) -> Mesh:
         return mirror_hexes(mesh, mirrored_parts(mesh))
@@ -40,6 +40,7 @@ class FlippedHexes(Problem):
 
     name, title = "flipped-hexes", "Flipped hexes"
     rank = 2
+    remedy = _RENUMBER
     action = "number them the other way"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -50,7 +51,6 @@ class FlippedHexes(Problem):
             where,
             f"{count_phrase(where.size, 'hex is', 'hexes are')} numbered left-handed, and sound if turned the other "
             "way, as the neighbours are.",
-            "Number them the other way: nodes stay where they are.",
         )
 
     def mend(self, mesh: Mesh) -> Mesh:
@@ -63,10 +63,8 @@ class FlippedHexes(Problem):
         rows = np.flatnonzero(inside_out)
         neighbours = mesh.topology.face_neighbours[rows]
         inner = neighbours >= 0
-        fine = np.where(inner, (sound | inside_out)[neighbours] & _on_opposite_sides(mesh, rows, neighbours), True).all(
-            axis=1
-        )
-        inside_out[rows] = fine & (inner & sound[neighbours]).any(axis=1)
+        fine = ~inner | (sound | inside_out)[neighbours] & _on_opposite_sides(mesh, rows, neighbours)
+        inside_out[rows] = fine.all(axis=1) & (inner & sound[neighbours]).any(axis=1)
         return inside_out
 
 
@@ -86,6 +84,7 @@ class VoxelOrder(Problem):
 
     name, title = "voxel-order", "Voxels labelled as hexahedra"
     rank = 1
+    remedy = "Put their corners in the order of hexahedra (type 12)."
     action = "put their corners in the order of hexahedra"
 
     def locate(self, mesh: Mesh, quick: bool = False) -> np.ndarray:
@@ -101,7 +100,6 @@ class VoxelOrder(Problem):
             where,
             f"{count_phrase(where.size, 'hex is', 'hexes are')} twisted, and sound with corners read in the order of "
             "voxels (VTK type 11).",
-            "Put their corners in the order of hexahedra (type 12).",
         )
 
     def mend(self, mesh: Mesh) -> Mesh:

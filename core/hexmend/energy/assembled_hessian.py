@@ -136,7 +136,7 @@ class AssembledHessian(SymmetricOperator):
         )
         with np.errstate(over="ignore"):
             solution = np.ldexp(x[self.order, :3].astype(np.float64).ravel(), exponent - self.exponent)
-        return CGResult(solution, count, end == kernels.NEGATIVE_CURVATURE)
+        return CGResult(solution, count, end is kernels.SolveStatus.NEGATIVE_CURVATURE)
 
     @property
     def diagonal_blocks(self) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.aliases import old_keywords
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import MeshError
 from hexmend.kernels import objective as kernels
@@ -11,11 +12,7 @@ from hexmend.mesh.validation import as_hexes, as_points
 
 
 def energies(
-    points: np.ndarray,
-    hexes: np.ndarray,
-    delta: float = 0.0,
-    left_out: np.ndarray | None = None,
-    offset: float = 1.0,
+    points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, omitted: np.ndarray | None = None, offset: float = 1.0
 ) -> np.ndarray:
     """Compute the energy of every hex, the mean of eta(T) over its corners minus `offset`.
 
@@ -25,7 +22,7 @@ def energies(
     hexes : (m, 8) int32
     delta : float
         Regularisation parameter in the unit of sigma, the cube of the points' unit of length.
-    left_out : (m,) uint8, optional
+    omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
     offset : float
         See `ObjectiveNorm`.
@@ -49,17 +46,17 @@ def energies(
     points = as_points(points)
     hexes = as_hexes(hexes, len(points))
     eta = np.empty(len(hexes))
-    out = corners_left_out(left_out, len(hexes))
+    out = as_omitted_corners(omitted, len(hexes))
     kernels.energies(points, hexes, float(delta), float(offset), out, eta)
     return eta
 
 
-def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
+def as_omitted_corners(omitted: np.ndarray | None, hexes: int) -> np.ndarray:
     """Check the corner tetrahedra to be left out of hexes.
 
     Parameters
     ----------
-    left_out : (m,) uint8 or None
+    omitted : (m,) uint8 or None
         See `energies`; None leaves out none.
     hexes : int
         Number of hexes.
@@ -73,14 +70,25 @@ def corners_left_out(left_out: np.ndarray | None, hexes: int) -> np.ndarray:
     MeshError
         For an array of another length or type.
     """
-    if left_out is None:
+    if omitted is None:
         return np.zeros(hexes, np.uint8)
-    if not isinstance(left_out, np.ndarray) or left_out.shape != (hexes,) or left_out.dtype != np.uint8:
-        raise MeshError(f"left_out is no array ({hexes},) of type uint8: expected a byte for each hex")
-    return np.ascontiguousarray(left_out)
+    if not isinstance(omitted, np.ndarray) or omitted.shape != (hexes,) or omitted.dtype != np.uint8:
+        raise MeshError(f"omitted is no array ({hexes},) of type uint8: expected a byte for each hex")
+    return np.ascontiguousarray(omitted)
 
 
-def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: ObjectiveNorm = SQUARES) -> float:
+def pack_corners(marks: np.ndarray) -> np.ndarray:
+    """Pack marks of the corners of hexes, (k, 8) bool, into a byte for each hex, (k,) uint8: bit t is corner t."""
+    return np.packbits(marks, axis=1, bitorder="little")[:, 0]
+
+
+def unpack_corners(packed: np.ndarray) -> np.ndarray:
+    """Unpack what `pack_corners` packed, (k,) uint8, as (k, 8) bool."""
+    return np.unpackbits(packed[:, None], axis=1, bitorder="little").astype(bool)
+
+
+@old_keywords("objective")
+def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, norm: ObjectiveNorm = SQUARES) -> float:
     """Compute the objective (sum eta(H)^p)^(1/p) over all hexes, (3.3).
 
     Parameters
@@ -89,7 +97,7 @@ def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: 
     hexes : (m, 8) int32
     delta : float
         See `energies`.
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
         p and offset.
 
     Returns
@@ -102,5 +110,5 @@ def objective(points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, power: 
     >>> float(objective(UNIT_CUBE, np.arange(8, dtype=np.int32)[None]))
     0.0
     """
-    p, offset = power
+    p, offset = norm
     return float(np.power(energies(points, hexes, delta, None, offset), p).sum() ** (1 / p))

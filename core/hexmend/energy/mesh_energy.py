@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.aliases import reads_old_names
-from hexmend.arrays import dot
+from hexmend.arrays import dot, index_of
 from hexmend.energy.assembled_hessian import AssembledHessian
-from hexmend.energy.hex_energy import corners_left_out, energies
+from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
@@ -30,9 +30,9 @@ class MeshEnergy:
     Parameters
     ----------
     mesh : Mesh
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
         p and offset.
-    left_out : (m,) uint8, optional
+    omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
 
     Attributes
@@ -55,10 +55,10 @@ class MeshEnergy:
     #: True if nodes slide on a surface of triangles: its creases slow down Newton's method.
     faceted = False
 
-    def __init__(self, mesh: Mesh, power: ObjectiveNorm = SQUARES, left_out: np.ndarray | None = None):
+    def __init__(self, mesh: Mesh, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
         self.mesh = mesh
-        self.power = power
-        self.left_out = corners_left_out(left_out, mesh.n_hexes)
+        self.norm = norm
+        self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
         self._scratch = threading.local()
@@ -66,9 +66,7 @@ class MeshEnergy:
     @cached_property
     def slots(self) -> np.ndarray:
         """Index of each corner among the free nodes, -1 if it is fixed, (m, 8) int32."""
-        slot = np.full(self.mesh.n_nodes, -1, np.int32)
-        slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
-        return slot[self.mesh.hexes]
+        return index_of(self.nodes, self.mesh.n_nodes)[self.mesh.hexes]
 
     @cached_property
     def sparsity(self) -> BlockSparsity:
@@ -76,52 +74,52 @@ class MeshEnergy:
         return BlockSparsity(self.mesh)
 
     @property
-    def least(self) -> float:
+    def cube_value(self) -> float:
         """Value of the energy if all hexes are cubes and delta is 0."""
-        return self.power.least * self.mesh.n_hexes
+        return self.norm.cube_value * self.mesh.n_hexes
 
-    def with_objective(self, power: ObjectiveNorm, left_out: np.ndarray) -> MeshEnergy:
+    def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> MeshEnergy:
         """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
 
         Both may be used by several threads at once.
 
         Parameters
         ----------
-        power : ObjectiveNorm
-        left_out : (m,) uint8
+        norm : ObjectiveNorm
+        omitted : (m,) uint8
             As of `MeshEnergy`.
         """
         other = copy.copy(self)
-        other.power, other.left_out = power, corners_left_out(left_out, self.mesh.n_hexes)
+        other.norm, other.omitted = norm, as_omitted_corners(omitted, self.mesh.n_hexes)
         return other
 
     def to_edge_units(self, points: np.ndarray) -> np.ndarray:
         """Points in mean edge lengths, (n, 3)."""
-        return self._places(points) / self.unit
+        return self._as_points(points) / self.unit
 
     def to_mesh_units(self, x: np.ndarray) -> np.ndarray:
         """Points in the mesh's own unit of length, (n, 3); fixed nodes to the last bit where they were."""
         points = self.mesh.points.copy()
-        np.multiply(self._places(x), self.unit, out=points, where=self.mesh.free[:, None])
+        np.multiply(self._as_points(x), self.unit, out=points, where=self.mesh.free[:, None])
         return points
 
     def moved(self, x: np.ndarray, step: np.ndarray, alpha: float = 1.0) -> np.ndarray:
         """Return x (n, 3) with the free nodes displaced by alpha times step (k, 3)."""
-        x, there = self._places(x), np.empty(x.shape)
-        step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, there)
-        return there
+        x, moved = self._as_points(x), np.empty(x.shape)
+        step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, moved)
+        return moved
 
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
-        p, offset = self.power
-        eta = energies(self._places(x), self.mesh.hexes, delta, self.left_out, offset)
+        p, offset = self.norm
+        eta = energies(self._as_points(x), self.mesh.hexes, delta, self.omitted, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
             return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(self._places(x), self.mesh.hexes, delta, self.power, self.left_out, self._shares)
-        return self._gathered()
+        kernels.gradient(self._as_points(x), self.mesh.hexes, delta, self.norm, self.omitted, self._corner_buffer)
+        return self._sum_at_nodes()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
         """Return the Hessian with respect to the free nodes at points x (n, 3)."""
@@ -131,26 +129,26 @@ class MeshEnergy:
         """Compute the slope of `value` at x along a step (k, 3) of the free nodes from the gradient (k, 3) there."""
         return dot(step, gradient)
 
-    def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
-        """Return True for nodes that may not move from x (n, 3) to `there` (n, 3), (n,) bool; None if all may."""
+    def infeasible_nodes(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray | None:
+        """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may."""
         return None
 
     @property
-    def _shares(self) -> np.ndarray:
+    def _corner_buffer(self) -> np.ndarray:
         """Storage for the contributions of hexes at their corners, (m, 8, 3), one for each thread."""
         if not hasattr(self._scratch, "shares"):
             self._scratch.shares = np.empty((self.mesh.n_hexes, 8, 3))
         return self._scratch.shares
 
-    def _places(self, x: np.ndarray) -> np.ndarray:
+    def _as_points(self, x: np.ndarray) -> np.ndarray:
         """Check positions of all nodes, (n, 3) float64; raises `MeshError` for another shape or type."""
         return points_like(x, self.mesh.points.shape, "places of nodes")
 
-    def _gathered(self) -> np.ndarray:
+    def _sum_at_nodes(self) -> np.ndarray:
         """Sum the contributions of the hexes at each free node, (k, 3)."""
         corners = self.mesh.topology.node_corners
         rows = np.empty((self.nodes.size, 3))
-        kernels.gather(self._shares.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
+        kernels.gather(self._corner_buffer.reshape(-1, 3), corners.start, corners.items, self.nodes, rows)
         return rows
 
 
@@ -162,25 +160,18 @@ class Hessian(SymmetricOperator):
 
     def __init__(self, energy: MeshEnergy, x: np.ndarray, delta: float, shift: float = 0.0):
         super().__init__(3 * energy.nodes.size)
-        self.energy, self.x, self.delta, self.shift = energy, energy._places(x), float(delta), float(shift)
+        self.energy, self.x, self.delta, self.shift = energy, energy._as_points(x), float(delta), float(shift)
 
     def shifted(self, shift: float) -> Hessian:
         """Return H + shift I."""
-        return Hessian(self.energy, self.x, self.delta, self.shift + shift)
+        return type(self)(self.energy, self.x, self.delta, self.shift + shift)
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy, v = self.energy, v.reshape(-1, 3)
         kernels.hessian_product(
-            self.x,
-            energy.mesh.hexes,
-            energy.slots,
-            v,
-            self.delta,
-            energy.power,
-            energy.left_out,
-            energy._shares,
+            self.x, energy.mesh.hexes, energy.slots, v, self.delta, energy.norm, energy.omitted, energy._corner_buffer
         )
-        product = energy._gathered()
+        product = energy._sum_at_nodes()
         if self.shift:
             product += self.shift * v
         return product.ravel()
@@ -214,7 +205,5 @@ class Hessian(SymmetricOperator):
     def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
         energy, shares = self.energy, self.energy.sparsity.shares(threads())
-        assembly.assemble(
-            self.x, self.delta, energy.power, energy.left_out, shares, matrix.off_diagonal, matrix.diagonal
-        )
+        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, matrix.off_diagonal, matrix.diagonal)
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -23,18 +23,18 @@ class ObjectiveNorm(NamedTuple):
     offset: float = 1.0
 
     @property
-    def least(self) -> float:
+    def cube_value(self) -> float:
         """Contribution of a cube.
 
-        >>> ObjectiveNorm(2.0, 1.0).least, ObjectiveNorm(3.0, 0.0).least
+        >>> ObjectiveNorm(2.0, 1.0).cube_value, ObjectiveNorm(3.0, 0.0).cube_value
         (0.0, 1.0)
         """
-        return self.of(0.0)
+        return self.contribution(0.0)
 
-    def of(self, eta: float) -> float:
+    def contribution(self, eta: float) -> float:
         """Compute the contribution of a hex from its eta(H) by (B.20), that is with offset 1.
 
-        >>> ObjectiveNorm(2.0, 1.0).of(1.0), ObjectiveNorm(2.0, 0.0).of(1.0)
+        >>> ObjectiveNorm(2.0, 1.0).contribution(1.0), ObjectiveNorm(2.0, 0.0).contribution(1.0)
         (1.0, 4.0)
         """
         return (eta + 1 - self.offset) ** self.p

@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.energy.mesh_energy import Hessian, MeshEnergy
@@ -25,14 +26,14 @@ class SlidingEnergy(MeshEnergy):
     Parameters
     ----------
     sliding : SlidingBoundary
-    power, left_out
+    norm, omitted
         See `MeshEnergy`.
     """
 
     faceted = True
 
-    def __init__(self, sliding: SlidingBoundary, power: ObjectiveNorm = SQUARES, left_out: np.ndarray | None = None):
-        super().__init__(sliding.mesh, power, left_out)
+    def __init__(self, sliding: SlidingBoundary, norm: ObjectiveNorm = SQUARES, omitted: np.ndarray | None = None):
+        super().__init__(sliding.mesh, norm, omitted)
         self.sliding = sliding
         self._rows = np.searchsorted(self.nodes, sliding.nodes)
         self._seen: tuple[np.ndarray, np.ndarray] | None = None
@@ -56,18 +57,13 @@ class SlidingEnergy(MeshEnergy):
         leads = (self.sliding.project(aims) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])
         step[rows[~(slopes < 0)]] = 0.0
-        inside = np.ones(len(step), dtype=bool)
-        inside[rows] = False
+        inside = ~mask(rows, len(step))
         return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
 
     def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit)
         nodes = nodes[(x[nodes] != there[nodes]).any(axis=1)]
-        if not nodes.size:
-            return None
-        infeasible = np.zeros(len(x), dtype=bool)
-        infeasible[nodes] = True
-        return infeasible
+        return mask(nodes, len(x)) if nodes.size else None
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         gradient = super().gradient(x, delta)
@@ -89,8 +85,7 @@ class SlidingEnergy(MeshEnergy):
     def sliding_blocks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Blocks above the diagonal with a sliding node, and the slots of their rows and columns, (b,) each."""
         sparsity = self.sparsity
-        slides = np.zeros(sparsity.nodes.size, dtype=bool)
-        slides[sparsity.order[self._rows]] = True
+        slides = mask(sparsity.order[self._rows], sparsity.nodes.size)
         row = np.repeat(np.arange(slides.size), np.diff(sparsity.row_start))
         at = np.flatnonzero(slides[row] | slides[sparsity.columns])
         return at, row[at], sparsity.columns[at]
@@ -100,11 +95,6 @@ class SlidingHessian(Hessian):
     """Hessian of a `SlidingEnergy` along the surface; off it a multiple of the identity."""
 
     energy: SlidingEnergy
-
-    def shifted(self, shift: float) -> SlidingHessian:
-        other = SlidingHessian(self.energy, self.x, self.delta)
-        other.shift = self.shift + shift
-        return other
 
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy = self.energy

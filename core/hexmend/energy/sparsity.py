@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from hexmend.arrays import index_of
 from hexmend.kernels import ordering
 from hexmend.kernels import sparsity as kernels
 from hexmend.kernels.assembly import HexShares
@@ -55,10 +56,8 @@ class BlockSparsity:
             free = np.count_nonzero(mesh.free)
             parts = max((parts for least, parts in _PARTS if free >= least), default=1)
         self.nodes, self.bounds = ordering.slots(mesh.hexes, rings.start, rings.items, mesh.free, parts)
-        slot = np.full(mesh.n_nodes, -1, np.int32)
-        slot[self.nodes] = np.arange(self.nodes.size, dtype=np.int32)
         self.order = np.argsort(self.nodes)
-        self.slots = slot[mesh.hexes]
+        self.slots = index_of(self.nodes, mesh.n_nodes)[mesh.hexes]
         with overflow_as_mesh_error("pairs of free nodes that share a hex"):
             self.row_start, self.columns, self.target = kernels.pattern(
                 self.slots, self.nodes, corners.start, corners.items, MAX_ITEMS
@@ -71,10 +70,7 @@ class BlockSparsity:
         if count not in self._shares:
             bounds = np.linspace(0, self.nodes.size, count + 1).astype(np.int32)
             slots = self.slots
-            lowest, highest = (
-                slots.view(np.uint32).min(axis=1),
-                slots.max(axis=1),
-            )  # -1, a fixed corner, becomes the largest
+            lowest, highest = slots.view(np.uint32).min(axis=1), slots.max(axis=1)  # -1, fixed, becomes the largest
             order = np.argsort(lowest, kind="stable").astype(np.int32)
             lowest, highest = lowest[order], highest[order]
             there = [order[(lowest < high) & (highest >= low)] for low, high in itertools.pairwise(bounds)]

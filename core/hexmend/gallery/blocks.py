@@ -17,11 +17,21 @@ def box_hexes(nx: int, ny: int, nz: int) -> np.ndarray:
     -------
     (nx ny nz, 8) int64
     """
-    number = np.arange((nx + 1) * (ny + 1) * (nz + 1)).reshape(nz + 1, ny + 1, nx + 1)
+    floor = np.arange((nx + 1) * (ny + 1)).reshape(ny + 1, nx + 1)
+    return extrude(grid_quads(floor), floor.size, nz)
+
+
+def grid_quads(numbers: np.ndarray) -> np.ndarray:
+    """Return the quads of grids of node numbers (..., ny + 1, nx + 1), counter-clockwise, (k, 4) int64."""
     low, high = slice(None, -1), slice(1, None)
-    square = [(low, low), (low, high), (high, high), (high, low)]  # corners 0 to 3 by y and x
-    places = [(z, *yx) for z in (low, high) for yx in square]
-    return np.column_stack([number[place].ravel() for place in places])
+    corners = [(low, low), (low, high), (high, high), (high, low)]  # by y and x
+    return np.stack([numbers[..., y, x] for y, x in corners], axis=-1).reshape(-1, 4)
+
+
+def tensor_product(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Return the nodes of a structured grid from its planes (nx,), (ny,), (nz,), numbered x first, (nx ny nz, 3)."""
+    grids = np.meshgrid(z, y, x, indexing="ij")
+    return np.column_stack([grid.ravel() for grid in grids[::-1]])
 
 
 def extrude(quads: np.ndarray, nodes: int, layers: int) -> np.ndarray:

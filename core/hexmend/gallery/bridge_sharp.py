@@ -35,11 +35,11 @@ class BridgeSharp(GalleryMesh):
 
     name = "bridge-sharp"
     title = "BridgeSharp"
-    help = "A structured block over a sharp arch: valid as it is made, inverted at the ridge by Laplacian smoothing."
+    help = "A structured block over a sharp arch: valid at first, inverted at the ridge by Laplacian smoothing."
     source = "Wilson 4.2; shape by trial, the thesis's own file being unpublished"
 
-    size: int = parameter(32000, low=4, high=10**8, help="About how many hexes, divided 2 : 1 : 2.")
-    rise: float = parameter(0.5761, low=0, high=0.95, unit="height", help="How far the ridge rises into the block.")
+    size: int = parameter(32000, low=4, high=10**8, help="Approximate number of hexes, divided 2 : 1 : 2.")
+    rise: float = parameter(0.5761, low=0, high=0.95, unit="height", help="Height of the ridge in the block.")
     depth: float = parameter(4.094, low=0.05, high=100, unit="height", help="Depth of the block.")
 
     def regular(self) -> Mesh:

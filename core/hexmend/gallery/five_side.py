@@ -51,10 +51,10 @@ class FiveSide(GalleryMesh):
     help = "A pentagonal prism, turned and tapered: semi-structured and convex, in any size. The thesis's scaling mesh."
     source = "Wilson 4.3; shape by trial, the thesis's own files being unpublished"
 
-    size: int = parameter(7350, low=5, high=10**8, help="About how many hexes; the thesis's sizes are met exactly.")
+    size: int = parameter(7350, low=5, high=10**8, help="Approximate number of hexes; exact for the thesis's sizes.")
     height: float = parameter(1.13, low=0.01, high=100, unit="circumradius", help="Height of the prism.")
-    turn: float = parameter(21.0, low=-360, high=360, unit="°", help="Angle of the top against the bottom.")
-    taper: float = parameter(0.33, low=0.01, high=10, help="Size of the top over that of the bottom.")
+    turn: float = parameter(21.0, low=-360, high=360, unit="°", help="Rotation of the top relative to the bottom.")
+    taper: float = parameter(0.33, low=0.01, high=10, help="Ratio of the sizes of top and bottom.")
 
     def regular(self) -> Mesh:
         plane, quads, layers = _quad_mesh(self.size)

@@ -27,7 +27,7 @@ class GalleryMesh(Parametrised, ABC):
     source: ClassVar[str]
 
     scramble: float = parameter(
-        0.0, low=0, high=5, unit="local edge length", help="How far free nodes are displaced at random at most."
+        0.0, low=0, high=5, unit="local edge length", help="Largest random displacement of free nodes."
     )
     seed: int = parameter(0, low=0, high=2**31 - 1, help="Seed of the displacements.")
 

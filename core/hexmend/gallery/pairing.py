@@ -27,7 +27,7 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
     from scipy.optimize import Bounds, LinearConstraint, milp
     from scipy.sparse import coo_array
 
-    sides = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    sides = polygon_sides(triangles)
     opposite, triangle = triangles[:, [2, 0, 1]].T.ravel(), np.tile(np.arange(len(triangles)), 3)
     key = np.sort(sides, axis=1) @ [len(points), 1]
     order = np.argsort(key, kind="stable")
@@ -49,6 +49,11 @@ def pair_triangles(points: np.ndarray, triangles: np.ndarray, spare: np.ndarray)
         options={"mip_rel_gap": 0},
     )
     return None if found.x is None else quads[found.x > 0.5]
+
+
+def polygon_sides(polygons: np.ndarray) -> np.ndarray:
+    """Return the sides of polygons (m, k): the first of each, then the second and so on, (k m, 2)."""
+    return np.concatenate([polygons[:, [i, (i + 1) % polygons.shape[1]]] for i in range(polygons.shape[1])])
 
 
 def corner_angles(points: np.ndarray, quads: np.ndarray) -> np.ndarray:

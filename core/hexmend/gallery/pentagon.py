@@ -9,7 +9,8 @@ from itertools import count
 
 import numpy as np
 
-from hexmend.gallery.pairing import corner_angles, pair_triangles
+from hexmend.gallery.blocks import grid_quads
+from hexmend.gallery.pairing import corner_angles, pair_triangles, polygon_sides
 
 #: Corners, counter-clockwise, on the unit circle.
 CORNERS = np.column_stack([np.cos(0.4 * np.pi * np.arange(5)), np.sin(0.4 * np.pi * np.arange(5))])
@@ -55,7 +56,7 @@ def pentagon(quads: int, boundary: int, jitter: float = 0.4, seed: int = 0) -> t
     for attempt in count(seed):
         points = _relax(ring, _lattice(len(ring), quads - boundary // 2 + 1 - len(ring), jitter, attempt))
         triangles = _triangles(points)
-        degree = np.bincount(np.unique(np.sort(_polygon_edges(triangles), axis=1), axis=0).ravel())
+        degree = np.bincount(_edges(triangles).ravel())
         degree[: len(ring)] += 1  # the edge to the boundary
         matched = pair_triangles(points, triangles, degree - 3)
         if matched is None:
@@ -76,9 +77,7 @@ def subdivide(points: np.ndarray, quads: np.ndarray, times: int) -> tuple[np.nda
     grid_points = ((1 - u) * (1 - v) * a + u * (1 - v) * b + u * v * c + (1 - u) * v * d).reshape(-1, 2)
     _, first, inverse = np.unique(np.round(grid_points, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
     number = inverse.reshape(len(quads), times + 1, times + 1)
-    low, high = slice(None, -1), slice(1, None)
-    places = [(low, low), (low, high), (high, high), (high, low)]
-    return grid_points[first], np.column_stack([number[:, *place].ravel() for place in places])
+    return grid_points[first], grid_quads(number)
 
 
 def fan() -> tuple[np.ndarray, np.ndarray]:
@@ -155,9 +154,9 @@ def _double_area(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return ax * by - ay * bx
 
 
-def _polygon_edges(cells: np.ndarray) -> np.ndarray:
-    """Edges of polygons (m, k), (k m, 2)."""
-    return np.concatenate([cells[:, [i, (i + 1) % cells.shape[1]]] for i in range(cells.shape[1])])
+def _edges(polygons: np.ndarray) -> np.ndarray:
+    """Edges of polygons (m, k), lower node first, (e, 2)."""
+    return np.unique(np.sort(polygon_sides(polygons), axis=1), axis=0)
 
 
 def _tutte_embedding(points: np.ndarray, quads: np.ndarray, boundary: int) -> np.ndarray:
@@ -165,7 +164,7 @@ def _tutte_embedding(points: np.ndarray, quads: np.ndarray, boundary: int) -> np
     from scipy.sparse import coo_array, diags_array
     from scipy.sparse.linalg import spsolve
 
-    sides = np.unique(np.sort(_polygon_edges(quads), axis=1), axis=0)
+    sides = _edges(quads)
     ends = np.concatenate([sides, sides[:, ::-1]]).T
     adjacent = coo_array((np.ones(len(ends[0])), ends), (len(points), len(points))).tocsr()
     laplacian = (diags_array(adjacent.sum(axis=1)) - adjacent).tocsr()[boundary:]

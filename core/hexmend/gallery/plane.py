@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from hexmend.gallery.aeroplane import PARTS, map_onto_aeroplane
-from hexmend.gallery.blocks import box_hexes, extrude
+from hexmend.gallery.blocks import box_hexes, extrude, tensor_product
 from hexmend.gallery.gallery_mesh import GalleryMesh, gallery_mesh
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
@@ -43,16 +43,16 @@ class Plane(GalleryMesh):
 
     name = "plane"
     title = "Plane"
-    help = "The space around an aeroplane, with a wide range of sizes: some hexes are inverted, and all can be mended."
+    help = "The space around an aeroplane, with a wide range of sizes: some hexes are inverted, all can be repaired."
     source = "Wilson 4.4; shape by trial, the thesis's own file being unpublished"
 
-    size: int = parameter(31760, low=4, high=10**8, help="About how many hexes; no fewer than 700.")
+    size: int = parameter(31760, low=4, high=10**8, help="Approximate number of hexes; at least 700.")
     follow: float = parameter(
         1.0,
         low=0,
         high=100,
         unit="sweeps at the default size",
-        help="How far nodes follow those pulled onto the aeroplane: the further, the fewer hexes are inverted.",
+        help="Range in which nodes follow those on the aeroplane: the larger, the fewer hexes are inverted.",
     )
 
     def regular(self) -> Mesh:
@@ -143,13 +143,13 @@ class _Division:
     @property
     def grid(self) -> np.ndarray:
         """Node positions of the whole grid, x first, (n, 3) float64."""
-        return _tensor_product(self.planes)
+        return tensor_product(*self.planes)
 
     @property
     def on_box(self) -> np.ndarray:
         """Node positions of the grid stretched over the box, finer towards the middle of each side, (n, 3)."""
         steps = (np.linspace(-1, 1, len(p)) for p in self.planes)
-        return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * _tensor_product([0.85 * w + 0.15 * w**3 for w in steps])
+        return BOX.mean(axis=0) + np.ptp(BOX, axis=0) / 2 * tensor_product(*(0.85 * w + 0.15 * w**3 for w in steps))
 
     @property
     def core(self) -> np.ndarray:
@@ -182,12 +182,6 @@ def _fit_division(size: int) -> _Division:
     return min((_Division(scale * factor, size) for factor in factors), key=lambda plan: plan.error)
 
 
-def _tensor_product(axes: list[np.ndarray] | tuple[np.ndarray, ...]) -> np.ndarray:
-    """Tensor product of three axes, the first running fastest, (n, 3)."""
-    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
-    return np.column_stack([x.ravel(), y.ravel(), z.ravel()])
-
-
 def _compact(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Nodes used by cells, ascending, and the cells renumbered by their positions in that list."""
     nodes, places = np.unique(cells, return_inverse=True)
@@ -195,17 +189,9 @@ def _compact(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _offset_step(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Compute an offset from a surface at each node: along the mean normal, with the mean width of the quads around.
+    """Offset from a surface at each node along the mean normal, as long as the mean width of the quads around, (n, 3).
 
-    Parameters
-    ----------
-    points : (n, 3) float64
-    quads : (k, 4) int
-        Clockwise seen from the side of the offset.
-
-    Returns
-    -------
-    (n, 3) float64
+    The quads (k, 4) are clockwise seen from the side of the offset.
     """
     a, b, c, d = (points[quads[:, i]] for i in range(4))
     normal = -np.cross(c - a, d - b)

@@ -3,8 +3,6 @@
 The libraries are imported when a function is called, and the rest of Hexmend does not need them.
 """
 
-from __future__ import annotations
-
 from hexmend.interop.meshio_mesh import from_meshio, to_meshio
 from hexmend.interop.pyvista_grid import from_pyvista, to_pyvista
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 
 from hexmend.errors import FileError, InstallationError, MeshError
 from hexmend.interop.side_marks import with_side_sets
@@ -12,11 +13,10 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
 
-@contextmanager
-def require_library(library: str) -> Iterator[None]:
-    """Context manager that turns a failed import of `library` into an `InstallationError`."""
+def import_library(library: str) -> ModuleType:
+    """Import a library; raise `InstallationError` where it is not installed."""
     try:
-        yield
+        return import_module(library)
     except ModuleNotFoundError as error:
         if error.name != library:
             raise

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from types import ModuleType
 
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import convert_to_mesh, require_library
+from hexmend.interop.conversion import convert_to_mesh, import_library
 from hexmend.interop.side_marks import with_side_marks
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, concatenate_sets, from_mesh, to_mesh
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, from_mesh, merge_blocks, to_mesh
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
@@ -62,7 +62,7 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
     >>> to_meshio(make("cube", size=27)).cells  # doctest: +SKIP
     [<meshio CellBlock, type: hexahedron, num cells: 27, tags: []>]
     """
-    meshio = _library()
+    meshio = import_library("meshio")
     content = from_mesh(with_side_marks(mesh))
     lengths = [len(block) for block in content.blocks]
     data = concatenate_data([block.data for block in content.blocks], lengths)
@@ -102,48 +102,36 @@ def from_meshio(meshio_mesh: meshio.Mesh, *, as_is: bool = False) -> Mesh:
     MeshError
         For an object that is no meshio mesh or holds no hexahedra, and for cells or points that make no mesh.
     """
-    meshio = _library()
+    meshio = import_library("meshio")
     if not isinstance(meshio_mesh, meshio.Mesh):
-        raise MeshError(
-            f"from_meshio() was given an object of type {type(meshio_mesh).__name__}; expected a meshio.Mesh"
-        )
+        given = f"an object of type {type(meshio_mesh).__name__}"
+        raise MeshError(f"from_meshio() was given {given}; expected a meshio.Mesh")
     return convert_to_mesh("meshio mesh", lambda title: to_mesh(title, _content(meshio_mesh)), as_is)
-
-
-def _library() -> ModuleType:
-    with require_library("meshio"):
-        import meshio
-    return meshio
 
 
 def _content(mesh: meshio.Mesh) -> Content:
     """Make the content of a meshio mesh: one block of cells for each kind."""
     sets = _physical_groups(mesh) | {name: parts for name, parts in mesh.cell_sets.items() if name not in _NOT_SETS}
     blocks: dict[str, list[Block]] = {}
-    unread: dict[str, int] = {}
+    unread = Counter()
     for index, cells in enumerate(mesh.cells):
         kind = KINDS.get(cells.type)
         if kind is None:
-            unread[f"type {cells.type}"] = unread.get(f"type {cells.type}", 0) + len(cells)
+            unread[f"type {cells.type}"] += len(cells)
             continue
         data = {name: np.array(parts[index]) for name, parts in mesh.cell_data.items()}
         members = {name: _members(parts, index) for name, parts in sets.items()}
         blocks.setdefault(kind, []).append(Block(kind, _reordered(kind, cells.data), data, members))
-    merged = [_merge(group) for group in blocks.values()]
+    merged = [merge_blocks(group) for group in blocks.values()]
     merged.sort(key=lambda block: block.kind not in HEX_KINDS)
     notes = []
     if unread:
         kinds = ", ".join(sorted(unread))
         notes.append(f"{sum(unread.values()):,} cells of other kinds ({kinds}) are left out.")
-    return Content(
-        np.array(mesh.points),
-        tuple(_without_empty_sets(merged)),
-        {name: np.array(values) for name, values in mesh.point_data.items()},
-        {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()},
-        field_data=dict(mesh.field_data),
-        notes=tuple(notes),
-        unread=unread,
-    )
+    blocks, points = tuple(_without_empty_sets(merged)), np.array(mesh.points)
+    node_data = {name: np.array(values) for name, values in mesh.point_data.items()}
+    node_sets = {name: np.array(members, np.int64) for name, members in mesh.point_sets.items()}
+    return Content(points, blocks, node_data, node_sets, {}, None, dict(mesh.field_data), tuple(notes), unread)
 
 
 def _physical_groups(mesh: meshio.Mesh) -> dict[str, list[np.ndarray]]:
@@ -165,22 +153,13 @@ def _members(parts: Sequence[object], index: int) -> np.ndarray:
     return np.array(() if part is None else part, np.int64)
 
 
-def _merge(blocks: Sequence[Block]) -> Block:
-    """Concatenate blocks of one kind."""
-    lengths = [len(block) for block in blocks]
-    data = concatenate_data([block.data for block in blocks], lengths)
-    sets = concatenate_sets([block.sets for block in blocks], lengths)
-    return Block(blocks[0].kind, np.concatenate([block.nodes for block in blocks]), data, sets)
-
-
 def _without_empty_sets(blocks: Sequence[Block]) -> list[Block]:
     """Drop empty sets of blocks where another block has members; sets without any member stay in the first block."""
     filled = {name for block in blocks for name, members in block.sets.items() if len(members)}
     kept = []
-    for k, block in enumerate(blocks):
-        sets = {
-            name: members for name, members in block.sets.items() if len(members) or (k == 0 and name not in filled)
-        }
+    for block in blocks:
+        empty = set() if block is not blocks[0] else block.sets.keys() - filled
+        sets = {name: members for name, members in block.sets.items() if len(members) or name in empty}
         kept.append(replace(block, sets=sets))
     return kept
 

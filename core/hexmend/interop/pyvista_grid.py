@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from types import ModuleType
+from typing import Any
 
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.interop.conversion import convert_to_mesh, require_library
+from hexmend.interop.conversion import convert_to_mesh, import_library
 from hexmend.interop.side_marks import with_side_marks
 from hexmend.io.formats.vtk.grid import Grid, from_mesh, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh
-
-TYPE_CHECKING = False
-if TYPE_CHECKING:
-    import pyvista
 
 #: Kinds of NumPy types that PyVista's grids can hold: bool, int, float, complex and str.
 _KINDS = "biufcU"
@@ -25,7 +21,7 @@ _KINDS = "biufcU"
 _UNSUPPORTED_KINDS = "SMmOV"
 
 
-def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
+def to_pyvista(mesh: Mesh) -> Any:
     """Convert a mesh to a PyVista grid: hexes, cells of other kinds, data and sets.
 
     Point data and cell data are those of the nodes and the cells. A node set, element set or side set "inlet" is an
@@ -59,28 +55,22 @@ def to_pyvista(mesh: Mesh) -> pyvista.UnstructuredGrid:
     >>> to_pyvista(make("cube", size=27)).n_cells  # doctest: +SKIP
     27
     """
-    pyvista = _library()
+    pyvista = import_library("pyvista")
     converted = from_mesh(with_side_marks(mesh), _KINDS + _UNSUPPORTED_KINDS)
     grid = pyvista.UnstructuredGrid()
     grid.points = np.array(converted.points)
     cells = pyvista.CellArray.from_arrays(converted.start, converted.nodes, deep=True)
     grid.SetCells(pyvista.convert_array(converted.types, deep=True), cells)
-    unsupported = [
-        name
-        for attributes, data in (
-            (grid.point_data, converted.node_data),
-            (grid.cell_data, converted.cell_data),
-            (grid.field_data, converted.field_data),
-        )
-        for name, values in data.items()
-        if not _set_array(attributes, name, values)
-    ]
+    targets = (grid.point_data, grid.cell_data, grid.field_data)
+    tables = zip(targets, (converted.node_data, converted.cell_data, converted.field_data), strict=True)
+    arrays = [(target, name, values) for target, table in tables for name, values in table.items()]
+    unsupported = [name for target, name, values in arrays if not _set_array(target, name, values)]
     if unsupported:
         warnings.warn(f"arrays that PyVista cannot hold are left out: {', '.join(unsupported)}", stacklevel=2)
     return grid
 
 
-def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
+def from_pyvista(grid: Any, *, as_is: bool = False) -> Mesh:
     """Convert a PyVista data set with hexahedra: its hexes, cells of other kinds, data and sets.
 
     Arrays named as `to_pyvista` names them become sets and marks of fixed nodes again. Cells of other kinds are handled
@@ -106,7 +96,7 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
     MeshError
         For an object that is no data set or holds no hexahedra, and for cells or points that make no mesh.
     """
-    pyvista = _library()
+    pyvista = import_library("pyvista")
     if not isinstance(grid, pyvista.DataObject) and hasattr(grid, "IsA"):
         grid = pyvista.wrap(grid)
     if not isinstance(grid, pyvista.DataSet):
@@ -115,25 +105,15 @@ def from_pyvista(grid: pyvista.DataSet, *, as_is: bool = False) -> Mesh:
         raise MeshError(f"from_pyvista() was given an object of type {type(grid).__name__}{hint}; {expected}")
     if not isinstance(grid, pyvista.UnstructuredGrid):
         grid = grid.cast_to_unstructured_grid()
-    read = Grid(
-        np.array(grid.points, np.float64),
-        np.array(grid.celltypes),
-        np.array(grid.cell_offsets if hasattr(type(grid), "cell_offsets") else grid.offset, np.int64),
-        np.array(grid.cell_connectivity, np.int64),
-        _arrays(grid.point_data),
-        _arrays(grid.cell_data),
-        {name: _field(values) for name, values in grid.field_data.items()},
-    )
+    start = np.array(grid.cell_offsets if hasattr(type(grid), "cell_offsets") else grid.offset, np.int64)
+    nodes, points = np.array(grid.cell_connectivity, np.int64), np.array(grid.points, np.float64)
+    fields = {name: _field(values) for name, values in grid.field_data.items()}
+    data = _arrays(grid.point_data), _arrays(grid.cell_data), fields
+    read = Grid(points, np.array(grid.celltypes), start, nodes, *data)
     return convert_to_mesh("PyVista grid", lambda title: to_mesh(title, merge_grids([read])), as_is)
 
 
-def _library() -> ModuleType:
-    with require_library("pyvista"):
-        import pyvista
-    return pyvista
-
-
-def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object) -> bool:
+def _set_array(attributes: Any, name: str, values: object) -> bool:
     """Add a copy of an array to a grid; returns False if PyVista cannot hold it."""
     array = np.asarray(values)
     if array.dtype.kind == "U":
@@ -150,12 +130,12 @@ def _set_array(attributes: pyvista.DataSetAttributes, name: str, values: object)
     return True
 
 
-def _set_texts(attributes: pyvista.DataSetAttributes, name: str, texts: np.ndarray) -> bool:
+def _set_texts(attributes: Any, name: str, texts: np.ndarray) -> bool:
     """Add texts to a grid through VTK, because PyVista itself accepts ASCII only."""
     if texts.ndim > 1:
         return False
     texts = np.atleast_1d(texts)
-    array = _library().convert_string_array(np.array([""]))
+    array = import_library("pyvista").convert_string_array(np.array([""]))
     array.SetNumberOfValues(len(texts))
     for index, text in enumerate(texts.tolist()):
         array.SetValue(index, text)

@@ -7,6 +7,7 @@ or reordered.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -37,16 +38,13 @@ def with_side_sets(mesh: Mesh) -> Mesh:
     marks = {name: values for name, values in marks.items() if _are_marks(values)}
     if not marks:
         return mesh
-    sides = {
-        name.removeprefix(PREFIX): np.argwhere(values.astype(np.int64)[:, None] & _BITS)
-        for name, values in marks.items()
-    }
-    cells = tuple(
-        replace(block, data={name: values for name, values in block.data.items() if name not in marks})
-        for block in mesh.cells
-    )
-    hex_data = {name: values for name, values in mesh.hex_data.items() if name not in marks}
-    return mesh.replace(hex_data=hex_data, side_sets={**mesh.side_sets, **sides}, cells=cells)
+    sides = {name.removeprefix(PREFIX): np.argwhere(v.astype(np.int64)[:, None] & _BITS) for name, v in marks.items()}
+
+    def others(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+        return {name: values for name, values in data.items() if name not in marks}
+
+    cells = tuple(replace(block, data=others(block.data)) for block in mesh.cells)
+    return mesh.replace(hex_data=others(mesh.hex_data), side_sets={**mesh.side_sets, **sides}, cells=cells)
 
 
 def _are_marks(values: np.ndarray) -> bool:

@@ -24,16 +24,9 @@ if TYPE_CHECKING:
     from hexmend.io.surfaces import read_surface
 
 __all__ = [
-    "FORMATS",
-    "Format",
-    "read",
-    "read_surface",
-    "readable_suffixes",
-    "unsupported_data",
-    "writable_suffixes",
-    "write",
+    "FORMATS", "Format", "read", "read_surface", "readable_suffixes", "unsupported_data", "writable_suffixes", "write",
     "writer_for",
-]
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> object:

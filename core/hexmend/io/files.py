@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
 
@@ -46,21 +47,15 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     path = Path(path)
     check_readable(path, "a mesh file")
     format = _format_of(path)
+    token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
-        token = INTERPOLATE_MISSING.set(interpolate_missing)
-        try:
+        with reading(path, "Close other programs or use a larger machine."):
             mesh = format.read(path).replace(name=path.stem)
-        finally:
-            INTERPOLATE_MISSING.reset(token)
-        return mesh if as_is else with_consistent_orientation(mesh)
+            return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
-    except MemoryError:
-        raise FileError(
-            path, "needs more memory than there is", "Close other programs or use a larger machine."
-        ) from None
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+    finally:
+        INTERPOLATE_MISSING.reset(token)
 
 
 def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = None) -> None:
@@ -84,9 +79,8 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
     format = _writer(path)
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
-        raise FileError(
-            path, f"{format.title} has no encoding {encoding!r}", f"Use one of {', '.join(format.encodings)}."
-        )
+        problem = f"{format.title} has no encoding {encoding!r}"
+        raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
     with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
@@ -226,6 +220,24 @@ def check_readable(path: Path, expected: str) -> None:
         raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if not os.access(path, os.R_OK):
         raise FileError(path, "cannot be read: permission denied", "Ask for permission to read it, or copy it.")
+
+
+@contextmanager
+def reading(path: Path, remedy: str) -> Iterator[None]:
+    """Context manager that turns errors of the memory and the file system into a `FileError`.
+
+    Parameters
+    ----------
+    path : Path
+    remedy : str
+        Advice where the memory does not suffice.
+    """
+    try:
+        yield
+    except MemoryError:
+        raise FileError(path, "needs more memory than there is", remedy) from None
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
 
 
 def _nearest(path: Path) -> str:

@@ -38,7 +38,7 @@ class Iteration:
         Longest move of a node in this step, in mean edge lengths of the initial mesh (Algorithm A.1).
     diagnostics : mapping
         Of the step, with "stage" (its number in the recipe, from 1) and "method" (its name).
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
         p and offset of the recorded objective: that of the step, or else of the smoother. Number 0 has that of the
         first smoother.
     """
@@ -49,15 +49,15 @@ class Iteration:
     seconds: float
     largest_move: float
     diagnostics: Mapping[str, Any] = field(default_factory=dict)
-    power: ObjectiveNorm = SQUARES
+    norm: ObjectiveNorm = SQUARES
 
     @property
     def objective(self) -> float | None:
-        """The objective of `power`, at delta = 0; None while any hex is inverted.
+        """The objective of `norm`, at delta = 0; None while any hex is inverted.
 
         It may rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
         """
-        return objective(self.quality, *self.power)
+        return objective(self.quality, *self.norm)
 
     def row(self) -> dict[str, float | int | str | None]:
         """Row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
@@ -68,7 +68,7 @@ class Iteration:
             "iteration": self.number,
             "seconds": self.seconds,
             "objective": self.objective,
-            "objective_formula": self.power.formula,
+            "objective_formula": self.norm.formula,
             "q_min": float(self.quality.q.min()),
             "q_mean": float(self.quality.q.mean()),
             "inverted": self.quality.n_inverted,
@@ -108,13 +108,10 @@ class StageResult:
     def to_dict(self) -> dict[str, Any]:
         """Convert it to values that JSON can hold."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
-        return fields | {
-            "parameters": dict(self.parameters),
-            "stop": self.stop.values(),
-            "outcome": self.outcome.key,
-        }
+        return fields | {"parameters": dict(self.parameters), "stop": self.stop.values(), "outcome": self.outcome.key}
 
 
+@reads_old_names
 @dataclass(frozen=True, eq=False)
 class Result:
     """Result of a run.
@@ -144,7 +141,7 @@ class Result:
         One for each method that was run.
     surface : SurfaceChange or None
         Distance of the boundary from where it was; None where no method let it slide.
-    limits : ActiveSet or None
+    active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
     """
 
@@ -162,7 +159,7 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
-    limits: ActiveSet | None = None
+    active: ActiveSet | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:

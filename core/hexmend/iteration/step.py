@@ -23,7 +23,7 @@ class Outcome(Enum):
     STOPPED = "Stopped by the user."
     NOTHING_FREE = "Nothing to do: every node is fixed."
     FINISHED = "The method has no further step to make."
-    NO_IMPROVEMENT = "Converged: neither the least nor the mean quality rises any more."
+    NO_IMPROVEMENT = "Converged: the method no longer improves the mesh."
     SUFFICIENT = "Done: the quality that was asked for is reached."
     NO_DESCENT = "Stopped: the line search found no step that descends."
     NOT_FINITE = "Stopped: a step gave coordinates that are not finite; the result before it is kept."
@@ -71,10 +71,10 @@ class Step:
         `measure(points, hexes)`, if the method has measured it.
     infeasible : bool
         True where nodes are outside the admissible band: such an iterate is never the result.
-    limits : ActiveSet, optional
+    active : ActiveSet, optional
         Active corners, which prevent further progress, if the method reports them.
-    power : ObjectiveNorm, optional
-        p and offset of the objective that this step lowers, if they differ from the smoother's `power`.
+    norm : ObjectiveNorm, optional
+        p and offset of the objective that this step lowers, if they differ from the smoother's `norm`.
     """
 
     points: np.ndarray
@@ -83,5 +83,5 @@ class Step:
     intermediate: bool = False
     quality: ElementQuality | None = None
     infeasible: bool = False
-    limits: ActiveSet | None = None
-    power: ObjectiveNorm | None = None
+    active: ActiveSet | None = None
+    norm: ObjectiveNorm | None = None

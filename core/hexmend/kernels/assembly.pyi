@@ -8,16 +8,17 @@ from numpy.typing import NDArray
 
 class HexShares:
     """
-    Slots divided into shares that are assembled in parallel, with the hexes at the slots of each.
+    Slots divided into shares that are assembled in parallel, with the hexes at the slots
+    of each.
 
-    Each share computes all its hexes, some of which are in several, so that every block is summed over its
-    hexes in one order for any number of shares.
+    Each share computes all its hexes, some of which are in several, so that every block is
+    summed over its hexes in one order for any number of shares.
     """
 
     def __init__(self, bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], numbers: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], target: Annotated[NDArray[numpy.int32], dict(shape=(None, 28), order='C', device='cpu', writable=False)]) -> None:
         """
-        Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of numbers, in
-        the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from
+        Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of
+        numbers, in the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from
         `sparsity.pattern`; all int32. Arrays are not copied.
         """
 
@@ -29,6 +30,6 @@ def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), ord
     """
     Add the Hessian of sum eta(H)^p to off_diagonal and diagonal, in their precision.
 
-    Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal
-    (blocks + 1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.
+    Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal (blocks +
+    1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.
     """

@@ -12,6 +12,6 @@ def count(values: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C
     """
     Count values (m,) float64 in equal bins from `low` on, `scale` bins per unit.
 
-    Writes counts (bins + 3,) int64, at least one bin: the bins; the values above and below them, where that end is
-    open (else they count in the outermost bin); the values that are inverted (m,) bool or NaN.
+    Writes counts (bins + 3,) int64, at least one bin: the bins; the values above and below them, where
+    that end is open (else they count in the outermost bin); the values that are inverted (m,) bool or NaN.
     """

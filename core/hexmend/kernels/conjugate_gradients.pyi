@@ -2,42 +2,49 @@
 Conjugate gradients with an assembled Hessian, preconditioned by symmetric Gauss-Seidel.
 """
 
+import enum
 from typing import Annotated, overload
 
 import numpy
 from numpy.typing import NDArray
 
 
-DONE: int = 0
+class SolveStatus(enum.Enum):
+    """End of a solve."""
 
-NEGATIVE_CURVATURE: int = 1
+    DONE = 0
+    """The tolerance is reached."""
 
-TOO_MANY: int = 2
+    NEGATIVE_CURVATURE = 1
+    """A direction of negative curvature was met."""
+
+    TOO_MANY = 2
+    """The number of iterations is exhausted."""
 
 class BlockPattern:
     """Pattern of a symmetric matrix of 3 x 3 blocks."""
 
     def __init__(self, bounds: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], row_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], columns: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks above the
-        diagonal, `sparsity.pattern`. Arrays are not copied.
+        bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks
+        above the diagonal, `sparsity.pattern`. Arrays are not copied.
         """
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, int]: ...
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float32], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, SolveStatus]: ...
 
 @overload
-def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, int]:
+def solve(pattern: BlockPattern, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu', writable=False)], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)], damping: float, rhs: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu', writable=False)], tolerance: float, max_iterations: int, x: Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order='C', device='cpu')], work: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> tuple[int, SolveStatus]:
     """
     Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).
 
-    At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4) with a
-    fourth number 0, are in the precision of the matrix; sums over them are in double precision.
+    At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)
+    with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.
 
-    off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping: this
-    multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand side, both in the
-    norm of M^-1. work (64 k + 16,):
-    workspace. Writes x; returns the iterations, and DONE, NEGATIVE_CURVATURE or TOO_MANY.
+    off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:
+    this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand
+    side, both in the norm of M^-1. work (64 k + 16,): workspace. Writes x; returns the iterations and the
+    status.
     """
 
 @overload

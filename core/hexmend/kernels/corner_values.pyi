@@ -1,6 +1,6 @@
 """
-Values of hexes, of_hexes (m,) float64, from values at their nodes, of_nodes (n,) float64. The functions run
-on one thread, because the window's thread calls them.
+Values of hexes, of_hexes (m,) float64, from values at their nodes, of_nodes (n,) float64. The functions
+run on one thread, because the window's thread calls them.
 """
 
 from typing import Annotated

@@ -10,7 +10,7 @@ def element_steps(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     """
     Targets of the corners of every hex; writes places (m, 8, 3).
 
-    Corner k moves to c_k + s n_k/sqrt(|n_k|), centroid and normal of the triangle of the centroids of its three
-    faces; the hex is scaled to its old mean edge length and blended with the old one by rho.
+    Corner k moves to c_k + s n_k/sqrt(|n_k|), centroid and normal of the triangle of the centroids of its
+    three faces; the hex is scaled to its old mean edge length and blended with the old one by rho.
     Vartziotis and Wipper 2011, CMAME 200:1186; thesis 3.1.2.
     """

@@ -10,10 +10,10 @@ def measure(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), orde
     """
     Quality of every hex at delta = 0; writes four arrays (m,) float64.
 
-    q is q(H), the mean of q(T) = 3 sigma^(2/3)/|S|^2, 0 where sigma <= 0: (2.8), (2.10). sigma is the least of
-    the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner with an
-    edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner whose
-    determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.
+    q is q(H), the mean of q(T) = 3 sigma^(2/3)/|S|^2, 0 where sigma <= 0: (2.8), (2.10). sigma is the least
+    of the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner
+    with an edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner
+    whose determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.
     """
 
 def mean_edge_length(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)]) -> float:

@@ -17,10 +17,11 @@ def node_corners(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), or
 
 def face_neighbours(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None, 6))], int]:
     """
-    The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners: `node_corners`.
+    The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:
+    `node_corners`.
 
-    -1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect of the
-    mesh, and is counted once per hex.
+    -1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect
+    of the mesh, and is counted once per hex.
     """
 
 def join(parent: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu')], items: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], width: int) -> None:
@@ -58,7 +59,8 @@ def layers(neighbours: Annotated[NDArray[numpy.int32], dict(shape=(None, 6), ord
     """
     Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.
 
-    0 for a hex with a boundary face; one more than the deepest layer where there is no way to the boundary.
+    0 for a hex with a boundary face; one more than the deepest layer where there is no way to the
+    boundary.
     """
 
 def around(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], rings: int) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,))]:

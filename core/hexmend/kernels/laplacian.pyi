@@ -26,6 +26,6 @@ def smart_sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), 
     Smart Laplacian: Algorithm 3.1 without moves that do harm; changes points (n, 3), returns the number of
     rejected moves.
 
-    A move does harm if it inverts a sound hex or, with keep_least_quality, lowers the least q(H) of the hexes at
-    the node.
+    A move does harm if it inverts a valid hex or, with keep_least_quality, lowers the least q(H) of the
+    hexes at the node.
     """

@@ -8,8 +8,8 @@ class LineSearch:
 
     def __init__(self, initial_step: float = 1.0, backtrack_factor: float = 0.7, c1: float = 0.0001, max_backtracks: int = 100) -> None:
         """
-        initial_step is the first step length alpha, backtrack_factor the factor lambda by which a rejected step is
-        shortened, c1 the share of the slope that a step must descend.
+        initial_step is the first step length alpha, backtrack_factor the factor lambda by which a rejected
+        step is shortened, c1 the share of the slope that a step must descend.
         """
 
     @property
@@ -31,6 +31,7 @@ class LineSearch:
         """
         Find a step that descends: (alpha, number of backtracks); alpha is 0 if none descends.
 
-        energy_along maps alpha to f(x + alpha p), +inf beyond the barrier; value is f(x), slope the derivative
-        along p, below 0. The search also ends where the expected descent is lost in the rounding of value.
+        energy_along maps alpha to f(x + alpha p), +inf beyond the barrier; value is f(x), slope the
+        derivative along p, below 0. The search also ends where the expected descent is lost in the rounding
+        of value.
         """

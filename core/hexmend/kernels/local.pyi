@@ -3,6 +3,7 @@ Local optimisation: one line-searched step at each free node, Algorithm 3.2.
 """
 
 from collections.abc import Sequence
+import enum
 from typing import Annotated
 
 import numpy
@@ -13,57 +14,114 @@ import hexmend.kernels.line_search
 import hexmend.kernels.sliding_surface
 
 
-STEEPEST_DESCENT: int = 0
+class Direction(enum.Enum):
+    """Search direction."""
 
-NEWTON: int = 1
+    STEEPEST_DESCENT = 0
+    """Algorithm A.2."""
 
-MODIFIED_NEWTON: int = 2
+    NEWTON = 1
+    """Algorithm A.3."""
 
-MOVED: int = 0
+    MODIFIED_NEWTON = 2
+    """Algorithm A.4."""
 
-NO_DESCENT: int = 1
+class StepStatus(enum.Enum):
+    """Result of a step at a node."""
 
-FLAT: int = 2
+    MOVED = 0
+    """The node moved."""
 
-INFINITE: int = 3
+    NO_DESCENT = 1
+    """No step descended."""
+
+    FLAT = 2
+    """The gradient is 0, or the patch has no extent."""
+
+    INFINITE = 3
+    """The energy is infinite."""
 
 class NodeStepSettings:
     """Settings of a step at a node."""
 
-    def __init__(self, direction: int, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
+    def __init__(self, direction: Direction, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
         """
-        direction is STEEPEST_DESCENT, NEWTON or MODIFIED_NEWTON; delta applies to the patch scaled to mean edge
-        length 1; norm is (p, offset) of the objective.
+        delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.
         """
 
 def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], mesh: hexmend.kernels.hex_mesh.HexMesh, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings, surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None, tangents: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> int:
     """
     Move each of `nodes` once, in place: one pass of Algorithm 3.2.
 
-    points (n, 3) float64, changed. Group k is nodes[groups[k]:groups[k + 1]]; nodes of one group share no hex,
-    so that the result is that of a sequential sweep for any number of threads. With a surface, nodes that slide
-    step along it: T'g and T'HT are the derivatives, tangents (k, 6) float64 the two unit tangents T of each, the
-    second 0 on a curve, and the line search evaluates the energy at projected points.
+    points (n, 3) float64, changed. Group k is nodes[groups[k]:groups[k + 1]]; nodes of one group share no
+    hex, so that the result is that of a sequential sweep for any number of threads. With a surface, nodes
+    that slide step along it: T'g and T'HT are the derivatives, tangents (k, 6) float64 the two unit tangents
+    T of each, the second 0 on a curve, and the line search evaluates the energy at projected points.
 
     Returns the number of evaluations of a hex's energy in line searches.
     """
 
-def patch_energy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, norm: tuple[float, float]) -> tuple[float, float, list[float], list[float]]:
+class PatchEnergy:
+    """Energy of a node's patch, its gradient and Hessian by the node."""
+
+    @property
+    def factor(self) -> float:
+        """Factor by which lengths are multiplied; 0 for a patch without extent."""
+
+    @property
+    def value(self) -> float: ...
+
+    @property
+    def gradient(self) -> list[float]: ...
+
+    @property
+    def hessian(self) -> list[float]:
+        """xx, xy, xz, yy, yz, zz"""
+
+def patch_energy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, norm: tuple[float, float]) -> PatchEnergy:
     """
     Energy of the patch of the node whose corners are star (k,) int32, 8 * hex + corner each.
 
-    Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0. Returns the factor, 0 if
-    the patch has no extent; the value; its gradient (3,); its second derivatives xx xy xz yy yz zz.
+    Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0.
     """
 
-def recorded_step(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings) -> tuple[int, list[float], float, bool, float, float, list[float], Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]]:
+class RecordedStep:
+    """A step at one node, in mean edge lengths of its patch."""
+
+    @property
+    def status(self) -> StepStatus: ...
+
+    @property
+    def direction(self) -> list[float]:
+        """0 where the status is FLAT or INFINITE"""
+
+    @property
+    def slope(self) -> float:
+        """Derivative of the energy along the direction."""
+
+    @property
+    def fallback(self) -> bool:
+        """True if Newton's direction did not descend: steepest descent."""
+
+    @property
+    def shift(self) -> float:
+        """Shift of the eigenvalues by Algorithm A.4."""
+
+    @property
+    def alpha(self) -> float:
+        """Accepted step length; 0 for none."""
+
+    @property
+    def place(self) -> list[float]:
+        """The point that the step leads to, if the node MOVED."""
+
+    @property
+    def trials(self) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3))]:
+        """alpha, energy and bound of each trial, (trials, 3); a copy."""
+
+def recorded_step(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings) -> RecordedStep:
     """
     The step that `sweep` takes at the node whose corners are star (k,) int32; moves nothing.
-
-    Returns the status (MOVED, NO_DESCENT, FLAT or INFINITE); the direction, its slope, whether it fell back to
-    steepest descent, the shift of A.4; the accepted step length, 0 for none, and the point that it leads to;
-    and alpha, energy and bound of each trial, (trials, 3). FLAT and INFINITE have no direction, and only MOVED
-    has a point. The direction is in mean edge lengths of the patch.
     """
 
 def energy_along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, norm: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:

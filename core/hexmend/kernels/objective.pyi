@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 
 def energies(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], delta: float, offset: float, omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], eta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    eta(H), the mean of eta(T) minus offset, of every hex, with the barrier of (3.2) regularised by delta, in the
-    unit of sigma; writes eta (m,).
+    eta(H), the mean of eta(T) minus offset, of every hex, with the barrier of (3.2) regularised by delta,
+    in the unit of sigma; writes eta (m,).
 
-    Bit t of omitted (m,) uint8 is set where corner tetrahedron t of the hex is omitted, that is, counts as perfect.
+    Bit t of omitted (m,) uint8 is set where corner tetrahedron t of the hex is omitted, that is, counts as
+    perfect.
     """
 
 def gradient(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: Annotated[NDArray[numpy.float64], dict(shape=(None, 8, 3), order='C', device='cpu')]) -> None:
@@ -21,7 +22,8 @@ def gradient(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), ord
 
 def hessian_product(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], values: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: Annotated[NDArray[numpy.float64], dict(shape=(None, 8, 3), order='C', device='cpu')]) -> None:
     """
-    Hessian of sum eta(H)^p times a displacement of the free nodes, (B.19) corrected; writes shares (m, 8, 3).
+    Hessian of sum eta(H)^p times a displacement of the free nodes, (B.19) corrected; writes shares (m, 8,
+    3).
 
     slots is the number of each corner among the free nodes, -1 if it is fixed; values has a row for each.
     """

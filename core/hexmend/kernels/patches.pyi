@@ -22,8 +22,8 @@ class PatchPartition:
 
     def __init__(self, hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], node_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)]) -> None:
         """
-        hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are not
-        copied.
+        hexes and slots (.., 8) are those of the patches, patch after patch, as hex_start says. Arrays are
+        not copied.
         """
 
 def partition(mesh: hexmend.kernels.hex_mesh.HexMesh, free: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], size: int, overlap: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 8))]]:
@@ -31,9 +31,9 @@ def partition(mesh: hexmend.kernels.hex_mesh.HexMesh, free: Annotated[NDArray[nu
     Divide the free nodes (n,) bool into connected patches of at most `size` nodes, breadth first from the
     lowest remaining node; then add to each the nodes within `overlap` steps between nodes of one hex.
 
-    Returns node_start and nodes: the nodes of each patch, ascending; hex_start and patch_hexes: the hexes at
-    them; slots (.., 8): the number of each corner of these hexes among the patch's nodes, -1 if it is fixed;
-    all int32.
+    Returns node_start and nodes: the nodes of each patch, ascending; hex_start and patch_hexes: the hexes
+    at them; slots (.., 8): the number of each corner of these hexes among the patch's nodes, -1 if it is
+    fixed; all int32.
     """
 
 def colours(hex_start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], patch_hexes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], hexes: int) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
@@ -47,6 +47,7 @@ def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order=
     """
     Move the nodes of every patch by one Newton step together, in place, with the other nodes fixed.
 
-    Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep for
-    any number of threads. Returns the evaluations of a hex's energy in line searches, and of its derivatives.
+    Group k is patches[groups[k]:groups[k + 1]] and shares no hex: the result is that of a sequential sweep
+    for any number of threads. Returns the evaluations of a hex's energy in line searches, and of its
+    derivatives.
     """

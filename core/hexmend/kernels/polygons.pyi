@@ -12,7 +12,7 @@ def before(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order
     """
     Clip polygons to x . normal <= offset for all planes.
 
-    Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,), places and
-    owner (k,) int64; normals (j, 3) and offsets (j,) float64. Returns the points of the remaining polygons, one
-    after another, their start, and their owners.
+    Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,),
+    places and owner (k,) int64; normals (j, 3) and offsets (j,) float64. Returns the points of the remaining
+    polygons, one after another, their start, and their owners.
     """

@@ -1,6 +1,6 @@
 """
-Visible faces of a mesh of which the hexes with keep (m,) bool are shown. The functions run on one thread,
-because the window's thread calls them.
+Visible faces of a mesh of which the hexes with keep (m,) bool are shown. The functions run on one
+thread, because the window's thread calls them.
 """
 
 from typing import Annotated
@@ -13,14 +13,15 @@ def visible(nodes: int, hexes: Annotated[NDArray[numpy.int32], dict(shape=(None,
     """
     Faces of shown hexes behind which no hex is shown.
 
-    nodes is the number of nodes of the mesh; neighbours (m, 6) int32 the hex behind each face, -1 for none.
-    Returns the nodes of these faces (u,), the faces as positions among them (k, 4), and the hex of each (k,),
-    all int32.
+    nodes is the number of nodes of the mesh; neighbours (m, 6) int32 the hex behind each face, -1 for
+    none. Returns the nodes of these faces (u,), the faces as positions among them (k, 4), and the hex of
+    each (k,), all int32.
     """
 
 def faces_of(hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], neighbours: Annotated[NDArray[numpy.int32], dict(shape=(None, 6), order='C', device='cpu', writable=False)], keep: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], chosen: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu', writable=False)], hidden: bool) -> tuple[Annotated[NDArray[numpy.int32], dict(shape=(None,))], Annotated[NDArray[numpy.int32], dict(shape=(None, 4))], Annotated[NDArray[numpy.int32], dict(shape=(None,))]]:
     """
-    Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as `visible`.
+    Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as
+    `visible`.
 
     Without `hidden`, only faces behind which no hex is shown.
     """

@@ -12,16 +12,17 @@ import hexmend.kernels.closest_point
 
 class BoundaryQuads:
     """
-    Quads of the boundary at the nodes that slide. A step that inverts one is rejected.
+    Quads of the boundary at the nodes that slide. A step that flips one is rejected.
 
-    Inverted is a quad whose normal points against `outward`; one that is already may stay so.
+    A quad is flipped if its normal points against `outward`; one that is flipped
+    already may stay so.
     """
 
     def __init__(self, start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], corners: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)]) -> None:
         """
-        corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads (f, 4)
-        int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none. Arrays are not
-        copied.
+        corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads
+        (f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none. Arrays
+        are not copied.
         """
 
 class SlidingSurface:
@@ -29,11 +30,11 @@ class SlidingSurface:
 
     def __init__(self, slots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], roots: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], trees: hexmend.kernels.closest_point.BoxTrees, quads: BoundaryQuads) -> None:
         """
-        slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the trees of
-        their curves and patches. Arrays are not copied.
+        slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the
+        trees of their curves and patches. Arrays are not copied.
         """
 
-def newly_inverted(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], inverted: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
+def flipped_quads(before: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], after: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], quads: Annotated[NDArray[numpy.int32], dict(shape=(None, 4), order='C', device='cpu', writable=False)], outward: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], flipped: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
-    Write inverted (f,) bool: True for a quad that is inverted at the points after and was not before.
+    Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.
     """

@@ -14,8 +14,8 @@ def pattern(slots: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='
     """
     Blocks above the diagonal, and the block that each pair of a hex's corners adds to; all int32.
 
-    slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start, corners:
-    `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and target (m, 28), of
-    the pairs 01, 02... 07, 12...: the block, -1 where a corner is fixed, -2 - slot where both are one node.
-    OverflowError where there are more than `max_items` blocks.
+    slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,
+    corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and
+    target (m, 28), of the pairs 01, 02... 07, 12...: the block, -1 where a corner is fixed, -2 - slot where
+    both are one node. OverflowError where there are more than `max_items` blocks.
     """

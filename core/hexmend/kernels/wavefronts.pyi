@@ -19,6 +19,6 @@ def wavefronts(start: Annotated[NDArray[numpy.int32], dict(shape=(None,), order=
     """
     Groups of the nodes of a sequence: (group_start, nodes), both int32.
 
-    No hex has two nodes of one group, and a node's group follows those of all earlier nodes of its hexes. Sweeping
-    group after group, the nodes of each in parallel, equals sweeping the sequence.
+    No hex has two nodes of one group, and a node's group follows those of all earlier nodes of its hexes.
+    Sweeping group after group, the nodes of each in parallel, equals sweeping the sequence.
     """

@@ -1,4 +1,4 @@
-"""Mean edge length of a mesh, the unit of steps and tolerances."""
+"""Mean edge length of a mesh, the unit of steps and tolerances, and the shortest edge at each node."""
 
 from __future__ import annotations
 
@@ -48,6 +48,16 @@ def mean_edge_length(points: np.ndarray, hexes: np.ndarray) -> float:
     mean = elements.mean_edge_length(points, hexes)
     trimmed = _trimmed_mean(points, hexes)
     return trimmed if mean > OUTLIER_FACTOR * trimmed > 0 else mean
+
+
+def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Find the length of the shortest edge of hexes (k, 8) at each node, (n,); +inf at nodes of none of them."""
+    size = np.full(len(points), np.inf)
+    ends = hexes[:, EDGES].reshape(-1, 2)
+    lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    for side in ends.T:
+        np.minimum.at(size, side, lengths)
+    return size
 
 
 def _trimmed_mean(points: np.ndarray, hexes: np.ndarray) -> float:

@@ -33,33 +33,27 @@ def check_field(field: str, value: object, nodes: int, hexes: int) -> object:
     MeshError
         For another type or shape, and for nodes, hexes or faces that do not exist.
     """
-    check = _CHECKS.get(field)
-    return value if check is None else check(value, nodes, hexes)
+    if field in _TABLES:
+        label, of_nodes, check = _TABLES[field]
+        return _arrays(value, label, nodes if of_nodes else hexes, check)
+    if field == "cells":
+        if not isinstance(value, Iterable):
+            raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
+        return tuple(_check_cells(cells, nodes) for cells in value)
+    if field == "pinned" and value is not None:
+        return as_immutable(as_bools(value, "pinned", nodes))
+    if field == "mid_nodes" and value is not None:
+        return as_immutable(_as_mid_nodes(value, nodes, hexes))
+    return value
 
 
-def check_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
-    """Check the mid-nodes of second-order hexes; see `hexmend.mesh.second_order`.
-
-    Parameters
-    ----------
-    mid_nodes : (m, 19) array-like of whole numbers
-        Node numbers, -1 where there is no node.
-    nodes, hexes : int
-        Number of nodes and of hexes of the mesh.
-
-    Returns
-    -------
-    (m, 19) int32
-
-    Raises
-    ------
-    MeshError
-        For another shape or type, and for a node that does not exist.
-    """
-    array = as_integers(mid_nodes, "mid_nodes", ("hex", "mid-node"))
-    if array.shape != (hexes, len(MID_NODE_POSITIONS)):
-        raise MeshError(f"mid_nodes have shape {array.shape}: expected ({hexes}, {len(MID_NODE_POSITIONS)})")
-    check_node_numbers(array, nodes, ("hex", "mid-node"), -1)
+def _as_mid_nodes(mid_nodes: object, nodes: int, hexes: int) -> np.ndarray:
+    """Convert the mid-nodes of second-order hexes to (m, 19) int32; see `hexmend.mesh.second_order`."""
+    places, shape = ("hex", "mid-node"), (hexes, len(MID_NODE_POSITIONS))
+    array = as_integers(mid_nodes, "mid_nodes", places)
+    if array.shape != shape:
+        raise MeshError(f"mid_nodes have shape {array.shape}: expected {shape}")
+    check_node_numbers(array, nodes, places, -1)
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
@@ -90,26 +84,8 @@ def as_set(values: object, label: str, count: int) -> np.ndarray:
     return array
 
 
-def as_side_set(values: object, label: str, hexes: int) -> np.ndarray:
-    """Convert a named set of faces to an array of integers: in each row a hex and one of its six faces.
-
-    Parameters
-    ----------
-    values : (k, 2) array-like of whole numbers
-    label : str
-        Name of the set in messages.
-    hexes : int
-        Number of hexes of the mesh.
-
-    Returns
-    -------
-    (k, 2) int
-
-    Raises
-    ------
-    MeshError
-        For another shape or type, and naming the first side that does not exist.
-    """
+def _as_side_set(values: object, label: str, hexes: int) -> np.ndarray:
+    """Convert a named set of faces to an array of integers (k, 2): in each row a hex and one of its six faces."""
     array = as_integers(values, label, ("side", "column"))
     if not array.size:
         return array.reshape(0, 2)
@@ -129,7 +105,7 @@ def _check_members(array: np.ndarray, label: str, places: tuple[str, ...], count
             )
 
 
-def as_rows(values: object, label: str, count: int) -> np.ndarray:
+def _as_rows(values: object, label: str, count: int) -> np.ndarray:
     """Convert data to an array of `count` rows; raises `MeshError` for another number of rows."""
     array = as_array(values, label)
     if array.ndim == 0:
@@ -139,25 +115,8 @@ def as_rows(values: object, label: str, count: int) -> np.ndarray:
     return array
 
 
-def check_cells(cells: object, nodes: int) -> Cells:
-    """Check cells other than hexes, with their data and sets.
-
-    Parameters
-    ----------
-    cells : Cells
-    nodes : int
-        Number of nodes of the mesh.
-
-    Returns
-    -------
-    Cells
-        With int32 node numbers; all arrays are immutable.
-
-    Raises
-    ------
-    MeshError
-        For an unknown kind of cells, another shape or type of an array, and a node or cell that does not exist.
-    """
+def _check_cells(cells: object, nodes: int) -> Cells:
+    """Check cells other than hexes, with their data and sets, and make their arrays immutable."""
     if not isinstance(cells, Cells):
         raise MeshError(f"cells hold {type(cells).__name__}: expected hexmend.Cells")
     kind = cells.kind
@@ -171,23 +130,9 @@ def check_cells(cells: object, nodes: int) -> Cells:
     return Cells(
         kind,
         as_immutable(np.asarray(array, dtype=np.int32)),
-        _arrays(cells.data, f"data of {kind} cells", len(array), as_rows),
+        _arrays(cells.data, f"data of {kind} cells", len(array), _as_rows),
         _arrays(cells.sets, f"set of {kind} cells", len(array), as_set),
     )
-
-
-def _pinned(value: object, nodes: int, hexes: int) -> np.ndarray | None:
-    return None if value is None else as_immutable(as_bools(value, "pinned", nodes))
-
-
-def _mid_nodes(value: object, nodes: int, hexes: int) -> np.ndarray | None:
-    return None if value is None else as_immutable(check_mid_nodes(value, nodes, hexes))
-
-
-def _cells(value: object, nodes: int, hexes: int) -> tuple[Cells, ...]:
-    if not isinstance(value, Iterable):
-        raise MeshError(f"cells are of type {type(value).__name__}: expected a tuple of hexmend.Cells")
-    return tuple(check_cells(cells, nodes) for cells in value)
 
 
 def _arrays(value: object, label: str, count: int, check: Callable[[object, str, int], np.ndarray]) -> dict:
@@ -197,18 +142,11 @@ def _arrays(value: object, label: str, count: int, check: Callable[[object, str,
     return {name: as_immutable(check(array, f"{label} {name!r}", count)) for name, array in value.items()}
 
 
-def _table(label: str, of_nodes: bool, check: Callable[[object, str, int], np.ndarray]) -> Callable[..., object]:
-    """Make a check of named arrays of the nodes or of the hexes."""
-    return lambda value, nodes, hexes: _arrays(value, label, nodes if of_nodes else hexes, check)
-
-
-_CHECKS: dict[str, Callable[..., object]] = {
-    "pinned": _pinned,
-    "mid_nodes": _mid_nodes,
-    "cells": _cells,
-    "node_data": _table("node data", True, as_rows),
-    "hex_data": _table("hex data", False, as_rows),
-    "node_sets": _table("node set", True, as_set),
-    "hex_sets": _table("hex set", False, as_set),
-    "side_sets": _table("side set", False, as_side_set),
+#: Fields that are mappings: label of their arrays in messages, True for arrays of the nodes, and their check.
+_TABLES = {
+    "node_data": ("node data", True, _as_rows),
+    "hex_data": ("hex data", False, _as_rows),
+    "node_sets": ("node set", True, as_set),
+    "hex_sets": ("hex set", False, as_set),
+    "side_sets": ("side set", False, _as_side_set),
 }

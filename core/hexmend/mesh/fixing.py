@@ -108,9 +108,5 @@ def nodes_in_set(mesh: Mesh, name: str) -> np.ndarray:
     if name in mesh.side_sets:
         rows = np.asarray(mesh.side_sets[name])
         return np.unique(mesh.hexes[rows[:, :1], FACES[rows[:, 1]]])
-    known = {**mesh.node_sets, **mesh.hex_sets, **mesh.side_sets}
-    raise MeshError(f"there is no set {name!r}: there are {_listed(known)}")
-
-
-def _listed(names: object) -> str:
-    return ", ".join(map(repr, names)) or "none"
+    known = ", ".join(map(repr, {**mesh.node_sets, **mesh.hex_sets, **mesh.side_sets})) or "none"
+    raise MeshError(f"there is no set {name!r}: there are {known}")

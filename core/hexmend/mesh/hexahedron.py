@@ -25,16 +25,7 @@ UNIT_CUBE = np.array(
 #: Corner tetrahedra (a, b, c, d), apex a first, (8, 4): the corner and its three edge neighbours, ordered so that
 #: det[x_b-x_a, x_c-x_a, x_d-x_a] = +1 on the unit cube (Table 2.1 minus one; its row order is kept).
 CORNER_TETRAHEDRA = np.array(
-    [
-        [0, 3, 4, 1],
-        [1, 0, 5, 2],
-        [2, 1, 6, 3],
-        [3, 2, 7, 0],
-        [4, 7, 5, 0],
-        [5, 4, 6, 1],
-        [6, 5, 7, 2],
-        [7, 6, 4, 3],
-    ],
+    [[0, 3, 4, 1], [1, 0, 5, 2], [2, 1, 6, 3], [3, 2, 7, 0], [4, 7, 5, 0], [5, 4, 6, 1], [6, 5, 7, 2], [7, 6, 4, 3]],
     dtype=np.int64,
 )
 

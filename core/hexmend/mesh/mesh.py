@@ -103,7 +103,7 @@ class Mesh:
             raise MeshError("hexes have shape (0, 8): expected (m, 8) with at least one hex")
         # A view, so that meshes share an array of hexes only if one was derived from the other and has its topology.
         self._set(points=as_immutable(points), hexes=as_immutable(hexes).view())
-        self._set_checked({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
+        self._set_checked(self._values())
         self._set(topology=Topology(self.hexes, len(points)))
 
     def __deepcopy__(self, memo: dict[int, object]) -> Mesh:
@@ -114,7 +114,11 @@ class Mesh:
         self._set(**state)
         self._set(**{name: as_immutable(array) for name, array in state.items() if isinstance(array, np.ndarray)})
         self._set(hexes=self.topology.hexes)  # shared by meshes that are derived from each other
-        self._set_checked({one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init})
+        self._set_checked(self._values())
+
+    def _values(self) -> dict[str, object]:
+        """Values of the fields that the constructor takes."""
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init}
 
     def _set_checked(self, values: Mapping[str, object]) -> None:
         """Check the values of fields other than points and hexes, and set them."""
@@ -187,9 +191,7 @@ class Mesh:
         check_finite(points)
         if self.mid_nodes is not None:
             points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
-        mesh = self._copy("fixed", "free")
-        mesh._set(points=as_immutable(points))
-        return mesh
+        return self._copy("fixed", "free", points=as_immutable(points))
 
     @property
     def surface_points(self) -> np.ndarray:
@@ -225,15 +227,11 @@ class Mesh:
         """
         if check:
             surface.check_near(self)
-        copy = self._copy("fixed", "free")
-        copy._set(_target=surface)
-        return copy
+        return self._copy("fixed", "free", _target=surface)
 
     def keeping_surface(self) -> Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
-        copy = self._copy("fixed", "free")
-        copy._set(_surface=self.surface_points)
-        return copy
+        return self._copy("fixed", "free", _surface=self.surface_points)
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
@@ -251,9 +249,8 @@ class Mesh:
         MeshError
             For another length or type.
         """
-        copy = self._copy()
-        copy._set(fixed=as_immutable(as_bools(fixed, "fixed", self.n_nodes)), _surface=self.surface_points)
-        return copy
+        fixed = as_immutable(as_bools(fixed, "fixed", self.n_nodes))
+        return self._copy(fixed=fixed, _surface=self.surface_points)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
@@ -275,8 +272,8 @@ class Mesh:
             For an unknown field.
         """
         if "points" in changes or "hexes" in changes:
-            raise MeshError("replace() changes what is carried; use with_points() or rebuilt()")
-        unknown = changes.keys() - {one.name for one in dataclasses.fields(self) if one.init}
+            raise MeshError("replace() cannot change points or hexes: use with_points() or rebuilt()")
+        unknown = changes.keys() - self._values().keys()
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
         copy = self._copy()
@@ -285,15 +282,14 @@ class Mesh:
 
     def rebuilt(self, **changes: object) -> Mesh:
         """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over."""
-        mesh = Mesh(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.init} | changes)
+        mesh = Mesh(**self._values() | changes)
         if self.target is not None:
             mesh._set(_target=self.target)
         return mesh
 
-    def _copy(self, *known: str) -> Mesh:
-        """Return a copy that shares all fields, the surfaces for sliding, and cached properties of some names."""
+    def _copy(self, *cached: str, **changes: object) -> Mesh:
+        """Return a copy with changes; it shares all fields, surfaces for sliding and the named cached properties."""
         copy = object.__new__(Mesh)
-        copy._set(**{one.name: getattr(self, one.name) for one in dataclasses.fields(self)})
-        names = ("_surface", "_target", *known)
-        copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__})
+        names = (*(one.name for one in dataclasses.fields(self)), "_surface", "_target", *cached)
+        copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
         return copy

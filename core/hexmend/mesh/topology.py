@@ -44,9 +44,9 @@ class CSR:
         before = np.cumsum(count) - count
         return self.items[np.arange(count.sum()) + np.repeat(self.start[rows] - before, count)]
 
-    def without(self, left_out: np.ndarray) -> CSR:
-        """Return the rows without the items i for which left_out[i]; left_out is (n,) bool."""
-        kept = ~left_out[self.items]
+    def without(self, omitted: np.ndarray) -> CSR:
+        """Return the rows without the items i for which omitted[i]; omitted is (n,) bool."""
+        kept = ~omitted[self.items]
         start = np.concatenate([[0], np.cumsum(kept)])[self.start]
         return CSR(start.astype(np.int32), self.items[kept])
 

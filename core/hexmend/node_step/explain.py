@@ -9,7 +9,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
 from hexmend.node_step.global_step import global_step
 from hexmend.node_step.local import local_step
-from hexmend.node_step.mean_step import step_to_target
+from hexmend.node_step.mean_step import next_step, step_to_target
 from hexmend.node_step.record import NodeStep, StepStatus
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.global_.base import GlobalDescent
@@ -48,21 +48,18 @@ def explain(mesh: Mesh, smoother: Smoother, node: int) -> NodeStep:
     """
     node = as_index(node, mesh.n_nodes, "node")
     if mesh.fixed[node]:
-        raise MeshError(f"node {node} is fixed, and no method moves it: name a free node")
+        raise MeshError(f"node {node} is fixed or on the boundary: expected a free interior node")
     return explain_free_node(smoother, mesh, node)
 
 
 @singledispatch
 def explain_free_node(smoother: Smoother, mesh: Mesh, node: int) -> NodeStep:
     """Explain the step for a free node; by default it is taken from the method's next iteration."""
-    steps = smoother.steps(mesh)
-    next(steps)
-    step = next(steps, None)
-    steps.close()
-    after = mesh.points[node].copy() if step is None else step.points[node].copy()
-    notes = {} if step is None else step.diagnostics
-    stays = StepStatus.FINISHED if step is None else StepStatus.UNCHANGED
-    return step_to_target(smoother, mesh, node, after, stays=stays, notes=notes)
+    step = next_step(smoother, mesh)
+    if step is None:
+        return step_to_target(smoother, mesh, node, mesh.points[node].copy(), stays=StepStatus.FINISHED)
+    after = step.points[node].copy()
+    return step_to_target(smoother, mesh, node, after, stays=StepStatus.UNCHANGED, notes=step.diagnostics)
 
 
 @explain_free_node.register

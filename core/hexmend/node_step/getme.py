@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 
-from hexmend.iteration import Step
 from hexmend.kernels.element_step import element_steps
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.explain import explain_free_node
-from hexmend.node_step.mean_step import step_to_target
+from hexmend.node_step.mean_step import next_step, step_to_target
 from hexmend.node_step.record import NodeStep, Pull, StepStatus
 from hexmend.quality import measure
-from hexmend.smoothers.base import Smoother
 from hexmend.smoothers.general import General
 from hexmend.smoothers.getme.sequential import SequentialGETMe
 from hexmend.smoothers.getme.simultaneous import GETMe
@@ -22,10 +18,10 @@ from hexmend.smoothers.getme.simultaneous import GETMe
 @explain_free_node.register
 def _(smoother: GETMe, mesh: Mesh, node: int) -> NodeStep:
     hexes, targets, q = _targets(smoother, mesh, node)
-    weights = smoother.weigh(q)
+    weights = smoother.hex_weights(q)
     weights = weights / weights.sum()
     pulls = tuple(Pull("hex", *row) for row in zip(hexes.tolist(), targets, weights.tolist(), strict=True))
-    step = _next(smoother, mesh)
+    step = next_step(smoother, mesh)
     after = step.points[node].copy()
     return step_to_target(smoother, mesh, node, after, weights @ targets, pulls, notes=step.diagnostics)
 
@@ -34,7 +30,7 @@ def _(smoother: GETMe, mesh: Mesh, node: int) -> NodeStep:
 def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
     hexes, targets, _ = _targets(smoother, mesh, node)
     pulls = tuple(Pull("hex", h, target, None) for h, target in zip(hexes.tolist(), targets, strict=True))
-    step = _next(smoother, mesh)
+    step = next_step(smoother, mesh)
     after = step.points[node].copy()
     return step_to_target(smoother, mesh, node, after, pulls=pulls, stays=StepStatus.UNCHANGED, notes=step.diagnostics)
 
@@ -42,14 +38,6 @@ def _(smoother: SequentialGETMe, mesh: Mesh, node: int) -> NodeStep:
 @explain_free_node.register
 def _(smoother: General, mesh: Mesh, node: int) -> NodeStep:
     return explain_free_node(GETMe(), mesh, node)
-
-
-def _next(smoother: Smoother, mesh: Mesh) -> Step:
-    """Return the method's next step."""
-    steps = smoother.steps(mesh)
-    step = next(itertools.islice(steps, 1, None))
-    steps.close()
-    return step
 
 
 def _targets(smoother: GETMe | SequentialGETMe, mesh: Mesh, node: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
@@ -40,47 +39,31 @@ class _RecordedSearch(LineSearch):
 
 def global_step(smoother: GlobalDescent, mesh: Mesh, node: int) -> NodeStep:
     """Return the part of one node in the method's next step."""
-    energy = MeshEnergy(mesh, smoother.power)
+    energy = MeshEnergy(mesh, smoother.norm)
     search = _RecordedSearch(smoother.line_search)
-    x, before = energy.to_edge_units(mesh.points), mesh.points[node].copy()
+    x = energy.to_edge_units(mesh.points)
     delta = smoother.policy(energy).at(measure(mesh.points, mesh.hexes), energy.unit)
-    patch = Patch(mesh, mesh.points, node, smoother.power, delta, energy.unit)
-    known = {
-        "method": smoother.name,
-        "node": node,
-        "hexes": patch.hexes,
-        "before": before,
-        "unit": energy.unit,
-        "power": smoother.power,
-        "delta": delta,
-        "gradient": patch.gradient,
-        "hessian": patch.hessian,
-        "is_global": True,
-    }
+    patch = Patch(mesh, mesh.points, node, smoother.norm, delta, energy.unit)
+    known = patch.fields() | {"method": smoother.name, "unit": energy.unit, "is_global": True}
     taken = descend(energy, x, delta, smoother.direction(), search)
-    if taken is None:
-        return _without_move(known, np.inf, StepStatus.INFINITE)
-    row = int(np.searchsorted(energy.nodes, node))
-    if not taken.slope < 0:
-        return _without_move(known, taken.value, StepStatus.STATIONARY)
+    if taken is None or not taken.slope < 0:
+        status = StepStatus.INFINITE if taken is None else StepStatus.STATIONARY
+        known["energy"] = known["energy_after"] = np.inf if taken is None else taken.value
+        return NodeStep(**known, after=patch.before, status=status)
+    known["energy"], moved, row = taken.value, taken.alpha > 0, int(np.searchsorted(energy.nodes, node))
     curve = np.empty((_SAMPLES, 2))
     curve[:, 0] = np.linspace(0, curve_length(smoother.initial_step, taken.alpha), _SAMPLES)
-    curve[:, 1] = [energy.value(energy.moved(x, taken.found.p, float(alpha)), delta) for alpha in curve[:, 0]]
+    curve[:, 1] = [energy.value(energy.moved(x, taken.direction.vector, float(alpha)), delta) for alpha in curve[:, 0]]
     return NodeStep(
         **known,
-        after=energy.to_mesh_units(taken.x)[node] if taken.alpha > 0 else before,
-        status=StepStatus.MOVED if taken.alpha > 0 else StepStatus.NO_DESCENT,
-        energy=taken.value,
-        energy_after=search.trials[-1].energy if taken.alpha > 0 else taken.value,
-        direction=taken.found.p[row] * energy.unit,
+        after=energy.to_mesh_units(taken.x)[node] if moved else patch.before,
+        status=StepStatus.MOVED if moved else StepStatus.NO_DESCENT,
+        energy_after=search.trials[-1].energy if moved else taken.value,
+        direction=taken.direction.vector[row] * energy.unit,
         slope=taken.slope,
         alpha=taken.alpha,
-        shift=taken.found.shift,
+        shift=taken.direction.shift,
         trials=tuple(search.trials),
         curve=curve,
-        notes=taken.diagnostics(delta),
+        diagnostics=taken.diagnostics(delta),
     )
-
-
-def _without_move(known: dict[str, Any], energy: float, status: StepStatus) -> NodeStep:
-    return NodeStep(**known, after=known["before"], energy=energy, energy_after=energy, status=status)

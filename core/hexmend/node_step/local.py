@@ -11,10 +11,10 @@ from hexmend.node_step.record import NodeStep, StepStatus, Trial
 from hexmend.smoothers.local.single_node import LocalDescent
 
 _STATUS = {
-    local.MOVED: StepStatus.MOVED,
-    local.NO_DESCENT: StepStatus.NO_DESCENT,
-    local.FLAT: StepStatus.STATIONARY,
-    local.INFINITE: StepStatus.INFINITE,
+    local.StepStatus.MOVED: StepStatus.MOVED,
+    local.StepStatus.NO_DESCENT: StepStatus.NO_DESCENT,
+    local.StepStatus.FLAT: StepStatus.STATIONARY,
+    local.StepStatus.INFINITE: StepStatus.INFINITE,
 }
 
 
@@ -28,25 +28,22 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
     delta : float
         The delta of the sweep, (3.2).
     """
-    patch, before = Patch(mesh, points, node, smoother.power, delta), points[node].copy()
-    status, direction_of_step, slope, fallback, shift, alpha, place, trials = local.recorded_step(
-        points, mesh.hexes, mesh.topology.node_corners[node], smoother.step_settings(delta)
-    )
-    moved, searched, direction = status == local.MOVED, len(trials) > 0, np.array(direction_of_step)
+    patch, star = Patch(mesh, points, node, smoother.norm, delta), mesh.topology.node_corners[node]
+    step = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta))
+    moved, direction, trials = step.status is local.StepStatus.MOVED, np.array(step.direction), step.trials
     return NodeStep(
+        **patch.fields(),
         method=smoother.name,
-        node=node,
-        before=before,
-        after=np.array(place) if moved else before,
-        status=_STATUS[status],
-        delta=delta,
-        **patch.energy_fields(),
+        after=np.array(step.place) if moved else patch.before,
+        status=_STATUS[step.status],
         energy_after=float(trials[-1, 1]) if moved else patch.energy,
         direction=direction * patch.unit,
-        slope=slope,
-        alpha=alpha,
-        fallback=fallback,
-        shift=shift,
+        slope=step.slope,
+        alpha=step.alpha,
+        fallback=step.fallback,
+        shift=step.shift,
         trials=tuple(Trial(*row) for row in trials.tolist()),
-        curve=patch.curve(direction, curve_length(smoother.initial_step, alpha)) if searched else np.empty((0, 2)),
+        curve=patch.curve(direction, curve_length(smoother.initial_step, step.alpha))
+        if len(trials)
+        else np.empty((0, 2)),
     )

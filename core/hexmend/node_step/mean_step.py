@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
+from hexmend.iteration import Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import MARGIN, Patch
 from hexmend.node_step.record import NodeStep, Pull, StepStatus
@@ -15,6 +17,14 @@ from hexmend.smoothers.base import Smoother
 
 #: delta of the energy that is shown for a patch with an inverted hex; methods of this kind have no delta.
 DISPLAY_DELTA = 0.01
+
+
+def next_step(smoother: Smoother, mesh: Mesh) -> Step | None:
+    """Return the first step of a method on a mesh; None if it makes none."""
+    steps = smoother.steps(mesh)
+    step = next(islice(steps, 1, None), None)
+    steps.close()
+    return step
 
 
 def step_to_target(
@@ -43,34 +53,28 @@ def step_to_target(
     notes : mapping, optional
         See `NodeStep`.
     """
-    before = mesh.points[node].copy()
     has_target, target = target is not None, after if target is None else target
     hexes = mesh.topology.node_corners[node] // 8
     inverted = measure(mesh.points, np.ascontiguousarray(mesh.hexes[hexes])).n_inverted > 0
-    power, delta = smoother.power, DISPLAY_DELTA if inverted else 0.0
-    patch = Patch(mesh, mesh.points, node, power, delta)
-    direction, move = target - before, after - before
+    patch = Patch(mesh, mesh.points, node, smoother.norm, DISPLAY_DELTA if inverted else 0.0)
+    direction, move = target - patch.before, after - patch.before
     squared = float(direction @ direction)
     alpha = float(move @ direction) / squared if squared > 0 else 0.0
     status = StepStatus.AT_TARGET if squared == 0 and has_target else stays
     if move.any():
-        status = (
-            StepStatus.MOVED if np.allclose(after, target, rtol=0, atol=1e-9 * patch.unit) else StepStatus.SHORTENED
-        )
+        reached = np.allclose(after, target, rtol=0, atol=1e-9 * patch.unit)
+        status = StepStatus.MOVED if reached else StepStatus.SHORTENED
     scaled = direction / patch.unit if patch.unit else direction
     return NodeStep(
+        **patch.fields(),
         method=smoother.name,
-        node=node,
-        before=before,
         after=after,
         status=status,
-        delta=delta,
-        **patch.energy_fields(),
         energy_after=patch.value(scaled, alpha),
         direction=direction,
         slope=float(patch.gradient @ scaled),
         alpha=alpha,
         curve=patch.curve(scaled, 1.2 * MARGIN) if squared > 0 else np.empty((0, 2)),
         pulls=pulls,
-        notes=notes or {},
+        diagnostics=notes or {},
     )

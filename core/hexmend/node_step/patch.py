@@ -29,13 +29,15 @@ class Patch:
     points : (n, 3) float64
         Positions of all nodes.
     node : int
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
     delta : float
     unit : float, optional
         Unit of length; by default the mean edge length of the patch.
 
     Attributes
     ----------
+    before : (3,) float64
+        Position of the node.
     hexes : (k,) int32
     unit : float
         0 for a patch without extent.
@@ -44,37 +46,36 @@ class Patch:
     """
 
     def __init__(
-        self, mesh: Mesh, points: np.ndarray, node: int, power: ObjectiveNorm, delta: float, unit: float | None = None
+        self, mesh: Mesh, points: np.ndarray, node: int, norm: ObjectiveNorm, delta: float, unit: float | None = None
     ):
         star = mesh.topology.node_corners[node]
         self.hexes = star // 8
-        self.power, self.delta = power, float(delta)
-        self._factor, self.energy, gradient, second = local.patch_energy(
-            points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.power
-        )
-        self._patch = points, mesh.hexes, star, self._factor
-        self.unit = 1 / self._factor if self._factor else 0.0
-        self.gradient = np.array(gradient)
-        xx, xy, xz, yy, yz, zz = second
+        self.node, self.before, self.norm, self.delta = node, points[node].copy(), norm, float(delta)
+        at = local.patch_energy(points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.norm)
+        self._patch = points, mesh.hexes, star, at.factor
+        self.unit = 1 / at.factor if at.factor else 0.0
+        self.energy, self.gradient = at.value, np.array(at.gradient)
+        xx, xy, xz, yy, yz, zz = at.hessian
         self.hessian = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
-    def energy_fields(self) -> dict[str, Any]:
-        """Return the fields of `NodeStep` that describe the patch and its energy."""
-        names = ("hexes", "unit", "power", "energy", "gradient", "hessian")
+    def fields(self) -> dict[str, Any]:
+        """Return the fields of `NodeStep` that describe the node, its patch and the energy."""
+        names = ("node", "before", "hexes", "unit", "norm", "delta", "energy", "gradient", "hessian")
         return {name: getattr(self, name) for name in names}
 
     def curve(self, direction: np.ndarray, length: float) -> np.ndarray:
         """Return alpha and energy, (SAMPLES, 2), along a direction (3,) in `unit`, from alpha = 0 to `length`."""
-        answer = np.empty((SAMPLES, 2))
-        answer[:, 0] = np.linspace(0, length, SAMPLES)
-        local.energy_along(*self._patch, direction, self.delta, self.power, answer)
-        return answer
+        return self._energies(direction, np.linspace(0, length, SAMPLES))
 
     def value(self, direction: np.ndarray, alpha: float) -> float:
         """Return the energy at a step length alpha along a direction (3,) in `unit`."""
-        answer = np.array([[alpha, 0.0]])
-        local.energy_along(*self._patch, direction, self.delta, self.power, answer)
-        return float(answer[0, 1])
+        return float(self._energies(direction, alpha)[0, 1])
+
+    def _energies(self, direction: np.ndarray, alpha: np.ndarray | float) -> np.ndarray:
+        rows = np.zeros((np.size(alpha), 2))
+        rows[:, 0] = alpha
+        local.energy_along(*self._patch, direction, self.delta, self.norm, rows)
+        return rows
 
 
 def curve_length(first: float, alpha: float) -> float:

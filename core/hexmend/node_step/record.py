@@ -10,10 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from hexmend.aliases import reads_old_names
+from hexmend.aliases import reads_old_members, reads_old_names
 from hexmend.energy import ObjectiveNorm
 
 
+@reads_old_members
 class StepStatus(Enum):
     """Outcome of the step of a node, as a sentence."""
 
@@ -68,7 +69,7 @@ class NodeStep:
     status : StepStatus
     unit : float
         Unit of length of the energy: the mean edge length of the patch, or of the mesh if `is_global`.
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
         p and offset of the energy, (3.3).
     delta : float
         Regularisation of the energy, (3.2), in the cube of `unit`.
@@ -108,7 +109,7 @@ class NodeStep:
     after: np.ndarray
     status: StepStatus
     unit: float
-    power: ObjectiveNorm
+    norm: ObjectiveNorm
     delta: float
     energy: float
     gradient: np.ndarray
@@ -123,7 +124,7 @@ class NodeStep:
     trials: tuple[Trial, ...] = ()
     curve: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     pulls: tuple[Pull, ...] = ()
-    notes: Mapping[str, Any] = field(default_factory=dict)
+    diagnostics: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
     def eigenvalues(self) -> np.ndarray:
@@ -131,7 +132,7 @@ class NodeStep:
         return np.linalg.eigvalsh(self.hessian) if np.isfinite(self.hessian).all() else np.full(3, np.nan)
 
     @property
-    def cuts(self) -> int:
+    def backtracks(self) -> int:
         """Number of times that the line search shortened the step."""
         return max(0, len(self.trials) - 1)
 

@@ -14,6 +14,7 @@ from hexmend.node_step.local import local_step
 from hexmend.node_step.record import NodeStep
 from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend.smoothers.visit_order import ORDERS
+from hexmend.terminal_text import count_phrase
 
 
 @reads_old_names
@@ -72,7 +73,7 @@ class Sweep(Iterator[NodeStep]):
     @property
     def title(self) -> str:
         """Short text about what was done, for lists of changes."""
-        return f"sweep of {self.smoother.name}, {self.done:,} node{'s' * (self.done != 1)}"
+        return f"sweep of {self.smoother.name}, {count_phrase(self.done, 'node')}"
 
     def preview(self, node: int) -> NodeStep:
         """Return the step that the method would make for a node at the present positions."""

@@ -39,9 +39,7 @@ def of_mesh(mesh: Mesh, picture: bytes | None = None, problem: str = "") -> str:
         Reason why there is no picture.
     """
     summary = summarise(mesh)
-    rows = [
-        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, summary)}</tr>' for one in SUMMARY_QUANTITIES.values()
-    ]
+    rows = [f"<tr>{_head(one)}{_cell(one, summary)}</tr>" for one in SUMMARY_QUANTITIES.values()]
     return _page(_title(mesh), picture, problem, f"<table>{''.join(rows)}</table>")
 
 
@@ -49,7 +47,7 @@ def of_result(result: Result, picture: bytes | None = None, problem: str = "") -
     """Return the HTML of a run: figures before and after, worse ones in red, with their curves."""
     head = "<tr><th></th><th>before</th><th>after</th><th>by iteration</th></tr>"
     rows = [
-        f'<tr><th style="{_LEFT}">{_head(one)}</th>{_cell(one, result.before)}'
+        f"<tr>{_head(one)}{_cell(one, result.before)}"
         f"{_cell(one, result.after, one.key in result.worse)}<td>{_line(one, result)}</td></tr>"
         for one in SUMMARY_QUANTITIES.values()
     ]
@@ -70,8 +68,8 @@ def _page(title: str, picture: bytes | None, problem: str, content: str, message
     return f'<div><strong>{title}</strong>{message}<div style="{_ROW}">{image}<div>{content}</div></div>{note}</div>'
 
 
-def _head(figure: Quantity) -> str:
-    return f'<span title="{escape(figure.help)}">{escape(figure.label)}</span>'
+def _head(figure: Quantity, label: str | None = None) -> str:
+    return f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(label or figure.label)}</span></th>'
 
 
 def _cell(figure: Quantity, summary: Summary, worse: bool = False) -> str:
@@ -96,8 +94,7 @@ def _own_objective(result: Result) -> str:
     for row, formula in zip((before, after), formulas, strict=True):
         text = "∞" if row["objective"] is None else figure.text(row["objective"])
         cells += f"<td>{escape(text if same else f'{text} ({formula})')}</td>"
-    head = f'<th style="{_LEFT}"><span title="{escape(figure.help)}">{escape(label)}</span></th>'
-    return f"<tr>{head}{cells}<td>{_sparkline('objective', result)}</td></tr>"
+    return f"<tr>{_head(figure, label)}{cells}<td>{_sparkline('objective', result)}</td></tr>"
 
 
 def _has_one_objective(result: Result) -> bool:

@@ -31,16 +31,13 @@ class Minres:
         Of the residual, relative to the right-hand side.
     iterations : int
         Limit, after which the solution so far is returned.
-    precision : type
-        Of the matrix.
     """
 
     tolerance: float = 1e-6
     iterations: int = 1000
-    precision: type = np.float64
 
     def __call__(self, hessian: Hessian, right: Vector) -> tuple[Vector, int]:
-        matrix = hessian.assembled(self.precision)
+        matrix = hessian.assembled(np.float64)
         with one_blas_thread():
             return minres(matrix.matvec, right, self.tolerance, self.iterations)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from hexmend.arrays import dot, norm
+from hexmend.arrays import dot, euclidean_norm
 
 
 def minres(
@@ -40,7 +40,7 @@ def minres(
     >>> x.round(8).tolist(), count
     ([1.0, -1.0, 2.0], 3)
     """
-    x, residual = np.zeros(right.size), norm(right)
+    x, residual = np.zeros(right.size), euclidean_norm(right)
     beta, goal = residual, tolerance * residual
     if residual == 0 or not np.isfinite(residual):
         return x, 0
@@ -55,7 +55,7 @@ def minres(
             following -= below * last
         alpha = dot(now, following)
         following -= alpha * now
-        beta = norm(following)
+        beta = euclidean_norm(following)
         if not np.isfinite(beta):  # overflow: no later iterate is finite
             return x, count
         # A column of the tridiagonal matrix becomes one of R = Q T.

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from hexmend.arrays import norm
+from hexmend.arrays import euclidean_norm
 from hexmend.energy import Hessian
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
 from hexmend.optimise.blas_threads import one_blas_thread
@@ -20,7 +20,7 @@ class SearchDirection:
 
     Parameters
     ----------
-    p : (k, 3) float64
+    vector : (k, 3) float64
         In mean edge lengths.
     solver_iterations : int
         Of the linear solver; 0 where none is used.
@@ -28,12 +28,12 @@ class SearchDirection:
         Added to each diagonal entry of the Hessian, by `TruncatedNewton` as a multiple of the entry.
     """
 
-    p: np.ndarray
+    vector: np.ndarray
     solver_iterations: int = 0
     shift: float = 0.0
 
 
-class Direction(Protocol):
+class DirectionMethod(Protocol):
     """Function that finds a search direction for sum eta^p."""
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
@@ -42,7 +42,7 @@ class Direction(Protocol):
 
 def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
     """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum."""
-    p = hessian.energy.power.p
+    p = hessian.energy.norm.p
     return SearchDirection(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
 
 
@@ -57,23 +57,9 @@ class Newton:
         return SearchDirection(p.reshape(-1, 3), count, hessian.shift)
 
 
-#: Share of the first gradient at which a solution is as good as rounding allows.
-GRADIENT_FLOOR = 1e-9
-#: Most raises of the damping in a step, and the factor of each.
-MAX_DAMPING_INCREASES, DAMPING_GROWTH = 4, 4.0
-#: Smallest damping that is not 0, as a share of the diagonal, and the divisor after a step for which it was enough.
-MIN_DAMPING, DAMPING_DECAY = 0.05, 4.0
-
-
-class TruncatedNewton:
-    """Newton's direction, only as good as the quadratic model deserves (Dembo and Steihaug 1983).
-
-    The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
-    1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
-    would fall below `GRADIENT_FLOOR` of the first. If the Hessian is not positive definite, its diagonal is increased
-    until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
-
-    An object serves one sequence of steps: tolerance and damping follow from the step before.
+@dataclass(frozen=True)
+class TruncatedNewtonConfig:
+    """Settings of `TruncatedNewton`.
 
     Parameters
     ----------
@@ -81,39 +67,73 @@ class TruncatedNewton:
         Most iterations of conjugate gradients.
     loosest, tightest : float
         Bounds of the tolerance, in (0, 1).
+    gradient_floor : float
+        Share of the first gradient at which a solution is as good as rounding allows.
+    max_damping_increases : int
+        Most increases of the damping in a step.
+    damping_growth, damping_decay : float
+        Factor of an increase, and divisor after a step for which the damping was enough.
+    min_damping : float
+        Smallest damping that is not 0, as a share of the diagonal.
     """
 
-    def __init__(self, iterations: int = 200, loosest: float = 0.2, tightest: float = 1e-3):
-        self.iterations, self.loosest, self.tightest = iterations, loosest, tightest
+    iterations: int = 200
+    loosest: float = 0.2
+    tightest: float = 1e-3
+    gradient_floor: float = 1e-9
+    max_damping_increases: int = 4
+    damping_growth: float = 4.0
+    damping_decay: float = 4.0
+    min_damping: float = 0.05
+
+
+class TruncatedNewton:
+    """Newton's direction, solved only as accurately as the quadratic model justifies (Dembo and Steihaug 1983).
+
+    The tolerance of the residual follows the square of what the last step left of the gradient (Eisenstat and Walker
+    1996): loose while steps gain little, tight where Newton's method converges fast, but not so tight that the gradient
+    would fall below `gradient_floor` of the first. If the Hessian is not positive definite, its diagonal is increased
+    until it is (Levenberg 1944): the matrix is assembled already, and another solution costs less than a short step.
+
+    An object serves one sequence of steps: tolerance and damping follow from the step before.
+
+    Parameters
+    ----------
+    config : TruncatedNewtonConfig, optional
+    """
+
+    def __init__(self, config: TruncatedNewtonConfig | None = None):
+        self.config = config or TruncatedNewtonConfig()
         self._first = self._last = np.inf
         self._damping = 0.0
         self._matrix: AssembledHessian | None = None
 
     def __call__(self, value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-        matrix = self._matrix = hessian.assembled(reuse=self._matrix)
+        config, matrix = self.config, hessian.assembled(reuse=self._matrix)
+        self._matrix = matrix
         right, tolerance = -gradient.ravel(), self._tolerance(gradient)
-        solved = matrix.solve(right, tolerance, self.iterations, self._damping)
+        solved = matrix.solve(right, tolerance, config.iterations, self._damping)
         count, damping = solved.iterations, self._damping
-        for _ in range(MAX_DAMPING_INCREASES):
+        for _ in range(config.max_damping_increases):
             if not solved.negative_curvature:
                 break
-            damping = max(DAMPING_GROWTH * damping, MIN_DAMPING)
-            solved = matrix.solve(right, tolerance, self.iterations, damping)
+            damping = max(config.damping_growth * damping, config.min_damping)
+            solved = matrix.solve(right, tolerance, config.iterations, damping)
             count += solved.iterations
-        self._damping = damping if damping > self._damping else damping / DAMPING_DECAY
-        if self._damping < MIN_DAMPING:
+        self._damping = damping if damping > self._damping else damping / config.damping_decay
+        if self._damping < config.min_damping:
             self._damping = 0.0
         return SearchDirection(solved.x.reshape(-1, 3), count, damping)
 
     def _tolerance(self, gradient: np.ndarray) -> float:
-        length = norm(gradient)
+        length = euclidean_norm(gradient)
         if self._first == np.inf:
             self._first = self._last = length
         if length == 0:
-            return self.loosest
-        goal = max(0.9 * (length / self._last) ** 2, GRADIENT_FLOOR * self._first / length)
+            return self.config.loosest
+        goal = max(0.9 * (length / self._last) ** 2, self.config.gradient_floor * self._first / length)
         self._last = length
-        return float(np.clip(goal, self.tightest, self.loosest))
+        return float(np.clip(goal, self.config.tightest, self.config.loosest))
 
 
 @dataclass(frozen=True)
@@ -134,14 +154,6 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
 
     The least is found as the greatest of lambda_max I - H, where it is isolated; where that does not converge in 50
     iterations it is taken to be zero (A.2).
-
-    Parameters
-    ----------
-    hessian : Hessian
-
-    Returns
-    -------
-    least, greatest : float
     """
     from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
@@ -156,7 +168,7 @@ def extreme_eigenvalues(hessian: Hessian) -> tuple[float, float]:
         try:
             with one_blas_thread():
                 return float(
-                    eigsh(operator, k=1, which="LA", maxiter=50, tol=1e-3, v0=start, return_eigenvectors=False)[0]
+                    eigsh(operator, 1, which="LA", maxiter=50, tol=1e-3, v0=start, return_eigenvectors=False)[0]
                 )
         except ArpackNoConvergence:
             return None

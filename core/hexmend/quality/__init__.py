@@ -10,7 +10,7 @@ import pkgutil
 from hexmend.aliases import exports
 from hexmend.quality import metrics
 from hexmend.quality.inspection import HexDetails, NodeDetails, describe_hex, describe_node, rank_worst
-from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked, measure
+from hexmend.quality.measure import ElementQuality, corner_determinants, corner_qualities, locked_hexes, measure
 from hexmend.quality.mesh_quality import metric_values, worst_hexes
 from hexmend.quality.metric import METRICS, HexQuantity, Metric
 from hexmend.quality.metrics.q import Q
@@ -42,7 +42,7 @@ __all__ = [
     "describe_hex",
     "describe_node",
     "describe_regressions",
-    "locked",
+    "locked_hexes",
     "measure",
     "metric_statistics",
     "metric_values",

@@ -11,7 +11,7 @@ from hexmend.kernels.objective import gradient
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index, as_reals
-from hexmend.quality.measure import ElementQuality, corner_qualities, locked, measure
+from hexmend.quality.measure import ElementQuality, corner_qualities, locked_hexes, measure
 from hexmend.quality.metric import METRICS
 
 
@@ -87,7 +87,7 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
         values={metric.name: float(metric.of(mesh.points, hexes, quality)[0]) for metric in METRICS.values()},
         neighbours=mesh.topology.face_neighbours[number],
         inverted=bool(quality.inverted[0]),
-        locked=bool(locked(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
+        locked=bool(locked_hexes(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
     )
 
 
@@ -107,7 +107,7 @@ class NodeDetails:
     energy : float
         Sum of eta(H)^2 over these hexes, (3.3); +inf if one of them is inverted.
     downhill : (3,) float64
-        Negative gradient of that energy with respect to the position, in mean edge lengths of these hexes; 0 if the
+        Negative gradient of that energy with respect to the position, per mean edge length of these hexes; 0 if the
         energy is infinite.
     pinned : bool
         True for a pinned node, also on the boundary.

@@ -110,7 +110,7 @@ def locked_tetrahedra(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, 
     return locked
 
 
-def locked(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
+def locked_hexes(points: np.ndarray, hexes: np.ndarray, fixed: np.ndarray, inverted: np.ndarray) -> np.ndarray:
     """True for each hex with a tetrahedron of `locked_tetrahedra`, (m,) bool; no untangler leaves fewer inverted."""
     return locked_tetrahedra(points, hexes, fixed, inverted).any(axis=1)
 

@@ -64,6 +64,10 @@ class Metric(HexQuantity):
 
     of: Values
 
+    def register(self) -> Metric:
+        """Add the metric to `METRICS` under its name and return it; raises `ValueError` if the name is taken."""
+        return METRICS.add(self.name, self)
+
 
 def kernel_metric(kernel: Callable[..., None], rows: int, row: int, worst: float) -> Values:
     """Make a function that computes values by a kernel with several results.
@@ -107,7 +111,7 @@ def _take(name: str, metric: object) -> None:
     if not isinstance(metric, Metric):
         raise TypeError(f"{metric!r} is no hexmend.quality.Metric")
     if metric not in METRICS.values():  # its module may have registered it
-        METRICS.add(metric.name, metric)
+        metric.register()
 
 
 METRICS: Registry[Metric] = Registry("metric", load_plugins)

@@ -36,9 +36,7 @@ class MetricStatistics:
     def over(cls, metric: Metric, values: np.ndarray) -> MetricStatistics:
         """Compute the statistics of a metric's values, (m,)."""
         finite = values[np.isfinite(values)]
-        low, mean, high = (
-            (float(finite.min()), float(finite.mean()), float(finite.max())) if finite.size else (None, None, None)
-        )
+        low, mean, high = (float(of()) for of in (finite.min, finite.mean, finite.max)) if finite.size else [None] * 3
         unacceptable = int(np.count_nonzero(metric.unacceptable(values)))
         return cls(low, mean, high, values.size - finite.size, unacceptable)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.aliases import old_keywords
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality.measure import ElementQuality, locked, measure
+from hexmend.quality.measure import ElementQuality, locked_hexes, measure
 from hexmend.quantity import Quantity, format_count, format_quality
 from hexmend.quantity import format_objective as energy
 
@@ -124,7 +124,7 @@ def summarise(mesh: Mesh, quality: ElementQuality | None = None) -> Summary:
         nodes=int(np.count_nonzero(mesh.topology.used)),
         free_nodes=int(np.count_nonzero(mesh.free)),
         inverted=quality.n_inverted,
-        locked_inverted=int(np.count_nonzero(locked(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))),
+        locked_inverted=int(np.count_nonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))),
         q_min=float(q.min()),
         q_mean=float(q.mean()),
         q_max=float(q.max()),

@@ -74,22 +74,9 @@ def write_parquet(path: Path, rows: Rows, types: Mapping[str, type]) -> None:
 
 def cases_table(study: Mapping[str, Any]) -> Table:
     """Make the table with a row for each case, over all meshes."""
-    head = (
-        "",
-        "results",
-        "valid",
-        "untangled",
-        "worse",
-        "q min: median gain",
-        "least",
-        "q mean: median gain",
-        "least",
-        "sc. Jacobian: median gain",
-        "least",
-        "s: median",
-        "s in all",
-        "peak MB",
-    )
+    gains = (f"{figure}: median gain" for figure in ("q min", "q mean", "sc. Jacobian"))
+    quality = (head for gain in gains for head in (gain, "least"))
+    head = ("", "results", "valid", "untangled", "worse", *quality, "s: median", "s in all", "peak MB")
     lines = [[case, *_line([row for row in study["rows"] if row["case"] == case])] for case in study["cases"]]
     notes = (
         "Results: of how many tasks. Valid: results without an inverted hex. Untangled: of the results of meshes "
@@ -107,21 +94,18 @@ def meshes_table(rows: Rows) -> Table:
         mine = [row for row in rows if row["mesh"] == mesh]
         done = [row for row in mine if row["status"] == "done"]
         known = next((row for row in mine if row["hexes"] is not None), None)
-        cells = ["–"] * 3
-        if known is not None:
-            cells = [
-                format_count(known["hexes"]),
-                format_count(known["inverted_before"]),
-                format_quality(known["q_min_before"]),
-            ]
         best = min(done, key=lambda row: (row["inverted_after"], -row["q_min_after"]), default=None)
-        then = ["–"] * 4
-        if best is not None:
-            then = [best["case"], format_count(best["inverted_after"]), format_quality(best["q_min_after"])]
-            then.append(format_quality(best["scaled_jacobian_min_after"]))
+        given = _figures(known, "hexes", "inverted_before", "q_min_before")
+        then = _figures(best, "case", "inverted_after", "q_min_after", "scaled_jacobian_min_after")
         valid = sum(not row["inverted_after"] for row in done)
-        lines.append([names[mesh], *cells, f"{valid} of {len(mine)}", *then])
+        lines.append([names[mesh], *given, f"{valid} of {len(mine)}", *then])
     return Table("The meshes", head, lines)
+
+
+def _figures(row: Mapping[str, Any] | None, *keys: str) -> list[str]:
+    """Format counts and qualities of a row; a dash for each without a row."""
+    formats = {"case": str, "hexes": format_count, "inverted_before": format_count, "inverted_after": format_count}
+    return ["–" if row is None else formats.get(key, format_quality)(row[key]) for key in keys]
 
 
 def failures(rows: Rows) -> list[tuple[str, str, str, str]]:
@@ -156,15 +140,13 @@ def _names(rows: Rows) -> dict[str, str]:
 
 def _line(rows: Rows) -> list[str]:
     done = [row for row in rows if row["status"] == "done"]
+    valid = [row for row in done if not row["inverted_after"]]
     inverted = [row for row in done if row["inverted_before"]]
     seconds = [row["seconds"] for row in done]
     peaks = [row["peak_mb"] for row in rows if row["peak_mb"] is not None]
-    cells = [
-        f"{len(done)} of {len(rows)}",
-        str(sum(not row["inverted_after"] for row in done)),
-        f"{sum(not row['inverted_after'] for row in inverted)} of {len(inverted)}",
-        str(sum(bool(row["worse"]) for row in done)),
-    ]
+    untangled = f"{sum(bool(row['inverted_before']) for row in valid)} of {len(inverted)}"
+    worse = sum(bool(row["worse"]) for row in done)
+    cells = [f"{len(done)} of {len(rows)}", str(len(valid)), untangled, str(worse)]
     for key in ("q_min", "q_mean", "scaled_jacobian_min"):
         gains = [row[f"{key}_after"] - row[f"{key}_before"] for row in done]
         cells += [f"{median(gains):+.4f}", f"{min(gains):+.4f}"] if gains else ["–", "–"]

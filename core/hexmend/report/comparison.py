@@ -176,11 +176,8 @@ def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:
 def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Return a note on methods after which figures are worse than before."""
     labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()}
-    worse = [
-        f"{head} ({', '.join(labels[name] for name in record['worse'])})"
-        for head, record in columns.items()
-        if record.get("worse")
-    ]
+    fallen = {head: record["worse"] for head, record in columns.items() if record.get("worse")}
+    worse = [f"{head} ({', '.join(map(labels.get, names))})" for head, names in fallen.items()]
     return [f"Worse than before: {'; '.join(worse)}."] if worse else []
 
 

@@ -117,20 +117,7 @@ def _break(axes: Axes, left: float, right: float, top: float, number: str, colou
     """Draw a zigzag across a bar that is too tall for the axis, and its number above it."""
     places = [left + (right - left) * k / 8 for k in range(9)]
     for wide, of in ((5.0, colour), (3.4, "white")):
-        axes.plot(
-            places,
-            [top * (0.90 if k % 2 else 0.93) for k in range(9)],
-            color=of,
-            linewidth=wide,
-            zorder=5,
-            solid_capstyle="butt",
-        )
-    axes.annotate(
-        number,
-        ((left + right) / 2, _BROKEN * top),
-        xytext=(0, 3),
-        textcoords="offset points",
-        ha="center",
-        fontsize="small",
-        color=colour,
-    )
+        heights = [top * (0.90 if k % 2 else 0.93) for k in range(9)]
+        axes.plot(places, heights, color=of, linewidth=wide, zorder=5, solid_capstyle="butt")
+    above = {"xytext": (0, 3), "textcoords": "offset points", "ha": "center", "fontsize": "small"}
+    axes.annotate(number, ((left + right) / 2, _BROKEN * top), color=colour, **above)

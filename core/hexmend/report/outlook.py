@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,7 @@ from hexmend.report.comparison import ended
 from hexmend.report.documents import write_documents
 from hexmend.report.tables import Table
 
-
-def _three(value: float) -> str:
-    return format_significant(value, 3)
-
+_three = partial(format_significant, digits=3)
 
 #: Columns of the table: until the run is near the optimum, and in all.
 COLUMNS: tuple[Quantity, ...] = (
@@ -46,10 +44,7 @@ def outlook_table(outlook: Mapping[str, Any]) -> Table:
         [run["method"], *(str(run.get(name, "–")) for name in vary), *(column.of(run) for column in COLUMNS)]
         for run in outlook["runs"]
     ]
-    title = (
-        f"{outlook['section']}, {outlook['title']}: {outlook['mesh']}, {outlook['hexes']:,} hexes, "
-        f"{outlook['free_nodes']:,} free nodes"
-    )
+    title = "{section}, {title}: {mesh}, {hexes:,} hexes, {free_nodes:,} free nodes".format(**outlook)
     notes = [
         f"Sweeps, evaluations and seconds until the objective is within {100 * outlook['near']:g} % of the least that "
         "any run ended with, and in all. An evaluation is one of a hex's energy or of its derivatives; "

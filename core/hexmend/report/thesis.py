@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,14 @@ from hexmend.report.tables import Table
 
 #: Words for a claim that was reproduced, not reproduced, or not judged.
 REPRODUCTION = {True: "Reproduced.", False: "Not reproduced.", None: "Not judged."}
+
+#: Sentence on the meshes of the full study and of the quick one.
+_OUR_MESHES = {
+    "full": "The meshes are ours: the thesis's are not published, and these have their structure and size, so that "
+    "qualities are to be compared in kind and not in digits.",
+    "quick": "The meshes are ours, of the structure of the thesis's, which are not published, and in this quick study "
+    "mostly much smaller: qualities and times are to be compared in kind and not in digits.",
+}
 
 #: Note below every table.
 OURS = "The mesh is ours, of the structure of the thesis's, whose file is not published."
@@ -76,10 +85,8 @@ def experiment_table(experiment: Mapping[str, Any]) -> Table:
         notes.append(f"The thesis's has {thesis['hexes']:,} hexes and {thesis['free_nodes']:,} free nodes.")
     notes.append(f"Inverted at the start: {experiment['inverted']:,}, in the thesis {thesis['inverted']:,}.")
     delta = f", δ = {experiment['delta']:g}" if experiment["delta"] is not None else ""
-    title = (
-        f"Table {experiment['table']}, {experiment['thesis_mesh']}{delta}: "
-        f"{experiment['hexes']:,} hexes, {experiment['free_nodes']:,} free nodes"
-    )
+    size = "{hexes:,} hexes, {free_nodes:,} free nodes".format(**experiment)
+    title = f"Table {experiment['table']}, {experiment['thesis_mesh']}{delta}: {size}"
     return comparison_table(title, experiment["columns"], experiment["published"], notes)
 
 
@@ -113,16 +120,12 @@ def index(study: Mapping[str, Any], figures: Sequence[Mapping[str, str]]) -> str
 
 
 def _preface(study: Mapping[str, Any]) -> str:
-    own = "".join(f", of {method} {seconds:g} s" for method, seconds in study["max_seconds_of"].items())
+    limits = f"{study['max_seconds']:g} s"
+    limits += "".join(f", of {method} {seconds:g} s" for method, seconds in study["max_seconds_of"].items())
     sentences = [
         "T. J. Wilson, *Simultaneous Untangling and Smoothing of Hexahedral Meshes*.",
-        "The meshes are ours: the thesis's are not published, and these have their structure and size,"
-        " so that qualities are to be compared in kind and not in digits."
-        if not study["quick"]
-        else "The meshes are ours, of the structure of the thesis's, which are not published, and in this quick study"
-        " mostly much smaller: qualities and times are to be compared in kind and not in digits.",
-        f"A run ends with the iteration in which it passes {study['max_seconds']:g} s{own}; the tables say where one"
-        " did.",
+        _OUR_MESHES["quick" if study["quick"] else "full"],
+        f"A run ends with the iteration in which it passes {limits}; the tables say where one did.",
     ]
     if study["interrupted"]:
         sentences.append("**The study was interrupted: what is below is what was measured until then.**")
@@ -168,29 +171,27 @@ def write_plots(
         All files.
     """
     figures, paths = [], []
-    ours: dict[str, list[tuple[int, float]]] = {}
-    theirs: dict[str, list[tuple[int, float]]] = {}
+    ours, theirs = defaultdict(list), defaultdict(list)
     for experiment in (one for one in study["experiments"] if one["mesh"] == "five-side"):
-        for name, record in experiment["columns"].items():
-            if record.get("seconds_per_iteration") and name in experiment["published"]:
-                ours.setdefault(name, []).append((experiment["free_nodes"], record["seconds_per_iteration"]))
-        for name, record in experiment["published"].items():
-            if record.get("seconds_per_iteration"):
-                point = (experiment["thesis"]["free_nodes"], record["seconds_per_iteration"])
-                theirs.setdefault(name, []).append(point)
+        columns, published = experiment["columns"], experiment["published"]
+        measured = {name: record for name, record in columns.items() if name in published}
+        for points, nodes, records in (
+            (ours, experiment["free_nodes"], measured),
+            (theirs, experiment["thesis"]["free_nodes"], published),
+        ):
+            for name, record in records.items():
+                if record.get("seconds_per_iteration"):
+                    points[name].append((nodes, record["seconds_per_iteration"]))
     if ours:
         stem = "figure-4.4-scaling"
         paths += plots.scaling(folder / stem, ours, theirs, formats)
-        caption = (
-            "Scaling of smoothing algorithms with number of free nodes in FiveSide geometry: ours and the thesis's"
-        )
-        figures.append({"number": "4.4", "caption": caption, "file": f"{stem}.{formats[-1]}"})
-    for experiment in study["experiments"]:
-        if experiment["table"] == "4.14":
-            counts = {name: one["distribution"] for name, one in experiment["columns"].items() if one["distribution"]}
-            title = f"{experiment['mesh']}, {experiment['hexes']:,} hexes"
-            stem = "figure-4.9-distributions"
-            paths += plots.distributions(folder / stem, counts, title, formats)
-            caption = f"Quality distributions for Plane mesh: ours, {experiment['hexes']:,} hexes"
-            figures.append({"number": "4.9", "caption": caption, "file": f"{stem}.{formats[-1]}"})
+        caption = "Scaling of smoothing algorithms with number of free nodes in FiveSide geometry"
+        file = f"{stem}.{formats[-1]}"
+        figures.append({"number": "4.4", "caption": f"{caption}: ours and the thesis's", "file": file})
+    for experiment in (one for one in study["experiments"] if one["table"] == "4.14"):
+        counts = {name: one["distribution"] for name, one in experiment["columns"].items() if one["distribution"]}
+        stem, size = "figure-4.9-distributions", f"{experiment['hexes']:,} hexes"
+        paths += plots.distributions(folder / stem, counts, f"{experiment['mesh']}, {size}", formats)
+        caption, file = f"Quality distributions for Plane mesh: ours, {size}", f"{stem}.{formats[-1]}"
+        figures.append({"number": "4.9", "caption": caption, "file": file})
     return figures, paths

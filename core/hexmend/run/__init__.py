@@ -123,14 +123,13 @@ def _configured(
         smoother = METHODS[smoother]()
     if not isinstance(smoother, Smoother | Recipe):
         raise TypeError(f"{type(smoother).__name__} is not a method: expected a hexmend.Smoother, a Recipe or a name")
-    limits = {one.name for one in declared(StoppingCriteria)}
+    names = sorted(one.name for one in declared(StoppingCriteria))
     own = [] if isinstance(smoother, Recipe) else [one.name for one in declared(smoother)]
-    settings = {current_name(type(smoother), name): value for name, value in settings.items()}
-    for name in settings:
-        if name not in limits and name not in own:
-            raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *sorted(limits)])}")
-    limits_given = {name: value for name, value in settings.items() if name in limits}
-    values = {name: value for name, value in settings.items() if name not in limits}
+    values = {current_name(type(smoother), name): value for name, value in settings.items()}
+    for name in values:
+        if name not in names and name not in own:
+            raise ParameterError(f"{smoother.name} has no parameter {name!r}: {hint(name, [*own, *names])}")
+    limits_given = {name: values.pop(name) for name in names if name in values}
     if values:
         smoother = dataclasses.replace(smoother, **values)
     if limits_given and isinstance(smoother, Recipe) and stop is None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.aliases import reads_old_names
 from hexmend.iteration import Iteration
 
 
@@ -26,6 +28,7 @@ class Hit:
     nodes: tuple[int, ...] = ()
 
 
+@reads_old_names
 @dataclass(frozen=True)
 class Breakpoints:
     """Events at which a run pauses; none by default.
@@ -40,7 +43,7 @@ class Breakpoints:
         Pause when this node moves further than `move` mean edge lengths in an iteration.
     hex, change : int or None, float
         Pause when the quality of this hex changes by more than `change` in an iteration.
-    cuts : int or None
+    backtracks : int or None
         Pause when the line search shortens the step more often than this. Methods with a line search for each node do
         not report it.
     """
@@ -51,13 +54,12 @@ class Breakpoints:
     move: float = 0.1
     hex: int | None = None
     change: float = 0.1
-    cuts: int | None = None
+    backtracks: int | None = None
 
     @property
     def any(self) -> bool:
         """True if any event is set."""
-        watched = (self.node, self.hex, self.cuts)
-        return self.inverts or self.q_min_falls or any(one is not None for one in watched)
+        return self.inverts or self.q_min_falls or {self.node, self.hex, self.backtracks} != {None}
 
     def hit(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
         """Return the first break-point that an iteration reaches, in the order of the fields, or None.
@@ -69,48 +71,24 @@ class Breakpoints:
         unit : float
             Mean edge length of the mesh.
         """
-        hits = (
-            self._inverted(before, now),
-            self._fell(before, now),
-            self._moved(before, now, unit),
-            self._changed(before, now),
-            self._cut(now),
-        )
-        return next((hit for hit in hits if hit is not None), None)
+        return next(self._hits(before, now, unit), None)
 
-    def _inverted(self, before: Iteration, now: Iteration) -> Hit | None:
-        if not self.inverts:
-            return None
-        hexes = np.flatnonzero(now.quality.inverted & ~before.quality.inverted)
-        if not hexes.size:
-            return None
-        more = f" and {hexes.size - 1:,} more" if hexes.size > 1 else ""
-        return Hit(f"Hex {hexes[0]}{more} inverted", tuple(int(h) for h in hexes))
-
-    def _fell(self, before: Iteration, now: Iteration) -> Hit | None:
-        least, worst = before.quality.q.min(), int(now.quality.q.argmin())
-        if not (self.q_min_falls and now.quality.q[worst] < least):
-            return None
-        return Hit(f"q min fell from {least:.4f} to {now.quality.q[worst]:.4f}, at hex {worst}", (worst,))
-
-    def _moved(self, before: Iteration, now: Iteration, unit: float) -> Hit | None:
-        if self.node is None:
-            return None
-        move = float(np.linalg.norm(now.points[self.node] - before.points[self.node])) / unit
-        if not move > self.move:
-            return None
-        return Hit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
-
-    def _changed(self, before: Iteration, now: Iteration) -> Hit | None:
-        if self.hex is None:
-            return None
-        was, is_now = float(before.quality.q[self.hex]), float(now.quality.q[self.hex])
-        if not abs(is_now - was) > self.change:
-            return None
-        return Hit(f"q of hex {self.hex} went from {was:.4f} to {is_now:.4f}", (self.hex,))
-
-    def _cut(self, now: Iteration) -> Hit | None:
-        cuts = now.diagnostics.get("cuts", 0)
-        if self.cuts is None or not cuts > self.cuts:
-            return None
-        return Hit(f"The line search shortened the step {cuts} times, to {now.diagnostics.get('step_length', 0.0):.3g}")
+    def _hits(self, before: Iteration, now: Iteration, unit: float) -> Iterator[Hit]:
+        was, q = before.quality.q, now.quality.q
+        inverted = np.flatnonzero(now.quality.inverted & ~before.quality.inverted) if self.inverts else ()
+        if len(inverted):
+            more = f" and {inverted.size - 1:,} more" if inverted.size > 1 else ""
+            yield Hit(f"Hex {inverted[0]}{more} inverted", tuple(inverted.tolist()))
+        if self.q_min_falls and q.min() < was.min():
+            worst = int(q.argmin())
+            yield Hit(f"q min fell from {was.min():.4f} to {q[worst]:.4f}, at hex {worst}", (worst,))
+        if self.node is not None:
+            move = float(np.linalg.norm(now.points[self.node] - before.points[self.node])) / unit
+            if move > self.move:
+                yield Hit(f"Node {self.node} moved by {move:.3g} mean edge lengths", nodes=(self.node,))
+        if self.hex is not None and abs(float(q[self.hex]) - float(was[self.hex])) > self.change:
+            yield Hit(f"q of hex {self.hex} went from {was[self.hex]:.4f} to {q[self.hex]:.4f}", (self.hex,))
+        count = now.diagnostics.get("backtracks", 0)
+        if self.backtracks is not None and count > self.backtracks:
+            length = now.diagnostics.get("step_length", 0.0)
+            yield Hit(f"The line search shortened the step {count} times, to {length:.3g}")

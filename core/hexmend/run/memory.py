@@ -139,7 +139,10 @@ def available(root: Path = Path("/")) -> int | None:
     -----
     https://docs.kernel.org/admin-guide/cgroup-v2.html, memory; proc_meminfo(5), MemAvailable; getrlimit(2), RLIMIT_AS.
     """
-    found = [*_of_the_system(root), *_of_control_groups(root), *_of_address_space(root)]
+    found = [*_of_control_groups(root), *_of_address_space(root)]
+    kilobytes = _figure(root / "proc/meminfo", "MemAvailable:")
+    if kilobytes is not None:
+        found.append(kilobytes << 10)
     return max(0, min(found)) if found else None
 
 
@@ -151,21 +154,13 @@ def format_bytes(size: int) -> str:
     return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.0f} MB"
 
 
-def _of_the_system(root: Path) -> Iterator[int]:
-    kilobytes = _figure(root / "proc/meminfo", "MemAvailable:")
-    if kilobytes is not None:
-        yield kilobytes << 10
-
-
 def _of_control_groups(root: Path) -> Iterator[int]:
     """Yield the bytes that each control group of the process leaves, from the innermost to the outermost."""
     for line in _text(root / "proc/self/cgroup").splitlines():
         _, controllers, path = line.split(":", 2)
         if not controllers:
-            mounts, names = (
-                ("sys/fs/cgroup", "sys/fs/cgroup/unified"),
-                ("memory.max", "memory.current", "inactive_file"),
-            )
+            mounts = ("sys/fs/cgroup", "sys/fs/cgroup/unified")
+            names = ("memory.max", "memory.current", "inactive_file")
         elif "memory" in controllers.split(","):
             mounts = ("sys/fs/cgroup/memory",)
             names = ("memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file")

@@ -28,14 +28,6 @@ def describe_change(old: Stage, new: Stage) -> str:
     return ", ".join([f"{new.smoother.title}{named} takes over from {old.smoother.title}", *limits])
 
 
-def format_iterations(count: int) -> str:
-    """
-    >>> format_iterations(1), format_iterations(2)
-    ('1 iteration', '2 iterations')
-    """
-    return f"{count} iteration{'s' * (count != 1)}"
-
-
 def kept_message(number: int) -> str:
     """
     >>> kept_message(3)

@@ -93,7 +93,8 @@ class Recipe:
         title : str
             By default the titles of the methods.
         """
-        stages = tuple(map(_stage, parts))
+        methods = (METHODS[part]() if isinstance(part, str) else part for part in parts)
+        stages = tuple(part if isinstance(part, Stage) else Stage(part) for part in methods)
         return cls(title or "; then ".join(stage.smoother.title for stage in stages), stages)
 
     def limited(self, **limits: Any) -> Recipe:
@@ -103,12 +104,6 @@ class Recipe:
     def values(self) -> dict[str, Any]:
         """Return the recipe as data with the keys `title` and `stages`."""
         return {"title": self.title, "stages": [stage.values() for stage in self.stages]}
-
-
-def _stage(part: Stage | Smoother | str) -> Stage:
-    if isinstance(part, Stage):
-        return part
-    return Stage(METHODS[part]() if isinstance(part, str) else part)
 
 
 def to_toml(recipe: Recipe) -> str:
@@ -168,13 +163,10 @@ def migrate_surface_tolerance(data: Any) -> Any:
     now = {key: migrate_surface_tolerance(one) for key, one in data.items()}
     if "surface_tolerance" in now:
         given = now["surface_tolerance"]
-        several = [UNLIMITED if _is_zero(one) else one for one in (given if isinstance(given, list) else [given])]
+        several = given if isinstance(given, list) else [given]
+        several = [UNLIMITED if type(one) in (int, float) and one == 0 else one for one in several]
         now["surface_tolerance"] = several if isinstance(given, list) else several[0]
     return now
-
-
-def _is_zero(value: Any) -> bool:
-    return type(value) in (int, float) and value == 0
 
 
 def read_stage(number: int, data: Mapping[str, Any]) -> Stage:

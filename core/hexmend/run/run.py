@@ -7,14 +7,14 @@ from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
-from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
-from hexmend.run.messages import describe_change, format_iterations, kept_message
+from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.terminal_text import count_phrase
 
 
 @reads_old_names
@@ -56,7 +56,7 @@ class Run(Iterator[Iteration]):
         self._stages = _stages(smoother, stop)
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
-        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.power)
+        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.norm)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
@@ -103,9 +103,9 @@ class Run(Iterator[Iteration]):
             return
         self.decisions.append(f"After iteration {self.last.number}: {describe_change(old.stage, new)}.")
         if new.smoother == old.smoother and old.outcome is None:
-            old.limit(new.stop)
+            old.set_limits(new.stop)
         else:
-            stage_run = StageRun(self.mesh, new, old.number, old.at, self.last, old)
+            stage_run = StageRun(self.mesh, new, old.number, old.current, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
             self._stage_runs.append(stage_run)
@@ -146,10 +146,10 @@ class Run(Iterator[Iteration]):
         return len(self._stages)
 
     @property
-    def limit(self) -> int:
+    def max_iterations(self) -> int:
         """Largest number of iterations that the run can have with its present limits."""
         at = self._stage_run
-        here = self.last.number if at.outcome is not None else at.since.number + at.stage.stop.max_iterations
+        here = self.last.number if at.outcome is not None else at.stage_start.number + at.stage.stop.max_iterations
         return here + sum(stage.stop.max_iterations for stage in self._remaining_stages)
 
     @property
@@ -173,12 +173,12 @@ class Run(Iterator[Iteration]):
     def _message(self, before: Summary, after: Summary) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
-        left = f"{inverted:,} hex{'es' * (inverted != 1)} still inverted" if inverted else "no hex is inverted"
+        left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
         move = f"the last one moved a node by {at.largest_move:.2g} mean edge lengths at most; " if at.number else ""
         decided = self.decisions
         if not self._kept_last and decided and decided[-1] == self._stage_run.decision:
             decided = decided[:-1]  # it is about the last iteration, which is not the result
-        words = [text, f"{format_iterations(at.number)} in {at.seconds:.3g} s; {move}{left}.", *decided]
+        words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
@@ -208,15 +208,13 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
-            limits=self._stage_run.limits if self._kept_last else None,
+            active=self._stage_run.active if self._kept_last else None,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Return the change of the boundary from the mesh as given; None if no method let it slide."""
         sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides), None)
-        if sliding is None:
-            return None
-        return surface_change(self.mesh, mesh, sliding.values().get("feature_angle", FEATURE_ANGLE))
+        return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
@@ -234,7 +232,7 @@ class Run(Iterator[Iteration]):
     def _begin_next_stage(self) -> None:
         done, last, reached = self._stage_run, self.last, self.best
         kept = f" Iteration {reached.number} of it was kept." if reached is not last else ""
-        count = format_iterations(last.number - done.since.number)
+        count = count_phrase(last.number - done.stage_start.number, "iteration")
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
         self._stage_runs.append(StageRun(self.mesh, self._remaining_stages[0], done.number + 1, reached, last))
         self._end_if_done()

@@ -8,7 +8,7 @@ from time import perf_counter
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import as_immutable, largest_norm
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
@@ -37,41 +37,47 @@ class StageRun:
         Number of the stage in the recipe, from 1.
     start : Iteration
         The iteration whose points it begins with.
-    after : Iteration
+    run_last : Iteration
         The run's newest iteration, from which numbers and seconds are counted on.
-    before : StageRun, optional
+    predecessor : StageRun, optional
         The stage run that it replaces: limits are counted and iterations ranked from the beginning of that stage.
 
     Attributes
     ----------
-    at : Iteration
+    current : Iteration
         The iteration with the present points.
     last, best : Iteration
         See `Run`.
-    since : Iteration
+    stage_start : Iteration
         The run's newest iteration at the beginning of the stage.
     outcome : Outcome or None
         None until it ends.
     setup_seconds : float
     decision : str
         The method's decision at its newest step, as a sentence.
-    limits : ActiveSet or None
+    active : ActiveSet or None
         The constraints that stop the method, if it reports them.
     """
 
     def __init__(
-        self, mesh: Mesh, stage: Stage, number: int, start: Iteration, after: Iteration, before: StageRun | None = None
+        self,
+        mesh: Mesh,
+        stage: Stage,
+        number: int,
+        start: Iteration,
+        run_last: Iteration,
+        predecessor: StageRun | None = None,
     ):
         self.stage, self.number = stage, number
-        self.start, self.after = start, after
-        self.since = after if before is None else before.since
-        self.last, self.at = after, start
+        self.start, self.run_last = start, run_last
+        self.stage_start = run_last if predecessor is None else predecessor.stage_start
+        self.last, self.current = run_last, start
         self.outcome: Outcome | None = None
         self.decision = ""
-        self.limits: ActiveSet | None = None
+        self.active: ActiveSet | None = None
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
-        self._origin = start if before is None else before._origin
-        self._best = start if before is None else before._best
+        self._origin = start if predecessor is None else predecessor._origin
+        self._best = start if predecessor is None else predecessor._best
         self._best_rank = self._rank(self._best)
         self._update_best(start)
         began = perf_counter()
@@ -91,12 +97,12 @@ class StageRun:
     @property
     def best(self) -> Iteration:
         """See `Run`."""
-        return self.at if self.stage.stop.keep_last else self._best
+        return self.current if self.stage.stop.keep_last else self._best
 
     @property
     def n_iterations(self) -> int:
         """Number of iterations so far."""
-        return self.last.number - self.after.number
+        return self.last.number - self.run_last.number
 
     def advance(self) -> Iteration | None:
         """Make a step; return the new iteration, or None if the method has no further step."""
@@ -107,34 +113,31 @@ class StageRun:
             self.end(end.value or Outcome.FINISHED)
             return None
         seconds = self.last.seconds + perf_counter() - began
-        before = self.at
+        before = self.current
         label = f"{self.smoother.name}: the points of a step"
         points = as_immutable(points_like(step.points, before.points.shape, label))
         moves = points - before.points
-        move = float(np.sqrt(np.square(moves).sum(axis=1).max())) / self._unit
+        move = largest_norm(moves) / self._unit
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
             return None
         quality = step.quality if step.quality is not None else measure(points, self._hexes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
-        now = self.last = self.at = Iteration(
-            self.last.number + 1, points, quality, seconds, move, diagnostics, step.power or self.smoother.power
+        now = self.last = self.current = Iteration(
+            self.last.number + 1, points, quality, seconds, move, diagnostics, step.norm or self.smoother.norm
         )
-        self.decision, self.limits = step.decision, step.limits or self.limits
+        self.decision, self.active = step.decision, step.active or self.active
         if not step.infeasible:
             self._update_best(now)
-        small = self._step_measure(moves, move) < self.stage.stop.tolerance
+        size = move if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
+        small = size < self.stage.stop.tolerance
         if small and not step.intermediate and not self._still_falls(before, now):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()
         return now
 
-    def _step_measure(self, moves: np.ndarray, length: float) -> float:
-        """Return the measure of a step that Algorithm A.1 compares with the tolerance, in mean edge lengths."""
-        return length if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
-
-    def limit(self, stop: StoppingCriteria) -> None:
+    def set_limits(self, stop: StoppingCriteria) -> None:
         """Continue with other limits."""
         self.stage = Stage(self.smoother, stop)
         self._end_at_a_limit()
@@ -155,9 +158,9 @@ class StageRun:
         """
         if cut and not self.n_iterations:
             return None
-        stop, before, spent = self.stage.stop, self.after.number - self.since.number, self.after.seconds
+        stop, before, spent = self.stage.stop, self.run_last.number - self.stage_start.number, self.run_last.seconds
         most = self.n_iterations if cut else max(stop.max_iterations - before, 0)
-        left = max(stop.max_seconds - (spent - self.since.seconds), 1e-3) if stop.max_seconds else 0.0
+        left = max(stop.max_seconds - (spent - self.stage_start.seconds), 1e-3) if stop.max_seconds else 0.0
         last = cut or stop.keep_last  # its successor continued from the last iteration
         return Stage(self.smoother, replace(stop, max_iterations=most, max_seconds=left, keep_last=last))
 
@@ -171,7 +174,7 @@ class StageRun:
             outcome=self.outcome or Outcome.STOPPED,
             first=self.start.number,
             iterations=self.n_iterations,
-            seconds=self.last.seconds - self.after.seconds,
+            seconds=self.last.seconds - self.run_last.seconds,
             setup_seconds=self.setup_seconds,
         )
 
@@ -188,15 +191,16 @@ class StageRun:
         """Return True if an optimiser's objective still falls: near the barrier steps are short but gain much."""
         if not self.smoother.optimises:
             return False
-        power = now.power  # the previous step may have had another objective
-        then, later = objective(before.quality, *power), now.objective
+        norm = now.norm  # the previous step may have had another objective
+        then, later = objective(before.quality, *norm), now.objective
         if then is None or later is None:
             return False
-        least = power.least * now.quality.q.size
-        return then - later > max(_MIN_RELATIVE_FALL * (then - least), _MIN_FALL * (power.of(1.0) - power.least))
+        excess = then - norm.cube_value * now.quality.q.size
+        least = max(_MIN_RELATIVE_FALL * excess, _MIN_FALL * (norm.contribution(1.0) - norm.cube_value))
+        return then - later > least
 
     def _end_at_a_limit(self) -> None:
-        stop, last, since = self.stage.stop, self.last, self.since
+        stop, last, since = self.stage.stop, self.last, self.stage_start
         if last.number - since.number >= stop.max_iterations:
             self.end(Outcome.MAX_ITERATIONS)
         elif 0 < stop.max_seconds <= last.seconds - since.seconds:

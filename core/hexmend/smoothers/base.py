@@ -9,7 +9,8 @@ from typing import Any, ClassVar, TypeAlias, TypeVar
 
 import numpy as np
 
-from hexmend.aliases import PARAMETERS, reads_old_names
+from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
@@ -39,6 +40,8 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
+    feature_angle = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
     #: bench --only memory`, with a fifth added. See `hexmend.run.memory`.
     bytes_per_hex: ClassVar[int] = 1000
@@ -48,10 +51,10 @@ class Smoother(Parametrised, ABC):
         super().__post_init__()
 
     @property
-    def power(self) -> ObjectiveNorm:
+    def norm(self) -> ObjectiveNorm:
         """p and offset of the objective that its runs minimise.
 
-        It is recorded for every step that names no other (`Step.power`). A method that minimises nothing has the
+        It is recorded for every step that names no other (`Step.norm`). A method that minimises nothing has the
         default values.
         """
         return SQUARES
@@ -155,4 +158,4 @@ def method(cls: S) -> S:
         raise TypeError(f"{cls.__name__} is no hexmend.Smoother")
     _check_texts(cls, "name", "title", "help", "source")
     METHODS.add(cls.name, cls)
-    return reads_old_names(cls, PARAMETERS.get(cls.name, {}))
+    return reads_old_names(cls, former_attributes(Smoother) | PARAMETERS.get(cls.name, {}))

@@ -1,10 +1,11 @@
-"""Bases of the optimisers of (3.3): the objective, and the barrier that untangles."""
+"""Bases of the optimisers of (3.3): the objective, the barrier that untangles, and the line search."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from hexmend.energy import POLICIES, ObjectiveNorm
+from hexmend.kernels.line_search import LineSearch
 from hexmend.parameters import parameter
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 
@@ -26,24 +27,40 @@ class ObjectiveSmoother(SlidingSmoother):
     )
 
     @property
-    def power(self) -> ObjectiveNorm:
+    def norm(self) -> ObjectiveNorm:
         """p and offset of the objective that it minimises."""
         return ObjectiveNorm(self.p, self.offset)
 
 
 @dataclass(frozen=True)
 class Optimiser(ObjectiveSmoother):
-    """Method that untangles by a barrier softened by delta."""
+    """Method that untangles by a barrier softened by delta, with a line search along its directions."""
 
     delta: float = parameter(
         0.01,
         low=0,
         high=10,
         unit="mean edge length³",
-        help="Softness of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
+        help="Regularisation of the barrier (3.2) while any hex is inverted; then zero. Large values move the optimum.",
     )
     delta_policy: str = parameter(
         "fixed",
         choices=tuple(POLICIES),
         help="fixed: delta as given; adaptive: larger for deeply inverted hexes, falling to delta as they recover.",
     )
+    delta_unit: str = parameter(
+        "edge",
+        choices=("edge", "mesh"),
+        help="Unit of length for delta: the mean edge length of the mesh, or the unit of its points (Table 4.3).",
+    )
+    initial_step: float = parameter(1.0, low=1e-6, high=1e6, help="First trial step α of the line search (A.5).")
+    backtrack_factor: float = parameter(
+        0.7, low=0.01, high=0.99, help="Factor λ by which a rejected step is shortened (A.5)."
+    )
+    c1: float = parameter(1e-4, low=0, high=0.5, help="Fraction c₁ of the slope required of a step (Armijo, A.5).")
+    max_backtracks: int = parameter(100, low=1, high=500, help="Backtracks of a step after which the method gives up.")
+
+    @property
+    def line_search(self) -> LineSearch:
+        """The line search with the method's parameters."""
+        return LineSearch(self.initial_step, self.backtrack_factor, self.c1, self.max_backtracks)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from hexmend.arrays import largest_norm
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
@@ -16,6 +17,7 @@ from hexmend.parameters import parameter
 from hexmend.quality import measure
 from hexmend.smoothers.base import METHODS, Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.terminal_text import count_phrase
 
 
 @method
@@ -25,7 +27,7 @@ class General(SlidingSmoother):
 
     name = "general"
     title = "General (GETMe, then an optimiser)"
-    help = "GETMe; then global Newton if hexes are of similar size and none is inverted, else local steepest descent."
+    help = "GETMe; then global Newton if hexes have similar size and none is inverted, else local steepest descent."
     source = "Wilson 5.1, Algorithm 5.1"
     optimises = True
     bytes_per_hex = 3000  # of the global Newton's method that it may go on with
@@ -37,12 +39,12 @@ class General(SlidingSmoother):
         3.0,
         low=1,
         high=1e6,
-        help="Hexes are of similar size up to this ratio of the 95th to the 5th percentile of edge lengths.",
+        help="Hexes are of similar size up to this ratio of the 95th to the 5th percentile of their mean edge lengths.",
     )
     getme_tolerance: float = parameter(
         1e-4, low=0, high=1, unit="mean edge length", help="GETMe has converged when no node moves further (A.1)."
     )
-    getme_iterations: int = parameter(500, low=0, high=100_000, help="Most iterations of GETMe.")
+    getme_iterations: int = parameter(500, low=0, high=100_000, help="Iteration limit of GETMe.")
 
     def steps(self, mesh: Mesh) -> Steps:
         mesh = mesh.keeping_surface()
@@ -51,14 +53,19 @@ class General(SlidingSmoother):
         if not quality.n_inverted and quality.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
         ratio = edge_length_ratio(points, mesh.hexes)
-        sizes = f"{'similar' if ratio <= self.max_size_ratio else 'different'} sizes (ratio {ratio:.2g})"
-        count = quality.n_inverted
-        inverted = f"{count:,} inverted hex{'es' * (count != 1)}" if count else "no inverted hexes"
-        chosen = METHODS["global-nr" if ratio <= self.max_size_ratio and not count else "local-sd"]
+        similar, count = ratio <= self.max_size_ratio, quality.n_inverted
+        inverted = count_phrase(count, "inverted hex", "inverted hexes") if count else "no inverted hexes"
+        chosen = METHODS["global-nr" if similar and not count else "local-sd"]
+        sizes = f"{'similar' if similar else 'different'} sizes (ratio {ratio:.2g})"
         decision = f"After GETMe: {sizes}, {inverted}: {chosen.title}."
         rest = chosen(**self._sliding_values()).steps(mesh.with_points(points))
         next(rest)
-        return (yield from _beginning_with(decision, rest))
+        try:
+            step = next(rest)
+        except StopIteration as end:
+            return end.value
+        yield dataclasses.replace(step, decision=decision)
+        return (yield from rest)
 
     def _sliding_values(self) -> dict[str, Any]:
         return {one.name: getattr(self, one.name) for one in dataclasses.fields(SlidingSmoother)}
@@ -69,23 +76,12 @@ class General(SlidingSmoother):
         getme = METHODS["getme"](**self._sliding_values()).steps(mesh)
         yield dataclasses.replace(next(getme), intermediate=True)
         for _, step in zip(range(self.getme_iterations), getme, strict=False):
-            move = float(np.sqrt(np.square(step.points - points).sum(axis=1).max())) / unit
+            move = largest_norm(step.points - points) / unit
             points = step.points
             yield dataclasses.replace(step, intermediate=True)
             if move < self.getme_tolerance:
                 break
         return points
-
-
-def _beginning_with(decision: str, steps: Steps) -> Steps:
-    """Attach the decision to the first of some steps."""
-    while True:
-        try:
-            step = next(steps)
-        except StopIteration as end:
-            return end.value
-        yield dataclasses.replace(step, decision=decision)
-        decision = ""
 
 
 def edge_length_ratio(points: np.ndarray, hexes: np.ndarray) -> float:

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
+from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Smoother
@@ -27,10 +28,10 @@ class SlidingSmoother(Smoother):
     """Method that may let the nodes of the boundary slide on the surface."""
 
     boundary: str = parameter(
-        "fixed", choices=("fixed", "slide"), help="Whether nodes of the boundary stay, or slide on the surface (5.2.1)."
+        "fixed", choices=("fixed", "slide"), help="Keep boundary nodes fixed, or let them slide on the surface (5.2.1)."
     )
     feature_angle: float = parameter(
-        40.0, low=1, high=180, unit="degrees", help="Edges with a larger dihedral angle are features."
+        FEATURE_ANGLE, low=1, high=180, unit="degrees", help="Edges with a larger dihedral angle are features."
     )
 
     surface_tolerance: float = parameter(
@@ -38,8 +39,8 @@ class SlidingSmoother(Smoother):
         low=0,
         high=10,
         unit="mean edge length",
-        help="How far the boundary may leave the surface: 0 keeps it there, so that nodes slide where it is flat "
-        "alone; unlimited sets no limit to what sliding nodes leave between them.",
+        help="Largest distance between boundary and surface: with 0 nodes slide only where the surface is flat; "
+        "with unlimited, faces between sliding nodes may cut across curved parts by any distance.",
         no_limit=UNLIMITED,
     )
 
@@ -55,9 +56,9 @@ class SlidingSmoother(Smoother):
         """The surface on which the boundary nodes of a mesh slide; None where they stay."""
         if not self.slides:
             return None
-        return SlidingBoundary(mesh, self.feature_angle, self.max_deviation(mesh))
+        return SlidingBoundary(mesh, self.feature_angle, self.absolute_tolerance(mesh))
 
-    def max_deviation(self, mesh: Mesh) -> float:
+    def absolute_tolerance(self, mesh: Mesh) -> float:
         """Distance from the surface that the boundary may have, in the mesh's unit of length."""
         return np.inf if self.surface_tolerance == UNLIMITED else self.surface_tolerance * mesh.mean_edge_length
 
@@ -99,7 +100,7 @@ class Sweeps:
         while True:
             moved = points.copy()
             answer = sweep(moved, stays)
-            beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.outside_band(moved)
+            beyond = np.empty(0, dtype=np.int64) if self.sliding is None else self.sliding.nodes_outside_band(moved)
             beyond = beyond[(moved[beyond] != points[beyond]).any(axis=1)]
             if not beyond.size:
                 return moved, answer

@@ -20,35 +20,24 @@ from hexmend.quality import measure
 Sequence: TypeAlias = Callable[[np.ndarray, int], np.ndarray]
 
 
-def colour(mesh: Mesh) -> Sequence:
-    """Colour by colour, each by number."""
-    return _constant(mesh.topology.colouring(mesh.free).items)
+def _constant(nodes: np.ndarray) -> Sequence:
+    return lambda points, sweep: nodes
 
 
-def natural(mesh: Mesh) -> Sequence:
-    """By number, as in Algorithms 3.1 and 3.2."""
-    return _constant(_free_nodes(mesh))
+def _free_nodes(mesh: Mesh) -> np.ndarray:
+    return np.flatnonzero(mesh.free).astype(np.int32)
 
 
-def reverse(mesh: Mesh) -> Sequence:
-    """By number, the last first."""
-    return _constant(_free_nodes(mesh)[::-1].copy())
+def _by_level(mesh: Mesh) -> np.ndarray:
+    """Free nodes level by level from the fixed ones, each level by number."""
+    nodes = _free_nodes(mesh)
+    return nodes[np.argsort(mesh.topology.levels(mesh.fixed)[nodes], kind="stable")]
 
 
 def random(mesh: Mesh) -> Sequence:
     """Random in each sweep, whose number is the seed: runs can be repeated."""
     nodes = _free_nodes(mesh)
     return lambda points, sweep: np.random.default_rng(sweep).permutation(nodes)
-
-
-def inward(mesh: Mesh) -> Sequence:
-    """Level by level from the fixed nodes, each by number."""
-    return _constant(_by_level(mesh))
-
-
-def outward(mesh: Mesh) -> Sequence:
-    """Level by level towards the fixed nodes, the farthest first."""
-    return _constant(_by_level(mesh)[::-1].copy())
 
 
 def alternating(mesh: Mesh) -> Sequence:
@@ -73,12 +62,12 @@ def worst_first(mesh: Mesh) -> Sequence:
 
 #: Orders by the value of a method's parameter.
 ORDERS: dict[str, Callable[[Mesh], Sequence]] = {
-    "colour": colour,
-    "natural": natural,
-    "reverse": reverse,
+    "colour": lambda mesh: _constant(mesh.topology.colouring(mesh.free).items),  # each colour by number
+    "natural": lambda mesh: _constant(_free_nodes(mesh)),  # as in Algorithms 3.1 and 3.2
+    "reverse": lambda mesh: _constant(_free_nodes(mesh)[::-1].copy()),
     "random": random,
-    "inward": inward,
-    "outward": outward,
+    "inward": lambda mesh: _constant(_by_level(mesh)),
+    "outward": lambda mesh: _constant(_by_level(mesh)[::-1].copy()),
     "alternating": alternating,
     "worst-first": worst_first,
 }
@@ -119,16 +108,3 @@ class VisitOrder:
         if nodes is not self._nodes:
             self._nodes, self._groups = nodes, self._mesh.topology.wavefronts(nodes)
         return self._groups
-
-
-def _constant(nodes: np.ndarray) -> Sequence:
-    return lambda points, sweep: nodes
-
-
-def _free_nodes(mesh: Mesh) -> np.ndarray:
-    return np.flatnonzero(mesh.free).astype(np.int32)
-
-
-def _by_level(mesh: Mesh) -> np.ndarray:
-    nodes = _free_nodes(mesh)
-    return nodes[np.argsort(mesh.topology.levels(mesh.fixed)[nodes], kind="stable")]

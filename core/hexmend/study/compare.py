@@ -11,7 +11,7 @@ from hexmend.quality import Summary, summarise
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.study.table_row import Row, Watch, common_power, initial_record, run_one
+from hexmend.study.table_row import Row, Watch, common_norm, initial_record, run_one
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,13 +43,13 @@ class Comparison:
 
         All rows have the objective of the first method that minimises one.
         """
-        power = common_power(self.rows)
+        norm = common_norm(self.rows)
         return {
             "mesh": self.mesh.name,
             "stop": self.stop.values(),
             "interrupted": self.interrupted,
-            "initial": initial_record(self.mesh, self.initial, power),
-            "rows": [row.record(power) for row in self.rows],
+            "initial": initial_record(self.mesh, self.initial, norm),
+            "rows": [row.record(norm) for row in self.rows],
         }
 
 

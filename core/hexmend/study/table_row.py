@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
@@ -83,53 +83,47 @@ class Row:
         return per_iteration / nodes if per_iteration is not None and nodes else None
 
     @property
-    def power(self) -> ObjectiveNorm | None:
+    def norm(self) -> ObjectiveNorm | None:
         """Norm of the objective (3.3) of the method, or of the last optimising stage of a recipe; else None."""
         runs = [run for run in self.stages or (self,) if run.method in METHODS and METHODS[run.method].optimises]
-        return METHODS[runs[-1].method](**runs[-1].parameters).power if runs else None
+        return METHODS[runs[-1].method](**runs[-1].parameters).norm if runs else None
 
-    def objective_by(self, power: ObjectiveNorm) -> float | None:
+    def objective_by(self, norm: ObjectiveNorm) -> float | None:
         """Return the objective of the smoothed mesh at delta = 0; None if a hex is inverted."""
-        return objective_of(self.mesh, self.after, power) if self.after else None
+        return objective_of(self.mesh, self.after, norm) if self.after else None
 
-    def record(self, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
+    def record(self, norm: ObjectiveNorm = SQUARES) -> dict[str, Any]:
         """Return the row for JSON: the method, its run, and the figures of `Summary` after it.
 
         Parameters
         ----------
-        power : ObjectiveNorm
-            Norm of the objective, common to the rows of a table: `common_power`.
+        norm : ObjectiveNorm
+            Norm of the objective, common to the rows of a table: `common_norm`.
 
         Returns
         -------
         dict
         """
         figures = self.after.to_dict() if self.after else dict.fromkeys(Summary.__dataclass_fields__)
-        figures |= {"objective": self.objective_by(power), "objective_formula": power.formula}
-        return {
-            "method": self.method,
-            "parameters": dict(self.parameters),
-            "outcome": self.outcome,
-            "message": self.message,
-            **figures,
-            "worse": list(self.worse),
-            "iterations": self.iterations,
-            "kept": self.kept,
-            "seconds": self.seconds,
-            "setup_seconds": self.setup_seconds,
-            "seconds_per_iteration": self.seconds_per_iteration,
-            "seconds_per_iteration_and_node": self.seconds_per_iteration_and_node,
-            "distribution": distribution(self.mesh) if self.mesh else None,
-            **({"surface": self.surface.to_dict()} if self.surface else {}),
-        } | ({"stages": [stage.to_dict() for stage in self.stages]} if self.stages else {})
+        times = "seconds", "setup_seconds", "seconds_per_iteration", "seconds_per_iteration_and_node"
+        record = {"method": self.method, "parameters": dict(self.parameters), "outcome": self.outcome}
+        record |= {"message": self.message, **figures}
+        record |= {"objective": self.objective_by(norm), "objective_formula": norm.formula, "worse": list(self.worse)}
+        record |= {key: getattr(self, key) for key in ("iterations", "kept", *times)}
+        record["distribution"] = distribution(self.mesh) if self.mesh else None
+        if self.surface:
+            record["surface"] = self.surface.to_dict()
+        if self.stages:
+            record["stages"] = [stage.to_dict() for stage in self.stages]
+        return record
 
 
-def common_power(rows: Iterable[Row]) -> ObjectiveNorm:
+def common_norm(rows: Iterable[Row]) -> ObjectiveNorm:
     """Return the norm of the first method that minimises an objective, else the default: a table compares by it."""
-    return next((power for row in rows if (power := row.power) is not None), SQUARES)
+    return next((norm for row in rows if (norm := row.norm) is not None), SQUARES)
 
 
-def objective_of(mesh: Mesh, summary: Summary, power: ObjectiveNorm) -> float | None:
+def objective_of(mesh: Mesh, summary: Summary, norm: ObjectiveNorm) -> float | None:
     """Compute the objective (3.3) of a mesh at delta = 0; None if a hex is inverted.
 
     Parameters
@@ -137,19 +131,19 @@ def objective_of(mesh: Mesh, summary: Summary, power: ObjectiveNorm) -> float | 
     mesh : Mesh
     summary : Summary
         Summary of this mesh.
-    power : ObjectiveNorm
+    norm : ObjectiveNorm
         p and offset.
 
     Returns
     -------
     float or None
     """
-    return summary.objective if power == SQUARES else objective(measure(mesh.points, mesh.hexes), *power)
+    return summary.objective if norm == SQUARES else objective(measure(mesh.points, mesh.hexes), *norm)
 
 
-def initial_record(mesh: Mesh, summary: Summary, power: ObjectiveNorm = SQUARES) -> dict[str, Any]:
+def initial_record(mesh: Mesh, summary: Summary, norm: ObjectiveNorm = SQUARES) -> dict[str, Any]:
     """Return the figures of the initial mesh of a table, with the keys of `Row.record`."""
-    values = {"objective": objective_of(mesh, summary, power), "objective_formula": power.formula}
+    values = {"objective": objective_of(mesh, summary, norm), "objective_formula": norm.formula}
     return summary.to_dict() | values | {"distribution": distribution(mesh)}
 
 
@@ -204,21 +198,9 @@ def run_one(
 
 
 def _row(name: str, result: Result) -> Row:
-    return Row(
-        method=name,
-        parameters=result.parameters,
-        outcome=result.outcome.key,
-        message=result.message,
-        mesh=result.mesh,
-        after=result.after,
-        worse=result.worse,
-        iterations=result.iterations,
-        kept=result.kept,
-        surface=result.surface,
-        seconds=result.seconds,
-        setup_seconds=result.setup_seconds,
-        stages=result.stages if result.method == Recipe.name else (),
-    )
+    stages = result.stages if result.method == Recipe.name else ()
+    values = {one.name: getattr(result, one.name) for one in fields(Row)}
+    return Row(**values | {"method": name, "outcome": result.outcome.key, "stages": stages})
 
 
 def distribution(mesh: Mesh) -> list[int]:

@@ -14,7 +14,12 @@ constexpr std::int32_t LEAF = 4;  // largest number of pieces in a leaf
 constexpr int DEEPEST = 64;       // depth of the stack; halving 2^31 pieces needs half of it
 constexpr std::int64_t POINTS_PER_CHUNK = 256;
 
-Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
+constexpr Box EMPTY{INF, INF, INF, -INF, -INF, -INF};
+
+// Extend a box to a point.
+void include(Box &box, const Point &x) {
+    for (int k = 0; k < 3; ++k) box[k] = std::min(box[k], x[k]), box[k + 3] = std::max(box[k + 3], x[k]);
+}
 
 struct TreeBuilder {
     Points points;
@@ -38,22 +43,19 @@ struct TreeBuilder {
 
     // Append the tree of order[begin] to order[end - 1], halved along the longest side of the box of their centres.
     void add(std::int32_t begin, std::int32_t end) {
-        Point low{INF, INF, INF}, high{-INF, -INF, -INF}, first = low, last = high;
-        for (std::int32_t s = begin; s < end; ++s)
-            for (int k = 0; k < 3; ++k) {
-                for (Node i : pieces[order[s]])
-                    low[k] = std::min(low[k], points[i][k]), high[k] = std::max(high[k], points[i][k]);
-                first[k] = std::min(first[k], centres[order[s]][k]);
-                last[k] = std::max(last[k], centres[order[s]][k]);
-            }
+        Box box = EMPTY, of_centres = EMPTY;
+        for (std::int32_t s = begin; s < end; ++s) {
+            for (Node i : pieces[order[s]]) include(box, points[i]);
+            include(of_centres, centres[order[s]]);
+        }
+        auto side = [&](int k) { return of_centres[k + 3] - of_centres[k]; };
         std::size_t at = links.size();
-        boxes.insert(boxes.end(), low.begin(), low.end());
-        boxes.insert(boxes.end(), high.begin(), high.end());
+        boxes.insert(boxes.end(), box.begin(), box.end());
         links.insert(links.end(), {begin, end - begin});
         if (end - begin <= LEAF) return;
         int axis = 0;
         for (int k = 1; k < 3; ++k)
-            if (last[k] - first[k] > last[axis] - first[axis]) axis = k;
+            if (side(k) > side(axis)) axis = k;
         std::int32_t middle = begin + (end - begin) / 2;
         std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](auto i, auto j) {
             return std::pair(centres[i][axis], i) < std::pair(centres[j][axis], j);
@@ -111,7 +113,7 @@ void improve(ClosestPoint &best, Points points, const Piece &piece, std::int32_t
             if (weights[k] == 1) place = vector(points[piece[k]]);  // exactly
     }
     double far = square(place - vector(x));
-    if (far < best.square) best = {far, number, {place.x, place.y, place.z}, weights};
+    if (far < best.square) best = {far, number, point(place), weights};
 }
 
 }  // namespace
@@ -137,8 +139,8 @@ ClosestPoint BoxTrees::closest(const Point &x, std::int32_t root, double enough)
     return best;
 }
 
-std::tuple<OwnedArray<std::int32_t>, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, OwnedArray<std::int32_t>>
-build_trees(Points points, std::span<const Piece> pieces, Indices start) {
+std::tuple<IntArray, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, IntArray> build_trees(
+    Points points, std::span<const Piece> pieces, Indices start) {
     TreeBuilder builder(points, pieces);
     std::vector<std::int32_t> roots;
     for (std::size_t t = 0; t + 1 < start.size(); ++t) {
@@ -161,13 +163,9 @@ void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLin
                 box[k] = std::min(one[k], other[k]), box[k + 3] = std::max(one[k + 3], other[k + 3]);
             continue;
         }
-        box = {INF, INF, INF, -INF, -INF, -INF};
+        box = EMPTY;
         for (std::int32_t i = link; i < link + count; ++i)
-            for (Node node : pieces[i])
-                for (int k = 0; k < 3; ++k) {
-                    box[k] = std::min(box[k], points[node][k]);
-                    box[k + 3] = std::max(box[k + 3], points[node][k]);
-                }
+            for (Node node : pieces[i]) include(box, points[node]);
     }
 }
 
@@ -176,11 +174,9 @@ void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std:
     expect(
         roots.size() == x.size() && piece.size() == x.size() && places.size() == x.size() && weights.size() == x.size(),
         "x, roots, piece, places and weights have different lengths: expected a row a point");
-    parallel_chunks(x.size(), POINTS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) {
-            ClosestPoint found = trees.closest(x[i], roots[i], enough * enough);
-            piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
-        }
+    parallel_for(x.size(), POINTS_PER_CHUNK, [&](std::int64_t i) {
+        ClosestPoint found = trees.closest(x[i], roots[i], enough * enough);
+        piece[i] = found.piece, places[i] = found.place, weights[i] = found.weights;
     });
 }
 

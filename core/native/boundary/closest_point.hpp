@@ -38,15 +38,13 @@ struct BoxTrees {
 };
 
 // Build trees: returns the order of the pieces (k,), boxes (b, 6) and links (b, 2) of all trees, and the root of each.
-// Tree t has the pieces start[t] to start[t + 1] - 1, at least one.
-std::tuple<OwnedArray<std::int32_t>, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, OwnedArray<std::int32_t>>
-build_trees(Points points, std::span<const Piece> pieces, Indices start);
+std::tuple<IntArray, OwnedArray<double, 6>, OwnedArray<std::int32_t, 2>, IntArray> build_trees(
+    Points points, std::span<const Piece> pieces, Indices start);
 
 // Update the boxes of trees after their points have moved.
 void refit(Points points, std::span<const Piece> pieces, std::span<const TreeLink> links, std::span<Box> boxes);
 
-// For each x (j, 3), write the piece (j,), closest point (j, 3) and barycentric weights (j, 3) in the tree roots[j];
-// `enough` is a distance at which a point counts as closest.
+// Write the piece, closest point and barycentric weights of each x; `enough` is a distance that counts as closest.
 void closest(const BoxTrees &trees, Points x, Indices roots, double enough, std::span<std::int32_t> piece,
              std::span<Point> places, std::span<Barycentric> weights);
 

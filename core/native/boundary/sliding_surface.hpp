@@ -1,5 +1,5 @@
 // The surface on which nodes of the boundary slide: each node is projected onto its own curve or patch, and must not
-// invert a boundary quad.
+// flip a boundary quad.
 #pragma once
 
 #include "boundary/closest_point.hpp"
@@ -19,10 +19,8 @@ inline QuadPoints points_of(Points points, const Quad &quad) {
 constexpr double FLAT_QUAD = 1e-9;
 
 // Return True if a quad's normal points against `outward` or has no component along it; False if outward is 0.
-inline bool is_inverted(const QuadPoints &x, const Point &outward) {
-    V3<double> n{outward[0], outward[1], outward[2]};
-    V3<double> a{x[2][0] - x[0][0], x[2][1] - x[0][1], x[2][2] - x[0][2]};
-    V3<double> b{x[3][0] - x[1][0], x[3][1] - x[1][1], x[3][2] - x[1][2]};
+inline bool is_flipped(const QuadPoints &x, const Point &outward) {
+    auto n = vector(outward), a = vector(x[2]) - vector(x[0]), b = vector(x[3]) - vector(x[1]);
     return dot(n, n) > 0 && !(dot(cross(a, b), n) > FLAT_QUAD * std::sqrt(dot(a, a) * dot(b, b)));
 }
 
@@ -34,13 +32,13 @@ struct BoundaryQuads {
     std::span<const Quad> quads;
     Points outward;  // normal of each quad, or 0 where it has none
 
-    // Return True if moving the node in a slot to `place` inverts a quad that is not inverted now.
-    bool inverted_by_move(Points points, Node slot, const Point &place) const {
+    // Return True if moving the node in a slot to `place` flips a quad that is not flipped now.
+    bool flipped_by_move(Points points, Node slot, const Point &place) const {
         for (auto r = start[slot]; r < start[slot + 1]; ++r) {
             auto f = corners[r] / 4;
             auto now = points_of(points, quads[f]), then = now;
             then[corners[r] % 4] = place;
-            if (!is_inverted(now, outward[f]) && is_inverted(then, outward[f])) return true;
+            if (!is_flipped(now, outward[f]) && is_flipped(then, outward[f])) return true;
         }
         return false;
     }
@@ -61,10 +59,10 @@ struct SlidingSurface {
         return found.piece < 0 ? x : found.place;
     }
 
-    // The projection of x, or the node's present position where the move would invert a quad.
-    Point project_unless_inverting(Points points, Node i, const Point &x) const {
+    // The projection of x, or the node's present position where the move would flip a quad.
+    Point project_unless_flipping(Points points, Node i, const Point &x) const {
         Point place = project(i, x);
-        return quads.inverted_by_move(points, slots[i], place) ? points[i] : place;
+        return quads.flipped_by_move(points, slots[i], place) ? points[i] : place;
     }
 };
 

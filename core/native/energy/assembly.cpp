@@ -70,14 +70,15 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
         for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
             int count = std::min(LANES, shared.start[share + 1] - first);
             auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
-            Bits bits{};
+            std::uint8_t bits[LANES];
             for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
+            CornerMask<Lanes> counted(bits, 0, count);
             // The target blocks are scattered in memory: prefetch them while the values are computed.
             for (int i = 0; i < count; ++i)
                 for (auto s : shared.target[first + i])
                     if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
             *sums = HessianSums{};
-            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, (bits & (1LL << t)) == 0, *sums); });
+            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, counted(t), *sums); });
             weigh_hessian<Real>(*sums, norm, values.get());
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,

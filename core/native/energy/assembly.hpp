@@ -1,6 +1,5 @@
-// Assembly of the Hessian of a mesh's energy: 3 x 3 blocks of the free nodes, above and on the diagonal.
-//
-// A product with the matrix is much faster than with the formulas, and a preconditioner needs its blocks.
+// Assembly of the Hessian of a mesh's energy: a product with the matrix is much faster than with the formulas, and a
+// preconditioner needs its blocks.
 #pragma once
 
 #include "energy/objective.hpp"
@@ -20,10 +19,8 @@ struct HexShares {
     BlockTargets target;  // (.., 28): block of each pair of corners: -1 if one is fixed, -2 - slot if both are one node
 };
 
-// Add the Hessian of sum eta(H)^p to the blocks off_diagonal (blocks + 1, 9) and diagonal (k, 6).
-//
-// Each share computes all its hexes, so that each block is summed in one order for any number of shares. omitted (m,)
-// omits corner tetrahedra.
+// Add the Hessian of sum eta(H)^p to the blocks above and on the diagonal, see block_matrix.hpp. Each share computes
+// all its hexes, so that each block is summed in one order for any number of shares.
 template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
               std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal);

@@ -69,11 +69,7 @@ template <class T> class NodePatch {
             auto &x = blocks_[b].x;
             for (int c = 0; c < 8; ++c)
                 x.at[c] = load_lanes<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
-            if (factor == 0) {
-                T lengths{};
-                for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
-                total += sum(lengths, b);
-            }
+            if (factor == 0) total += sum(edge_lengths(x), b);
         }
         if (factor == 0) factor = total > 0 ? 12 * size_ / total : 0.0;
         for (int b = 0; b < blocks(); ++b)

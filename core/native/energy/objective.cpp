@@ -21,8 +21,8 @@ void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, dou
                      OmittedCorners omitted, CornerVectors shares) {
     expect(omitted.size() == hexes.size() && slots.size() == hexes.size() && shares.size() == hexes.size(),
            "omitted, slots and shares: one for each hex is expected");
-    (delta != 0 ? product_of<true, Lanes> : product_of<false, Lanes>)(points, hexes, slots, values, delta, norm,
-                                                                      omitted, shares);
+    (delta != 0 ? hessian_product_of<true, Lanes> : hessian_product_of<false, Lanes>)(points, hexes, slots, values,
+                                                                                      delta, norm, omitted, shares);
 }
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows) {

@@ -1,8 +1,7 @@
 // Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.
 //
 // Every hex writes its contributions at its own eight corners, (m, 8, 3); `gather` sums them at nodes, always in the
-// same order, so that results do not depend on the number of threads. points (n, 3), hexes (m, 8), omitted tetrahedra
-// (m,).
+// same order, so that results do not depend on the number of threads.
 #pragma once
 
 #include "energy/objective_norm.hpp"
@@ -17,8 +16,7 @@ void energies(Points points, Hexes hexes, double delta, double offset, OmittedCo
 void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
               CornerVectors shares);
 
-// Write the Hessian of sum eta(H)^p times a displacement, (B.19) corrected. values (k, 3) are the displacements of the
-// free nodes, slots (m, 8) the number of each corner among these, -1 if it is fixed.
+// Write the Hessian of sum eta(H)^p times a displacement of the free nodes, values (k, 3): (B.19) corrected.
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
                      OmittedCorners omitted, CornerVectors shares);
 

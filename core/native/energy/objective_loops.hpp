@@ -46,8 +46,8 @@ void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, O
 }
 
 template <bool soft, class T>
-void product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                OmittedCorners omitted, CornerVectors shares) {
+void hessian_product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
+                        OmittedCorners omitted, CornerVectors shares) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
         auto v = gather_corners_or_zero<T>(values, slots, first, count);

@@ -42,8 +42,14 @@ template <class Real> SymmetricMatrix widened(const std::array<Real, 6> &a) {
     return {a[0], a[1], a[2], a[3], a[4], a[5]};
 }
 
-// Pattern of a matrix: bounds (2 parts,) of the parts of slots and then of the separators, see ordering.hpp; row_start
-// (k + 1,) and columns of the blocks above the diagonal, see sparsity.hpp.
+// Blocks above the diagonal, by rows, and an unused one, (blocks + 1, 9); those on the diagonal, xx xy xz yy yz zz, (k,
+// 6); vectors (k, 4).
+template <class Real> using UpperBlocks = std::span<const std::array<Real, 9>>;
+template <class Real> using DiagonalBlocks = std::span<const std::array<Real, 6>>;
+template <class Real> using Vectors = std::span<const std::array<Real, 4>>;
+
+// Pattern of a matrix: bounds (2 parts,) of the parts of slots and then of the separators, see sparsity.hpp; row_start
+// (k + 1,) and columns of the blocks above the diagonal.
 struct BlockPattern {
     Indices bounds, row_start, columns;
 };
@@ -53,7 +59,7 @@ template <class Real, class Number = Real> class BlockMatrix {
   public:
     using V = Vec4<Number>;
 
-    BlockMatrix(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal)
+    BlockMatrix(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal)
         : bounds_(pattern.bounds),
           row_start_(pattern.row_start),
           columns_(pattern.columns),
@@ -91,26 +97,21 @@ template <class Real, class Number = Real> class BlockMatrix {
     // times the p of earlier slots. Returns the sum of the summands. w is zero before and after; it has two vectors,
     // because two parts add to one separator.
     template <class Body> double forward(V *const (&w)[2], const Body &body) {
-        double total = over_parts([&](std::int32_t begin, std::int32_t end, int part) {
-            V *below = w[part % 2];
+        auto rows = [&](std::int32_t begin, std::int32_t end, int range) {
+            const bool separator = range >= parts_;
+            V *below = w[separator ? 0 : range % 2];
             double sum = 0;
             for (auto i = begin; i < end; ++i) {
-                auto [p, square] = body(i, std::exchange(below[i], V{}));
+                V lower = std::exchange(below[i], V{});
+                if (separator) lower += std::exchange(w[1][i], V{});
+                auto [p, square] = body(i, lower);
                 add_transposed(i, p, below);
                 sum += square;
             }
             return sum;
-        });
-        return total + over_separators([&](std::int32_t begin, std::int32_t end, int) {
-                   V *below = w[0], *other = w[1];
-                   double sum = 0;
-                   for (auto i = begin; i < end; ++i) {
-                       auto [p, square] = body(i, std::exchange(below[i], V{}) + std::exchange(other[i], V{}));
-                       add_transposed(i, p, below);
-                       sum += square;
-                   }
-                   return sum;
-               });
+        };
+        double total = over_parts(rows);
+        return total + over_separators(rows);
     }
 
   private:

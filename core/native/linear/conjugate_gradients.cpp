@@ -43,8 +43,7 @@ template <class Real> class PreconditionedCG {
     // Size of the workspace in numbers: three blocks and seven vectors for each slot, and alignment.
     static constexpr std::int64_t workspace_size(std::int64_t slots) { return 64 * slots + 16; }
 
-    PreconditionedCG(BlockMatrix<Real> &system, std::span<const std::array<Real, 6>> diagonal, double damping,
-                     std::span<Real> work)
+    PreconditionedCG(BlockMatrix<Real> &system, DiagonalBlocks<Real> diagonal, double damping, std::span<Real> work)
         : system_(system) {
         void *free = work.data();
         std::size_t left = work.size_bytes();
@@ -70,7 +69,7 @@ template <class Real> class PreconditionedCG {
     }
 
     // Compute the first residual, (D + L)^-1 right; returns its square.
-    double start(std::span<const std::array<Real, 4>> right) {
+    double start(Vectors<Real> right) {
         return system_.forward(w_, [&](std::int32_t i, const V &below) {
             residual_[i] = inverse_[i] * (load(right[i].data()) - below);
             return std::pair{residual_[i], square_of_residual(i)};
@@ -111,7 +110,7 @@ template <class Real> class PreconditionedCG {
     }
 
     // Write x for a first direction of negative curvature: that direction or, where it overflowed, block Jacobi's.
-    void fall_back(bool finite, std::span<const std::array<Real, 4>> right, std::span<std::array<Real, 4>> x) {
+    void fall_back(bool finite, Vectors<Real> right, std::span<std::array<Real, 4>> x) {
         sum_over_slots([&](std::int32_t i) {
             V there = finite ? t_[i] : inverse_[i] * load(right[i].data());
             std::memcpy(x[i].data(), &there, sizeof there);
@@ -145,10 +144,9 @@ template <class Real> class PreconditionedCG {
 }  // namespace
 
 template <class Real>
-std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
-                          std::span<const std::array<Real, 6>> diagonal, double damping,
-                          std::span<const std::array<Real, 4>> right, double tolerance, int max_iterations,
-                          std::span<std::array<Real, 4>> x, std::span<Real> work) {
+std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
+                                  DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
+                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work) {
     BlockMatrix<Real> system(pattern, off_diagonal);
     if (static_cast<std::int64_t>(work.size()) < PreconditionedCG<Real>::workspace_size(system.size()))
         throw std::invalid_argument("work is too small: 64 numbers a slot, and 16, are needed");
@@ -173,9 +171,8 @@ std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::arra
 }
 
 template <class Real>
-void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
-             std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
-             std::span<Point> y) {
+void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal,
+             std::span<const std::int64_t> order, Points x, std::span<Point> y) {
     using V = Vec4<double>;
     BlockMatrix<Real, double> system(pattern, off_diagonal);
     std::vector<V> of(x.size()), there(x.size()), below[2] = {std::vector<V>(x.size()), std::vector<V>(x.size())};
@@ -188,13 +185,12 @@ void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> o
     for (std::size_t k = 0; k < x.size(); ++k) std::memcpy(y[k].data(), &there[order[k]], sizeof y[k]);
 }
 
-#define FOR_REAL(Real)                                                                                            \
-    template std::pair<int, int> solve<Real>(                                                                     \
-        const BlockPattern &, std::span<const std::array<Real, 9>>, std::span<const std::array<Real, 6>>, double, \
-        std::span<const std::array<Real, 4>>, double, int, std::span<std::array<Real, 4>>, std::span<Real>);      \
-    template void product<Real>(const BlockPattern &, std::span<const std::array<Real, 9>>,                       \
-                                std::span<const std::array<Real, 6>>, std::span<const std::int64_t>, Points,      \
-                                std::span<Point>);
+#define FOR_REAL(Real)                                                                                                \
+    template std::pair<int, SolveStatus> solve(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>, double, \
+                                               Vectors<Real>, double, int, std::span<std::array<Real, 4>>,            \
+                                               std::span<Real>);                                                      \
+    template void product(const BlockPattern &, UpperBlocks<Real>, DiagonalBlocks<Real>,                              \
+                          std::span<const std::int64_t>, Points, std::span<Point>);
 FOR_REAL(float)
 FOR_REAL(double)
 

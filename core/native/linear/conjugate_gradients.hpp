@@ -6,7 +6,7 @@
 //
 //     (D + L)^-1 A t = t + (D + L)^-1 (v - (2 D - A_D) t).
 //
-// Slots are ordered in parts that share no block, followed by separators (ordering.hpp): forward substitution solves
+// Slots are ordered in parts that share no block, followed by separators (`slots`): forward substitution solves
 // the parts in parallel and then the separators, backward substitution the reverse.
 #pragma once
 
@@ -19,22 +19,19 @@ namespace hexmend {
 // Result of a solve: converged; stopped at a direction of negative curvature; too many iterations.
 enum SolveStatus { DONE, NEGATIVE_CURVATURE, TOO_MANY };
 
-// Solve A x = right in the precision of the matrix; returns the iterations and the SolveStatus.
+// Solve A x = right in the precision of the matrix; returns the iterations and the status.
 //
-// off_diagonal (blocks + 1, 9) are the blocks above the diagonal, diagonal (k, 6) those on it; damping adds that
-// multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm of M^-1;
-// max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate so far
-// or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work has 64 k + 16 numbers.
+// damping adds that multiple of D to the diagonal. The tolerance is relative to the right-hand side, both in the norm
+// of M^-1; max_iterations limits the iterations. At a direction of negative curvature (Steihaug 1983) x is the iterate
+// so far or, if it is the first, that direction. Vectors are (k, 4), see block_matrix.hpp; work has 64 k + 16 numbers.
 template <class Real>
-std::pair<int, int> solve(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
-                          std::span<const std::array<Real, 6>> diagonal, double damping,
-                          std::span<const std::array<Real, 4>> right, double tolerance, int max_iterations,
-                          std::span<std::array<Real, 4>> x, std::span<Real> work);
+std::pair<int, SolveStatus> solve(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal,
+                                  DiagonalBlocks<Real> diagonal, double damping, Vectors<Real> right, double tolerance,
+                                  int max_iterations, std::span<std::array<Real, 4>> x, std::span<Real> work);
 
 // Write y = A x (k, 3) in double precision; row k of x and y belongs to slot order[k].
 template <class Real>
-void product(const BlockPattern &pattern, std::span<const std::array<Real, 9>> off_diagonal,
-             std::span<const std::array<Real, 6>> diagonal, std::span<const std::int64_t> order, Points x,
-             std::span<Point> y);
+void product(const BlockPattern &pattern, UpperBlocks<Real> off_diagonal, DiagonalBlocks<Real> diagonal,
+             std::span<const std::int64_t> order, Points x, std::span<Point> y);
 
 }  // namespace hexmend

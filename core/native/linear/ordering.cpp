@@ -1,4 +1,4 @@
-#include "linear/ordering.hpp"
+#include "linear/sparsity.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -97,17 +97,16 @@ std::vector<int> partition_slots(const std::vector<Node> &order, Hexes hexes, st
         for (Node i : hex)
             if (range[i] >= 0) (range[i] < parts ? part_met : separator_met).take(range[i]);
         int side = separator_met.greatest - parts - part_met.greatest;
-        bool sound = (part_met.none() || part_met.one()) && (separator_met.none() || separator_met.one()) &&
+        bool valid = (part_met.none() || part_met.one()) && (separator_met.none() || separator_met.one()) &&
                      (part_met.none() || separator_met.none() || side == 0 || side == -1);
-        if (!sound) return {};
+        if (!valid) return {};
     }
     return range;
 }
 
 }  // namespace
 
-std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>> slots(Hexes hexes, Indices ring_start, Indices ring,
-                                                                    std::span<const bool> free, int parts) {
+CSR slots(Hexes hexes, Indices ring_start, Indices ring, std::span<const bool> free, int parts) {
     auto order = cuthill_mckee({ring_start, ring, free});
     std::vector<int> range;
     parts = std::max(parts, 1);

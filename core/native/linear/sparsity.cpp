@@ -12,8 +12,8 @@ constexpr std::int64_t PIECES = 16;
 
 }  // namespace
 
-std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t, PAIRS>> pattern(
-    Hexes slots, Indices nodes, Indices start, Indices corners, std::int64_t max_items) {
+std::tuple<IntArray, IntArray, OwnedArray<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
+                                                                        Indices corners, std::int64_t max_items) {
     std::int64_t count = nodes.size(), size = std::max<std::int64_t>((count + PIECES - 1) / PIECES, 1);
     std::vector<std::int32_t> row_start(count + 1), found[PIECES];
     parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {

@@ -13,11 +13,15 @@ constexpr int PAIRS = 28;
 // Number of the pair of corners a < b.
 constexpr int pair_of(int a, int b) { return a * (15 - a) / 2 + b - a - 1; }
 
-// Block rows row_start (k + 1,) and columns, ascending within a row; and target (m, 28), the block of each pair of a
-// hex's corners: -1 if a corner is fixed, -2 - slot if both are one node. slots (m, 8) is the slot of each corner, -1
-// if it is fixed; nodes (k,) the node of each slot. Throws std::overflow_error if there are more than `max_items`
+// Block rows row_start (k + 1,) and columns; and target (m, 28), the block of each pair of a hex's corners: -1 if a
+// corner is fixed, -2 - slot if both are one node. Throws std::overflow_error if there are more than `max_items`
 // blocks.
-std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t, PAIRS>> pattern(
-    Hexes slots, Indices nodes, Indices start, Indices corners, std::int64_t max_items);
+std::tuple<IntArray, IntArray, OwnedArray<std::int32_t, PAIRS>> pattern(Hexes slots, Indices nodes, Indices start,
+                                                                        Indices corners, std::int64_t max_items);
+
+// Order the free nodes so that neighbours are close to each other, in parts that share no hex; each two consecutive
+// parts have a separator, and all separators follow the parts. Returns the node in each slot, and the bounds (2
+// parts,).
+CSR slots(Hexes hexes, Indices ring_start, Indices ring, std::span<const bool> free, int parts);
 
 }  // namespace hexmend

@@ -38,6 +38,11 @@ inline SymmetricMatrix operator*(double k, const SymmetricMatrix &a) {
     return {k * a.xx, k * a.xy, k * a.xz, k * a.yy, k * a.yz, k * a.zz};
 }
 
+inline V3<double> operator*(const SymmetricMatrix &a, const V3<double> &v) {
+    return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.xy * v.x + a.yy * v.y + a.yz * v.z,
+            a.xz * v.x + a.yz * v.y + a.zz * v.z};
+}
+
 // Result of `adjugate_of`.
 struct Adjugate {
     SymmetricMatrix adjugate;
@@ -55,8 +60,8 @@ inline Adjugate adjugate_of(const SymmetricMatrix &a) {
 inline V3<double> solve(const SymmetricMatrix &a, const V3<double> &b) {
     auto [c, det] = adjugate_of(a);
     if (det == 0) return {};
-    return {(c.xx * b.x + c.xy * b.y + c.xz * b.z) / det, (c.xy * b.x + c.yy * b.y + c.yz * b.z) / det,
-            (c.xz * b.x + c.yz * b.y + c.zz * b.z) / det};
+    auto [x, y, z] = c * b;
+    return {x / det, y / det, z / det};
 }
 
 }  // namespace hexmend

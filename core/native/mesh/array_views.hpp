@@ -21,6 +21,9 @@ using Hexes = std::span<const Hex>;
 using Indices = std::span<const std::int32_t>;
 using Numbers = std::span<const double>;
 
+// The hex behind each face, -1 for none.
+using Neighbours = ArrayView<const Node, 6>;
+
 // Vectors at the eight corners of each hex, (m, 8, 3).
 using CornerVectors = std::span<std::array<double, 24>>;
 
@@ -37,5 +40,8 @@ using OmittedCorners = std::span<const std::uint8_t>;
 template <class T, std::size_t width = 1> struct OwnedArray {
     std::vector<std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>> values;
 };
+
+using IntArray = OwnedArray<std::int32_t>;
+using CSR = std::pair<IntArray, IntArray>;  // row starts, items
 
 }  // namespace hexmend

@@ -1,4 +1,4 @@
-#include "mesh/elements.hpp"
+#include "mesh/metrics.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -44,10 +44,10 @@ inline __attribute__((always_inline)) CornerFigures corner_figures(const Corners
     constexpr auto u = AT_APEX[t][0], v = AT_APEX[t][1], w = AT_APEX[t][2];
     Lanes sigma = determinant(x.edges<t>());
     auto finite = abs(sigma) < INF;  // false where products overflow to INF or NaN
-    auto sound = (sigma > 0.0) & finite;
+    auto valid = (sigma > 0.0) & finite;
     Lanes eta = (edges.squares[u] + edges.squares[v] + edges.squares[w]) * power_minus_two_thirds(sigma) * (1.0 / 3.0);
     Lanes product = edges.lengths[u] * edges.lengths[v] * edges.lengths[w];
-    return {sigma, sound ? eta : broadcast<Lanes>(INF), sound ? 1.0 / eta : broadcast<Lanes>(0.0),
+    return {sigma, valid ? eta : broadcast<Lanes>(INF), valid ? 1.0 / eta : broadcast<Lanes>(0.0),
             (product > 0.0) & finite ? sigma / product : broadcast<Lanes>(0.0)};
 }
 
@@ -90,9 +90,7 @@ double mean_edge_length(Points points, Hexes hexes) {
         double total = 0;
         for (auto first = begin; first < end; first += LANES) {
             int count = static_cast<int>(std::min<std::int64_t>(LANES, end - first));
-            auto x = gather_corners<Lanes>(points, hexes, first, count);
-            Lanes lengths{};
-            for (auto &[from, to] : EDGES) lengths += length(x.at[to] - x.at[from]);
+            Lanes lengths = edge_lengths(gather_corners<Lanes>(points, hexes, first, count));
             for (int i = 0; i < count; ++i) total += lengths[i];
         }
         totals[begin / HEXES_PER_CHUNK] = total;

@@ -13,6 +13,9 @@ using Node = std::int32_t;
 using Hex = std::array<Node, 8>;
 using Point = std::array<double, 3>;
 
+inline V3<double> vector(const Point &p) { return {p[0], p[1], p[2]}; }
+inline Point point(const V3<double> &v) { return {v.x, v.y, v.z}; }
+
 // Corner tetrahedra (a, b, c, d), apex a first: det [x_b - x_a, x_c - x_a, x_d - x_a] = +1 on the unit cube, Table 2.1.
 constexpr int CORNER_TETRAHEDRA[8][4] = {
     {0, 3, 4, 1}, {1, 0, 5, 2}, {2, 1, 6, 3}, {3, 2, 7, 0}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3},
@@ -103,5 +106,12 @@ template <class T> struct Corners {
         at[n[0]] -= g.u + g.v + g.w;
     }
 };
+
+// Sum of the lengths of the twelve edges.
+template <class T> inline T edge_lengths(const Corners<T> &x) {
+    T total{};
+    unroll<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
+    return total;
+}
 
 }  // namespace hexmend

@@ -100,7 +100,7 @@ void join(std::span<std::int32_t> parent, Indices items, int width) {
     }
 }
 
-OwnedArray<std::int32_t> component_numbers(Indices parent) {
+IntArray component_numbers(Indices parent) {
     std::vector<std::int32_t> number(parent.size());
     std::int32_t count = 0;
     for (std::size_t i = 0; i < parent.size(); ++i)  // a parent is never above its child
@@ -120,7 +120,7 @@ CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_ite
     }));
 }
 
-OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
+IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> chosen) {
     auto each_hex = [&](std::int64_t i, const auto &body) {
         for (auto s = start[i]; s < start[i + 1]; ++s) body(corners[s] / 8);
     };
@@ -138,26 +138,14 @@ CSR grouped(Indices colour, std::int64_t count) {
     return {{std::move(start)}, {std::move(nodes)}};
 }
 
-OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours) {
-    const std::int64_t m = neighbours.size();
-    std::vector<std::int32_t> layer(m, -1), queue;
-    queue.reserve(m);
-    for (std::int64_t h = 0; h < m; ++h)
-        if (std::any_of(neighbours[h].begin(), neighbours[h].end(), [](auto other) { return other < 0; })) {
-            layer[h] = 0;
-            queue.push_back(h);
-        }
-    std::int32_t deepest = -1;
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-        deepest = layer[queue[at]];
-        for (auto other : neighbours[queue[at]])
-            if (other >= 0 && layer[other] < 0) {
-                layer[other] = deepest + 1;
-                queue.push_back(other);
-            }
-    }
-    std::replace(layer.begin(), layer.end(), -1, deepest + 1);  // not connected to the boundary
-    return {std::move(layer)};
+IntArray layers(Neighbours neighbours) {
+    auto on_boundary = [&](std::int64_t h) {
+        return std::any_of(neighbours[h].begin(), neighbours[h].end(), [](auto other) { return other < 0; });
+    };
+    return {breadth_first_levels(neighbours.size(), on_boundary, [&](std::int32_t h, const auto &body) {
+        for (auto other : neighbours[h])
+            if (other >= 0) body(other);
+    })};
 }
 
 OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings) {

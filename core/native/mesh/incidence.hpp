@@ -3,17 +3,16 @@
 // A corner of a hex is the number 8 * hex + corner. start and corners are the result of `node_corners`.
 #pragma once
 
+#include <tuple>
+
 #include "mesh/array_views.hpp"
 
 namespace hexmend {
 
-using CSR = std::pair<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>>;
-
 // Corners at each of `nodes` nodes, ascending.
 CSR node_corners(Hexes hexes, std::int64_t nodes);
 
-// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes,
-// counted once per hex: these have neighbour -1.
+// The hex behind each face, (m, 6), -1 for none; and the number of non-manifold faces, those of more than two hexes.
 std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes, Indices start, Indices corners);
 
 // Connected components by union-find with path halving: parent[i] is an item of i's component, at most i; in the
@@ -21,22 +20,25 @@ std::pair<OwnedArray<std::int32_t, 6>, std::int64_t> face_neighbours(Hexes hexes
 void join(std::span<std::int32_t> parent, Indices items, int width);
 
 // Component of each item, numbered in the order of their lowest items.
-OwnedArray<std::int32_t> component_numbers(Indices parent);
+IntArray component_numbers(Indices parent);
 
 // Edge neighbours of each node, ascending; throws std::overflow_error if there are more than `max_items`.
 CSR node_rings(Hexes hexes, Indices start, Indices corners, std::int64_t max_items);
 
 // Colour of each chosen node, so that two nodes of one hex differ; -1 for the others.
-OwnedArray<std::int32_t> greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
+IntArray greedy_colours(Indices start, Indices corners, std::span<const bool> chosen);
 
 // Nodes of each of `count` colours, ascending; colour -1 is in no group.
 CSR grouped(Indices colour, std::int64_t count);
 
-// Number of faces crossed on the shortest way from each hex to a boundary hex, (m,); where there is no way, one more
-// than the deepest layer.
-OwnedArray<std::int32_t> layers(std::span<const std::array<std::int32_t, 6>> neighbours);
+// Number of faces crossed on the shortest way from each hex to a boundary hex, (m,).
+IntArray layers(Neighbours neighbours);
 
 // True for the chosen hexes and those within `rings` steps through common nodes, (m,).
 OwnedArray<bool> around(Hexes hexes, Indices start, Indices corners, Indices chosen, int rings);
+
+// Every edge once, (e, 2); the number of hexes around it; whether it is on the boundary.
+std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, Indices start, Indices corners,
+                                                                  Neighbours neighbours, std::int64_t max_items);
 
 }  // namespace hexmend

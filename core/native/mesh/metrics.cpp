@@ -23,24 +23,24 @@ template <std::size_t n> DistanceRange distances(const Corners<Lanes> &x, const 
 // Coordinate of a corner along x, y or z in the cube [-1, 1]^3.
 constexpr int side(int corner, int axis) { return 2 * UNIT_CUBE[corner][axis] - 1; }
 
-// The principal axis X1, X2 or X3: the sum of the four edges along x, y or z, (6) of the manual.
-template <int i> V3<Lanes> axis(const Corners<Lanes> &x) {
+// Sum of the corners for which positive(c), minus the others.
+template <class Positive> V3<Lanes> signed_sum(const Corners<Lanes> &x, Positive positive) {
     V3<Lanes> sum;
     unroll<8>([&](auto c) {
-        if constexpr (side(c, i) > 0) sum += x.at[c];
+        if constexpr (positive(c)) sum += x.at[c];
         else sum -= x.at[c];
     });
     return sum;
 }
 
+// The principal axis X1, X2 or X3: the sum of the four edges along x, y or z, (6) of the manual.
+template <int i> V3<Lanes> axis(const Corners<Lanes> &x) {
+    return signed_sum(x, [](int c) { return side(c, i) > 0; });
+}
+
 // The cross derivative X12, X23 or X31, (8) of the manual.
 template <int i> V3<Lanes> cross_derivative(const Corners<Lanes> &x) {
-    V3<Lanes> sum;
-    unroll<8>([&](auto c) {
-        if constexpr (side(c, i) * side(c, (i + 1) % 3) > 0) sum += x.at[c];
-        else sum -= x.at[c];
-    });
-    return sum;
+    return signed_sum(x, [](int c) { return side(c, i) * side(c, (i + 1) % 3) > 0; });
 }
 
 }  // namespace
@@ -72,10 +72,10 @@ void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<
             most_skew = max(abs(dot(X[i], X[j])) / (l[i] * l[j]), most_skew);
             most_taper = max(crossing[i] / min(l[i], l[j]), most_taper);
         });
-        auto sound = (l[0] > 0.0) & (l[1] > 0.0) & (l[2] > 0.0) & (high < INF);
-        store(sound ? high / low : broadcast<Lanes>(INF), first, count, aspect_ratio);
-        store(sound ? min(most_skew, broadcast<Lanes>(1.0)) : broadcast<Lanes>(1.0), first, count, skew);
-        store(sound ? most_taper : broadcast<Lanes>(INF), first, count, taper);
+        auto valid = (l[0] > 0.0) & (l[1] > 0.0) & (l[2] > 0.0) & (high < INF);
+        store(valid ? high / low : broadcast<Lanes>(INF), first, count, aspect_ratio);
+        store(valid ? min(most_skew, broadcast<Lanes>(1.0)) : broadcast<Lanes>(1.0), first, count, skew);
+        store(valid ? most_taper : broadcast<Lanes>(INF), first, count, taper);
     });
 }
 
@@ -87,9 +87,9 @@ void corners(Points points, Hexes hexes, std::span<double> shape, std::span<doub
             auto s = x.template edges<t>();
             Lanes det = determinant(s);
             Lanes length = sqrt(square(s)), area = sqrt(square(cofactors(s)));  // |S|, |S^-1| det S
-            auto sound = (det > 0.0) & (det < INF);
-            fullest = min(sound ? det / (length * length * length) : broadcast<Lanes>(0.0), fullest);
-            worst = max(sound ? length * area / (3.0 * det) : broadcast<Lanes>(INF), worst);
+            auto valid = (det > 0.0) & (det < INF);
+            fullest = min(valid ? det / (length * length * length) : broadcast<Lanes>(0.0), fullest);
+            worst = max(valid ? length * area / (3.0 * det) : broadcast<Lanes>(INF), worst);
         });
         store(min(3.0 / power_minus_two_thirds(fullest), broadcast<Lanes>(1.0)), first, count, shape);
         store(worst, first, count, condition);

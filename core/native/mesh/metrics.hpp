@@ -1,5 +1,4 @@
-// Metrics of every hex from its edges, diagonals, principal axes and corners, as the Verdict library defines them:
-// points (n, 3), hexes (m, 8), results (m,). faces.hpp has those of the faces.
+// Metrics of every hex: points (n, 3), hexes (m, 8), results (m,) or (m, 8). bindings/mesh.cpp defines each.
 //
 // Stimpson, Ernst, Knupp, Pébay and Thompson: The Verdict Geometric Quality Library, SAND2007-1751.
 #pragma once
@@ -8,14 +7,32 @@
 
 namespace hexmend {
 
-// Edge ratio max E / min E; stretch sqrt(3) min E / max D; diagonal ratio min D / max D, of edges E and diagonals D.
+// From the eight corner tetrahedra, in one pass at delta = 0: q(H), (2.10); the smallest corner determinant sigma,
+// (2.9); the smallest scaled Jacobian; and eta(H), (B.20). A tetrahedron with sigma <= 0, or too large for a float, has
+// q = 0 and eta = INF.
+void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> sigma, std::span<double> jacobian,
+             std::span<double> eta);
+
+// q(T), (2.8), and sigma, (2.9), of the corner tetrahedra.
+void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q);
+void corner_determinants(Points points, Hexes hexes, ArrayView<double, 8> sigma);
+
+// Mean length of the hexes' edges, each counted once per hex; 0 without hexes.
+double mean_edge_length(Points points, Hexes hexes);
+
+// From the six faces.
+void angles(Points points, Hexes hexes, std::span<double> smallest, std::span<double> largest);
+void warpage(Points points, Hexes hexes, std::span<double> worst);
+void volume(Points points, Hexes hexes, std::span<double> enclosed);
+
+// From edges E and diagonals D: max E / min E; sqrt(3) min E / max D; min D / max D.
 void lengths(Points points, Hexes hexes, std::span<double> edge_ratio, std::span<double> stretch,
              std::span<double> diagonal);
 
-// Aspect ratio, skew and taper of the principal axes.
+// From the principal axes.
 void axes(Points points, Hexes hexes, std::span<double> aspect_ratio, std::span<double> skew, std::span<double> taper);
 
-// Shape, the smallest 3 sigma^(2/3) / |S|^2, and condition, the largest |S| |S^-1| / 3, of the corner tetrahedra.
+// Smallest 3 sigma^(2/3) / |S|^2 and largest |S| |S^-1| / 3 of the corner tetrahedra.
 void corners(Points points, Hexes hexes, std::span<double> shape, std::span<double> condition);
 
 // Determinant of the Jacobian at the centre.

@@ -1,4 +1,4 @@
-// Quality of hexes and whether they are sound, that is, without inverted corner: q(T), (2.8), and q(H), (2.10).
+// Quality of hexes and whether they are valid, that is, without inverted corner: q(T), (2.8), and q(H), (2.10).
 //
 // A lane holds one hex where many are evaluated; `SingleHex` holds one corner tetrahedron in each lane.
 #pragma once
@@ -19,19 +19,19 @@ template <class T> inline T quality(const M3<T> &s, T sigma) {
 // q(H), the mean of the q(T), and whether all corners have sigma > 0.
 template <class T> struct Quality {
     T q;
-    MaskOf<T> sound;
+    MaskOf<T> valid;
 };
 
 template <class T> inline Quality<T> quality(const Corners<T> &x) {
     T total{};
-    MaskOf<T> sound = broadcast<T>(0.0) == 0.0;
+    MaskOf<T> valid = broadcast<T>(0.0) == 0.0;
     unroll<8>([&](auto t) {
         auto s = x.template edges<t>();
         T sigma = determinant(s);
         total += quality(s, sigma);
-        sound = sound & (sigma > 0.0);
+        valid = valid & (sigma > 0.0);
     });
-    return {total * 0.125, sound};
+    return {total * 0.125, valid};
 }
 
 // One hex, its corners in lanes: corner c in lane c % LANES of register c / LANES.
@@ -44,21 +44,21 @@ class SingleHex {
 
     Quality<double> quality() const {
         Lanes total{};
-        bool sound = true;
+        bool valid = true;
         unroll<8 / LANES>([&](auto k) {
             auto s = edges<k * LANES>();
             Lanes sigma = determinant(s);
             total += hexmend::quality(s, sigma);
-            sound &= positive(sigma);
+            valid &= positive(sigma);
         });
-        return {sum(total) * 0.125, sound};
+        return {sum(total) * 0.125, valid};
     }
 
     // True if no corner is inverted.
-    bool sound() const {
-        bool sound = true;
-        unroll<8 / LANES>([&](auto k) { sound &= positive(determinant(edges<k * LANES>())); });
-        return sound;
+    bool valid() const {
+        bool valid = true;
+        unroll<8 / LANES>([&](auto k) { valid &= positive(determinant(edges<k * LANES>())); });
+        return valid;
     }
 
   private:

@@ -1,4 +1,4 @@
-#include "mesh/structure.hpp"
+#include "mesh/incidence.hpp"
 
 #include "mesh/csr.hpp"
 
@@ -27,9 +27,8 @@ struct Edge {
 
 }  // namespace
 
-std::tuple<OwnedArray<Node, 2>, OwnedArray<std::int32_t>, OwnedArray<bool>> edges(
-    Hexes hexes, Indices start, Indices corners, std::span<const std::array<std::int32_t, 6>> neighbours,
-    std::int64_t max_items) {
+std::tuple<OwnedArray<Node, 2>, IntArray, OwnedArray<bool>> edges(Hexes hexes, Indices start, Indices corners,
+                                                                  Neighbours neighbours, std::int64_t max_items) {
     CSRBuilder<Edge> rows(start.size() - 1, 3 * widest(start) + 1, max_items, [&](std::int64_t i, Edge *row) {
         int size = 0;
         for (auto s = start[i]; s < start[i + 1]; ++s) {

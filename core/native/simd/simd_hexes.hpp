@@ -130,18 +130,21 @@ inline void store(const Lanes &x, std::int64_t first, int count, std::span<doubl
     for (int i = 0; i < count; ++i) values[first + i] = x[i];
 }
 
-// Corner tetrahedra of a block that count: bit t of a hex's byte is set if tetrahedron t is omitted (see
-// `OmittedCorners`).
-template <class T> struct CornerMask {
-    bits_of<T> omitted;
-
-    CornerMask(OmittedCorners bits, std::int64_t first, int count) {
+// Corner tetrahedra that count in the hexes of a block: all but those that `OmittedCorners` omits.
+template <class T> class CornerMask {
+  public:
+    // Of `count` hexes from number `first` on.
+    CornerMask(OmittedCorners omitted, std::int64_t first, int count) {
         alignas(64) std::int64_t buffer[width<T>] = {};
-        for (int i = 0; i < count; ++i) buffer[i] = bits[first + i];
-        std::memcpy(&omitted, buffer, sizeof omitted);
+        for (int i = 0; i < count; ++i) buffer[i] = omitted[first + i];
+        std::memcpy(&omitted_, buffer, sizeof omitted_);
     }
 
-    auto operator()(int t) const { return (omitted & (std::int64_t{1} << t)) == 0; }
+    // The lanes in whose hex tetrahedron t counts.
+    auto operator()(int t) const { return (omitted_ & (std::int64_t{1} << t)) == 0; }
+
+  private:
+    bits_of<T> omitted_;  // bit t of a lane
 };
 
 // Call body(counted) for a block of hexes; counted(t) is the mask of the hexes whose tetrahedron t counts. Blocks

@@ -33,4 +33,11 @@ template <class Body> void parallel_chunks(std::int64_t count, std::int64_t size
     });
 }
 
+// Call body(i) in parallel for i = 0 to count - 1; a thread takes `size` of them at a time.
+template <class Body> void parallel_for(std::int64_t count, std::int64_t size, const Body &body) {
+    parallel_chunks(count, size, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) body(i);
+    });
+}
+
 }  // namespace hexmend

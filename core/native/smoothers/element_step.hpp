@@ -9,13 +9,6 @@
 
 namespace hexmend {
 
-// Sum of the lengths of the twelve edges.
-template <class T> inline T edge_lengths(const Corners<T> &x) {
-    T total{};
-    unroll<12>([&](auto e) { total += length(x.at[EDGES[e][1]] - x.at[EDGES[e][0]]); });
-    return total;
-}
-
 // Targets of the corners of a hex: scale s, blend rho in (0, 1].
 template <class T> inline Corners<T> element_step(const Corners<T> &x, double s, double rho) {
     V3<T> f[6], middle;
@@ -37,8 +30,5 @@ template <class T> inline Corners<T> element_step(const Corners<T> &x, double s,
     for (int c = 0; c < 8; ++c) y.at[c] = x.at[c] + broadcast<T>(rho) * (middle + zeta * (y.at[c] - middle) - x.at[c]);
     return y;
 }
-
-// Write the targets of the corners of every hex, (m, 8, 3).
-void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places);
 
 }  // namespace hexmend

@@ -1,22 +1,29 @@
 #include "smoothers/getme.hpp"
 
 #include "mesh/quality.hpp"
+#include "smoothers/element_step.hpp"
 
 namespace hexmend {
 
+void element_steps(Points points, Hexes hexes, double s, double rho, CornerVectors places) {
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto y = element_step(gather_corners<Lanes>(points, hexes, first, count), s, rho);
+        store(y, first, count, places);
+    });
+}
+
 void weighted_means(std::span<const std::array<double, 24>> places, Numbers weights, const HexMesh &mesh, Indices nodes,
                     std::span<Point> targets) {
-    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (Node i : nodes.subspan(begin, end - begin)) {
-            double total = 0;
-            Point sum{};
-            for (auto corner : mesh.star(i)) {
-                int h = corner / 8, c = corner % 8;
-                total += weights[h];
-                for (int k = 0; k < 3; ++k) sum[k] += weights[h] * places[h][3 * c + k];
-            }
-            targets[i] = {sum[0] / total, sum[1] / total, sum[2] / total};
+    parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
+        const Node i = nodes[k];
+        double total = 0;
+        Point sum{};
+        for (auto corner : mesh.star(i)) {
+            int h = corner / 8, c = corner % 8;
+            total += weights[h];
+            for (int j = 0; j < 3; ++j) sum[j] += weights[h] * places[h][3 * c + j];
         }
+        targets[i] = {sum[0] / total, sum[1] / total, sum[2] / total};
     });
 }
 
@@ -24,7 +31,7 @@ void weighted_means(std::span<const std::array<double, 24>> places, Numbers weig
 constexpr double STEP_FRACTIONS[] = {1, 0.5, 0.25, 0.125, 0};
 constexpr int MAX_HALVINGS = 4;
 
-std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> sound, Indices harmed,
+std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> valid, Indices harmed,
                    std::span<Point> moved) {
     const Hexes hexes = mesh.hexes;
     std::vector<std::uint8_t> level(points.size());
@@ -47,9 +54,9 @@ std::int64_t relax(Points points, const HexMesh &mesh, std::span<const bool> sou
         for (Node i : changed)
             for (auto corner : mesh.star(i)) {
                 int h = corner / 8;
-                if (hex_round[h] == round || !sound[h]) continue;
+                if (hex_round[h] == round || !valid[h]) continue;
                 hex_round[h] = round;
-                if (!SingleHex(moved, hexes[h]).sound()) queue.push_back(h);
+                if (!SingleHex(moved, hexes[h]).valid()) queue.push_back(h);
             }
     }
     return relaxed;

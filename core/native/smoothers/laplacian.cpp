@@ -16,14 +16,14 @@ inline Point ring_mean(Points points, Indices ring_start, Indices ring, Node i) 
 // Target of node i: the mean, projected if the node slides.
 inline Point target(Points points, Indices ring_start, Indices ring, Node i, const SlidingSurface *surface) {
     Point mean = ring_mean(points, ring_start, ring, i);
-    return surface && surface->slides(i) ? surface->project_unless_inverting(points, i, mean) : mean;
+    return surface && surface->slides(i) ? surface->project_unless_flipping(points, i, mean) : mean;
 }
 
-// Quality of a hex, or only whether it is sound. Not inlined, so that an unmoved hex gets the same bits from each call.
+// Quality of a hex, or only whether it is valid. Not inlined, so that an unmoved hex gets the same bits from each call.
 template <bool by_quality> __attribute__((noinline)) Quality<double> evaluate_hex(Points points, const Hex &hex) {
     SingleHex x(points, hex);
     if constexpr (by_quality) return x.quality();
-    else return {0.0, x.sound()};
+    else return {0.0, x.valid()};
 }
 
 template <bool by_quality>
@@ -48,7 +48,7 @@ std::int64_t smart_sweep_of(std::span<Point> points, const HexMesh &mesh, Indice
         for (std::size_t s = 0; s < attached.size() && !harm; ++s) {
             int h = attached[s] / 8;
             after[s] = evaluate_hex<by_quality>(points, hexes[h]);
-            harm = (now[h].sound && !after[s].sound) || after[s].q < least;
+            harm = (now[h].valid && !after[s].valid) || after[s].q < least;
         }
         if (harm) {
             points[i] = before;
@@ -67,9 +67,8 @@ void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices
 }
 
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved) {
-    parallel_chunks(nodes.size(), ROWS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) moved[nodes[k]] = ring_mean(points, ring_start, ring, nodes[k]);
-    });
+    parallel_for(nodes.size(), ROWS_PER_CHUNK,
+                 [&](std::int64_t k) { moved[nodes[k]] = ring_mean(points, ring_start, ring, nodes[k]); });
 }
 
 std::int64_t smart_sweep(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring, Indices nodes,

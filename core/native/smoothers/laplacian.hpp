@@ -1,5 +1,5 @@
-// Laplacian sweeps: a node moves to the mean of its edge neighbours. ring_start and ring are `node_rings`, points (n,
-// 3). Sweeps with a surface project the means of the nodes that slide; nullptr for none.
+// Laplacian sweeps: a node moves to the mean of its edge neighbours (`node_rings`), projected if it slides on
+// `surface`; nullptr for none.
 #pragma once
 
 #include "boundary/sliding_surface.hpp"
@@ -13,8 +13,7 @@ void in_place(std::span<Point> points, Indices ring_start, Indices ring, Indices
 // Write moved (n, 3): all nodes at once, from the old positions of the others.
 void simultaneous(Points points, Indices ring_start, Indices ring, Indices nodes, std::span<Point> moved);
 
-// Smart Laplacian: Algorithm 3.1, in which a move that inverts a sound hex or, with keep_least_quality, lowers the
-// least q(H) of the hexes at the node is rejected. Returns the number of rejected moves.
+// Smart Laplacian: Algorithm 3.1, in which moves that do harm are rejected; returns their number.
 std::int64_t smart_sweep(std::span<Point> points, const HexMesh &mesh, Indices ring_start, Indices ring, Indices nodes,
                          bool keep_least_quality, const SlidingSurface *surface);
 

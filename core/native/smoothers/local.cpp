@@ -16,50 +16,49 @@ template <bool soft> ValueAndGradient evaluated(NodePatch<Lanes> &patch, double 
 }
 
 // Observer that records the step at one node.
-struct StepRecord {
-    StepStatus status;
-    SearchDirection chosen{};
-    double alpha = 0;
-    Point place{};
-    OwnedArray<double, 3> trials;
+class StepRecorder {
+  public:
+    RecordedStep step{};
 
     void on_trial(int, double alpha, double value, double bound) {
-        for (double number : {alpha, value, bound}) trials.values.push_back(number);
+        for (double number : {alpha, value, bound}) step.trials.values.push_back(number);
     }
-    void on_rejected(StepStatus reason, const SearchDirection &direction = {}) { status = reason, chosen = direction; }
-    void on_moved(Node, const Point &there, const SearchDirection &direction, double step) {
-        status = MOVED, chosen = direction, alpha = step, place = there;
+    void on_rejected(StepStatus reason, const SearchDirection &chosen = {}) { set(reason, chosen); }
+    void on_moved(Node, const Point &place, const SearchDirection &chosen, double alpha) {
+        set(MOVED, chosen);
+        step.alpha = alpha, step.place = place;
+    }
+
+  private:
+    void set(StepStatus status, const SearchDirection &chosen) {
+        step.status = status;
+        step.direction = point(chosen.d);
+        step.slope = chosen.slope, step.shift = chosen.shift, step.fallback = chosen.fallback;
     }
 };
 
 }  // namespace
 
-std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                   const NodeStepSettings &settings) {
-    return (settings.delta != 0 ? sweep_of<true, Lanes> : sweep_of<false, Lanes>)(points, mesh, groups, nodes,
-                                                                                  settings);
+std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                         const NodeStepSettings &settings) {
+    return (settings.delta != 0 ? local_sweep_of<true, Lanes> : local_sweep_of<false, Lanes>)(points, mesh, groups,
+                                                                                              nodes, settings);
 }
 
-std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> patch_energy(Points points, Hexes hexes,
-                                                                                      Indices star, double factor,
-                                                                                      double delta,
-                                                                                      ObjectiveNorm norm) {
+PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm) {
     auto patch = patch_of(star);
     factor = patch.load(points, hexes, star, factor);
     ValueAndGradient at = delta != 0 ? evaluated<true>(patch, delta, norm) : evaluated<false>(patch, delta, norm);
     SymmetricMatrix h = patch.hessian();
-    return {factor, at.value, {at.gradient.x, at.gradient.y, at.gradient.z}, {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
+    return {factor, at.value, point(at.gradient), {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
 }
 
-std::tuple<int, std::array<double, 3>, double, bool, double, double, std::array<double, 3>, OwnedArray<double, 3>>
-recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings) {
+RecordedStep recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings) {
     NodePatch<Lanes> patch[]{patch_of(star)};
-    StepRecord record;
-    settings.delta != 0 ? step_nodes<true>(patch, points, hexes, {star}, settings, record)
-                        : step_nodes<false>(patch, points, hexes, {star}, settings, record);
-    const auto &[d, slope, shift, fallback] = record.chosen;
-    return {record.status, {d.x, d.y, d.z}, slope,        fallback,
-            shift,         record.alpha,    record.place, std::move(record.trials)};
+    StepRecorder recorder;
+    settings.delta != 0 ? step_nodes<true>(patch, points, hexes, {star}, settings, recorder)
+                        : step_nodes<false>(patch, points, hexes, {star}, settings, recorder);
+    return std::move(recorder.step);
 }
 
 void energy_along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction,
@@ -67,7 +66,7 @@ void energy_along(Points points, Hexes hexes, Indices star, double factor, std::
     auto patch = patch_of(star);
     patch.load(points, hexes, star, factor);
     delta != 0 ? patch.tabulate<true>(delta) : patch.tabulate<false>(delta);
-    patch.set_direction({direction[0], direction[1], direction[2]});
+    patch.set_direction(vector(direction));
     for (auto &[alpha, value] : curve)
         value = delta != 0 ? patch.value_along<true>(alpha, delta, norm) : patch.value_along<false>(alpha, delta, norm);
 }

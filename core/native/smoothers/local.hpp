@@ -1,8 +1,6 @@
 // Local optimisation: one line-searched step at each free node, colour by colour (Algorithm 3.2).
 #pragma once
 
-#include <tuple>
-
 #include "energy/objective_norm.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "smoothers/line_search.hpp"
@@ -18,31 +16,42 @@ enum StepStatus { MOVED, NO_DESCENT, FLAT, INFINITE };
 
 // Settings of a step at a node. Lengths are in mean edge lengths of the node's patch.
 struct NodeStepSettings {
-    int direction;  // a Direction
+    Direction direction;
     double delta;
     ObjectiveNorm norm;
     LineSearch search;
 };
 
-// Move each of `nodes` once, in place: one pass of Algorithm 3.2.
-//
-// points (n, 3). Group k of nodes, nodes[groups[k]] to nodes[groups[k + 1] - 1], shares no hex, so that the result is
-// that of a sequential sweep for any number of threads. Returns the evaluations of a hex's energy in line searches.
-std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                   const NodeStepSettings &settings);
+// Move each of `nodes` once, in place: one pass of Algorithm 3.2. Group k, nodes[groups[k]] to nodes[groups[k + 1] -
+// 1], shares no hex. Returns the evaluations of a hex's energy in line searches.
+std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                         const NodeStepSettings &settings);
 
-// Energy of the patch of the node whose corners are `star`: the factor by which lengths are multiplied (0 where the
-// patch has no extent), the value, its gradient (3,) and its second derivatives xx xy xz yy yz zz. factor = 0 scales
-// the patch to mean edge length 1.
-std::tuple<double, double, std::array<double, 3>, std::array<double, 6>> patch_energy(Points points, Hexes hexes,
-                                                                                      Indices star, double factor,
-                                                                                      double delta, ObjectiveNorm norm);
+// Energy of a node's patch, and its derivatives by the node in the scaled patch.
+struct PatchEnergy {
+    double factor;  // by which lengths are multiplied; 0 where the patch has no extent
+    double value;
+    std::array<double, 3> gradient;
+    std::array<double, 6> hessian;  // xx xy xz yy yz zz
+};
 
-// The step that `sweep` takes at one node, with all trials; moves nothing. Returns the status; the direction, its
-// slope, whether it is the fallback, the shift of A.4; the step length, the point that it leads to, and (alpha, value,
-// bound) of each trial, (trials, 3).
-std::tuple<int, std::array<double, 3>, double, bool, double, double, std::array<double, 3>, OwnedArray<double, 3>>
-recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings);
+// Energy of the patch of the node whose corners are `star`; factor = 0 scales it to mean edge length 1.
+PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm);
+
+// A step at one node, in mean edge lengths of its patch.
+struct RecordedStep {
+    StepStatus status;
+    std::array<double, 3> direction;  // and its slope: 0 where the status is FLAT or INFINITE
+    double slope;
+    bool fallback;  // steepest descent, because Newton's direction did not descend
+    double shift;   // added to the eigenvalues of the Hessian by Algorithm A.4
+    double alpha;   // accepted step length, and the point that it leads to: 0 unless the status is MOVED
+    Point place;
+    OwnedArray<double, 3> trials;  // (trials, 3): alpha, value and bound of each
+};
+
+// The step that `local_sweep` takes at one node; moves nothing.
+RecordedStep recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings);
 
 // Energy of a patch along a direction: writes the value at step length curve[k][0] to curve[k][1].
 void energy_along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction,

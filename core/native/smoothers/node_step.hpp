@@ -143,10 +143,10 @@ template <class Body> std::int64_t sum_over_groups(Indices groups, Indices nodes
     return total;
 }
 
-// A sweep of Algorithm 3.2, as `sweep` of local.hpp: returns the evaluations of a hex's energy in line searches.
+// `local_sweep`, for delta > 0 if `soft`: with vectors for T = Lanes, one hex after another for T = double.
 template <bool soft, class T>
-std::int64_t sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                      const NodeStepSettings &settings) {
+std::int64_t local_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
+                            const NodeStepSettings &settings) {
     std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
         NodePatch<T> alone[1]{NodePatch<T>(most)}, several[INTERLEAVED]{NodePatch<T>(most), NodePatch<T>(most)};

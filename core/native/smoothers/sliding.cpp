@@ -29,7 +29,7 @@ class SlidingNode {
 
     // T'HT. A coordinate without a tangent gets the curvature along t and is decoupled, so that no solution uses it.
     SymmetricMatrix tangential(const SymmetricMatrix &h) const {
-        V3<double> t = product(h, t_), u = product(h, u_);
+        V3<double> t = h * t_, u = h * u_;
         double one = dot(t_, t), other = on_curve_ ? one : dot(u_, u);
         return {one, dot(u_, t), 0.0, other, 0.0, one};
     }
@@ -41,9 +41,7 @@ class SlidingNode {
     }
 
     // Displacement from the node to a point.
-    V3<double> displacement(const Point &place) const {
-        return scale_ * V3<double>{place[0] - from_[0], place[1] - from_[1], place[2] - from_[2]};
-    }
+    V3<double> displacement(const Point &place) const { return scale_ * (vector(place) - vector(from_)); }
 
     // Derivative along d after projection. It differs from the tangential derivative where the surface has an edge.
     double slope(const V3<double> &d, const V3<double> &gradient) const {
@@ -52,8 +50,8 @@ class SlidingNode {
                         : 0.0;
     }
 
-    bool inverts_quad(const Point &place) const {
-        return surface_.quads.inverted_by_move(points_, surface_.slots[node_], place);
+    bool flips_quad(const Point &place) const {
+        return surface_.quads.flipped_by_move(points_, surface_.slots[node_], place);
     }
 
   private:
@@ -64,15 +62,10 @@ class SlidingNode {
     double scale_;
     V3<double> t_, u_;
     bool on_curve_;
-
-    static V3<double> product(const SymmetricMatrix &h, const V3<double> &v) {
-        return {h.xx * v.x + h.xy * v.y + h.xz * v.z, h.xy * v.x + h.yy * v.y + h.yz * v.z,
-                h.xz * v.x + h.yz * v.y + h.zz * v.z};
-    }
 };
 
 // Take a step at a node that slides: Algorithms A.2 to A.5 in the tangent space, every trial projected onto the
-// surface. A trial that inverts a boundary quad is rejected.
+// surface. A trial that flips a boundary quad is rejected.
 template <bool soft>
 void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star, const NodeStepSettings &settings,
            const SlidingSurface &surface, std::span<const Tangents> tangents, NodeMover &mover) {
@@ -91,7 +84,7 @@ void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star s
     Point place;
     double alpha = settings.search(at.value, chosen.slope, [&](double alpha, double bound) {
         place = node.trial_point(chosen.d, alpha);
-        if (node.inverts_quad(place)) return INF;
+        if (node.flips_quad(place)) return INF;
         patch.set_direction(node.displacement(place));
         double value = patch.value_along<soft>(1, settings.delta, settings.norm);
         mover.on_trial(patch.size(), alpha, value, bound);
@@ -127,12 +120,10 @@ std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices
                                                                                     settings, surface, tangents);
 }
 
-void newly_inverted(Points before, Points after, std::span<const Quad> quads, Points outward,
-                    std::span<bool> inverted) {
-    parallel_chunks(quads.size(), QUADS_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t f = begin; f < end; ++f)
-            inverted[f] = !is_inverted(points_of(before, quads[f]), outward[f]) &&
-                          is_inverted(points_of(after, quads[f]), outward[f]);
+void flipped_quads(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> flipped) {
+    parallel_for(quads.size(), QUADS_PER_CHUNK, [&](std::int64_t f) {
+        flipped[f] =
+            !is_flipped(points_of(before, quads[f]), outward[f]) && is_flipped(points_of(after, quads[f]), outward[f]);
     });
 }
 

@@ -7,18 +7,15 @@
 namespace hexmend {
 
 void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach) {
-    auto vector = [](const Point &p) { return V3<double>{p[0], p[1], p[2]}; };
-    parallel_chunks(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t k = begin; k < end; ++k) {
-            Node i = nodes[k];
-            double total = 0;
-            for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
-                total += length(vector(points[ring[s]]) - vector(points[i]));
-            double furthest = reach * total / (ring_start[i + 1] - ring_start[i]);
-            double far = length(vector(step[k]));
-            if (far > furthest)
-                for (double &x : step[k]) x *= furthest / far;
-        }
+    parallel_for(nodes.size(), HEXES_PER_CHUNK, [&](std::int64_t k) {
+        Node i = nodes[k];
+        double total = 0;
+        for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s)
+            total += length(vector(points[ring[s]]) - vector(points[i]));
+        double furthest = reach * total / (ring_start[i + 1] - ring_start[i]);
+        double far = length(vector(step[k]));
+        if (far > furthest)
+            for (double &x : step[k]) x *= furthest / far;
     });
 }
 

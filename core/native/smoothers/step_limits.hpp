@@ -5,8 +5,7 @@
 
 namespace hexmend {
 
-// Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the node's edges, in
-// place.
+// Shorten the steps (k, 3) of `nodes` (k,) that are longer than `reach` times the mean length of the node's edges.
 void shorten(std::span<Point> step, Points points, Indices ring_start, Indices ring, Indices nodes, double reach);
 
 // Write moved (n, 3): points with `nodes` displaced by alpha times their steps (k, 3).

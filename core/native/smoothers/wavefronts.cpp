@@ -6,26 +6,12 @@
 
 namespace hexmend {
 
-OwnedArray<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from) {
-    const std::int64_t n = from.size();
-    std::vector<std::int32_t> level(n, -1), queue;
-    queue.reserve(n);
-    for (std::int64_t i = 0; i < n; ++i)
-        if (from[i]) {
-            level[i] = 0;
-            queue.push_back(i);
-        }
-    std::int32_t deepest = -1;
-    for (std::size_t at = 0; at < queue.size(); ++at) {
-        deepest = level[queue[at]];
-        for (auto s = ring_start[queue[at]]; s < ring_start[queue[at] + 1]; ++s)
-            if (level[ring[s]] < 0) {
-                level[ring[s]] = deepest + 1;
-                queue.push_back(ring[s]);
-            }
-    }
-    std::replace(level.begin(), level.end(), -1, deepest + 1);  // not connected
-    return {std::move(level)};
+IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from) {
+    return {breadth_first_levels(
+        from.size(), [&](std::int64_t i) { return from[i]; },
+        [&](std::int32_t i, const auto &body) {
+            for (auto s = ring_start[i]; s < ring_start[i + 1]; ++s) body(ring[s]);
+        })};
 }
 
 CSR wavefronts(Indices start, Indices corners, Indices sequence) {

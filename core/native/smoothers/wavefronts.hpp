@@ -5,9 +5,8 @@
 
 namespace hexmend {
 
-// Number of edges between each node and the nearest with from[i], (n,); where there is no way, one more than the
-// deepest level.
-OwnedArray<std::int32_t> levels(Indices ring_start, Indices ring, std::span<const bool> from);
+// Number of edges between each node and the nearest with from[i], (n,).
+IntArray levels(Indices ring_start, Indices ring, std::span<const bool> from);
 
 // Groups of the nodes of a sequence such that no hex has two nodes of one group, and a node's group follows those of
 // all earlier nodes of its hexes: sweeping group after group equals sweeping the sequence.

@@ -28,7 +28,7 @@ void undo(std::vector<Move> &moves, std::size_t count, std::span<Point> points) 
 
 }  // namespace
 
-OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes) {
+IntArray tournament(Numbers key, Indices hexes) {
     const std::size_t k = hexes.size();
     std::vector<std::int32_t> tree(2 * k);
     std::copy(hexes.begin(), hexes.end(), tree.begin() + k);
@@ -47,14 +47,14 @@ void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf) {
     }
 }
 
-std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free, Indices candidates,
-                   std::span<double> q, std::span<bool> sound, const WorstFirstSettings &settings,
-                   const SlidingSurface *surface) {
+std::int64_t worst_first_sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free,
+                               Indices candidates, std::span<double> q, std::span<bool> valid,
+                               const WorstFirstSettings &settings, const SlidingSurface *surface) {
     if (candidates.empty()) return 0;  // an empty queue has no first element
     const Hexes hexes = mesh.hexes;
     const std::size_t m = hexes.size();
     std::vector<double> key(q.begin(), q.end());
-    for (std::size_t h = 0; h < m; ++h) key[h] -= !sound[h];  // inverted hexes come first
+    for (std::size_t h = 0; h < m; ++h) key[h] -= !valid[h];  // inverted hexes come first
     std::vector<std::int32_t> leaf(m, -1), touched_in(m, -1);
     for (std::size_t i = 0; i < candidates.size(); ++i) leaf[candidates[i]] = i;
     auto queue = tournament(key, candidates).values, least = tournament(q, candidates).values;
@@ -75,14 +75,14 @@ std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const
             Node i = hexes[h][c];
             if (!free[i]) continue;
             moves.push_back({i, points[i]});
-            Point aim{y.at[c].x, y.at[c].y, y.at[c].z};
-            points[i] = surface && surface->slides(i) ? surface->project_unless_inverting(points, i, aim) : aim;
+            Point aim = point(y.at[c]);
+            points[i] = surface && surface->slides(i) ? surface->project_unless_flipping(points, i, aim) : aim;
             for (auto corner : mesh.star(i)) {
                 auto g = corner / 8;
                 if (touched_in[g] == static_cast<std::int32_t>(step)) continue;
                 touched_in[g] = step;
                 touched.push_back(g);
-                prefetch(&hexes[g], &q[g], &key[g], &sound[g], &leaf[g]);
+                prefetch(&hexes[g], &q[g], &key[g], &valid[g], &leaf[g]);
             }
         }
         for (auto g : touched)
@@ -90,7 +90,7 @@ std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const
         bool harm = false;
         for (std::size_t r = 0; r < touched.size() && !harm; ++r) {
             after[r] = SingleHex(points, hexes[touched[r]]).quality();
-            harm = sound[touched[r]] && !after[r].sound;
+            harm = valid[touched[r]] && !after[r].valid;
         }
         if (harm) {
             ++rejected;
@@ -106,8 +106,8 @@ std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const
             gain += rise;
             key[g] += rise;
             q[g] = after[r].q;
-            if (after[r].sound && !sound[g]) {
-                sound[g] = untangled = true;
+            if (after[r].valid && !valid[g]) {
+                valid[g] = untangled = true;
                 key[g] += 1;
             }
             replay(queue, key, leaf[g]);

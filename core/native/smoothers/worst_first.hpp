@@ -10,7 +10,7 @@
 namespace hexmend {
 
 // The tree (2 k,) of the hexes (k,) by key (m,).
-OwnedArray<std::int32_t> tournament(Numbers key, Indices hexes);
+IntArray tournament(Numbers key, Indices hexes);
 
 // Update the tree after the key of the hex at a leaf, 0 to k - 1, has changed.
 void replay(std::span<std::int32_t> tree, Numbers key, std::int64_t leaf);
@@ -21,14 +21,10 @@ struct WorstFirstSettings {
     double scaling, relaxation, penalty, rejection_penalty;
 };
 
-// Take as many element steps as there are candidates; returns the number of rejected steps, those that inverted a sound
-// hex.
-//
-// points (n, 3) end at the best state reached: fewest inverted hexes, then highest q_min, then highest q_mean. free
-// (n,); candidates (k,) are the hexes with a free node; q (m,) and sound (m,) are changed to those of the last state.
-// Nodes may slide on a surface; nullptr for none.
-std::int64_t sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free, Indices candidates,
-                   std::span<double> q, std::span<bool> sound, const WorstFirstSettings &settings,
-                   const SlidingSurface *surface);
+// Take as many element steps as there are candidates, the hexes with a free node; returns the number of rejected steps.
+// points end at the best state reached, q and valid at the last one.
+std::int64_t worst_first_sweep(std::span<Point> points, const HexMesh &mesh, std::span<const bool> free,
+                               Indices candidates, std::span<double> q, std::span<bool> valid,
+                               const WorstFirstSettings &settings, const SlidingSurface *surface);
 
 }  // namespace hexmend

@@ -1,21 +1,111 @@
 // Extension module of the native functions that only tests call. Wheels do not contain it.
-#include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
 
-namespace nb = nanobind;
-
-#define HEXMEND_TEST_FAMILIES(family) \
-    family(barrier) family(element_step) family(hexahedron) family(symmetric) family(tournament)
+#include "bindings/arrays.hpp"
+#include "smoothers/element_step.hpp"
+#include "smoothers/node_step.hpp"
+#include "smoothers/worst_first.hpp"
 
 namespace hexmend {
-#define DECLARE(name) void bind_##name(nb::module_ &);
-HEXMEND_TEST_FAMILIES(DECLARE)
+namespace {
+
+void powers(Numbers h, std::span<double> powers) {
+    for (std::size_t i = 0; i < h.size(); ++i) powers[i] = power_minus_two_thirds(broadcast<Lanes>(h[i]))[0];
+}
+
+void barriers(Numbers sigma, double delta, std::span<double> h, std::span<double> r) {
+    for (std::size_t i = 0; i < sigma.size(); ++i) {
+        auto s = broadcast<Lanes>(sigma[i]);
+        auto at = delta != 0 ? barrier<true>(s, delta) : barrier<false>(s, delta);
+        h[i] = at.h[0], r[i] = at.r[0];
+    }
+}
+
+void bind_barrier(nb::module_ m) {
+    m.doc() = "The scalar formulas of a corner tetrahedron, in one lane of a vector register.";
+    m.def("power_minus_two_thirds", &powers, "h"_a, "powers"_a, "Write h^(-2/3) of h (n,) to powers (n,), float64.");
+    m.def("barrier", &barriers, "sigma"_a, "delta"_a, "h"_a, "r"_a,
+          "Write h(sigma) of (3.2) and r = sqrt(sigma^2 + 4 delta^2) of sigma (n,) to h and r (n,), float64.");
+}
+
+OwnedArray<double, 3> one_element_step(Points corners, double s, double rho) {
+    constexpr Hex ALL_EIGHT[] = {{0, 1, 2, 3, 4, 5, 6, 7}};
+    expect(corners.size() == 8, "corners: 8 points are expected");
+    auto y = element_step(gather_corners<double>(corners, ALL_EIGHT, 0, 1), s, rho);
+    std::vector<double> targets(24);
+    std::memcpy(targets.data(), &y, sizeof y);
+    return {std::move(targets)};
+}
+
+void bind_element_step(nb::module_ m) {
+    m.doc() = "GETMe's element step of one hex, computed without vectors as `worst_first` does.";
+    m.def("element_step", &one_element_step, "x"_a, "s"_a, "rho"_a, "Targets (8, 3) of the corners x (8, 3).");
+}
+
+nb::tuple rows(const auto &table) {
+    nb::list all;
+    for (const auto &row : table) {
+        nb::list numbers;
+        for (int i : row) numbers.append(i);
+        all.append(nb::tuple(numbers));
+    }
+    return nb::tuple(all);
+}
+
+void bind_hexahedron(nb::module_ m) {
+    m.doc() = "The reference hexahedron, as the kernels number it.";
+    m.attr("CORNER_TETRAHEDRA") = rows(CORNER_TETRAHEDRA);
+    m.attr("EDGES") = rows(EDGES);
+    m.attr("DIAGONALS") = rows(DIAGONALS);
+    m.attr("FACES") = rows(FACES);
+    m.attr("UNIT_CUBE") = rows(UNIT_CUBE);
+    m.attr("CORNER_FACES") = rows(CORNER_FACES);
+    m.attr("ROTATIONS") = rows(ROTATIONS);
+}
+
+SymmetricMatrix matrix_of(const std::array<double, 6> &a) { return {a[0], a[1], a[2], a[3], a[4], a[5]}; }
+V3<double> vector_of(const std::array<double, 3> &a) { return {a[0], a[1], a[2]}; }
+
+std::pair<double, double> extremes(std::array<double, 6> a) {
+    auto [smallest, largest] = extreme_eigenvalues(matrix_of(a));
+    return {smallest, largest};
+}
+
+std::array<double, 3> solution(std::array<double, 6> a, std::array<double, 3> b) {
+    auto x = solve(matrix_of(a), vector_of(b));
+    return {x.x, x.y, x.z};
+}
+
+std::array<double, 3> direction(std::array<double, 6> hessian, std::array<double, 3> gradient, bool modified) {
+    SymmetricMatrix matrix = matrix_of(hessian);
+    auto p = newton_direction(matrix, vector_of(gradient), modified ? eigenvalue_shift(matrix) : 0.0);
+    return {p.x, p.y, p.z};
+}
+
+void bind_symmetric(nb::module_ m) {
+    m.doc() = "Symmetric 3 x 3 matrices, given as (xx, xy, xz, yy, yz, zz).";
+    m.def("extreme_eigenvalues", &extremes, "a"_a, "Smallest and largest eigenvalue (Smith 1961).");
+    m.def("solve", &solution, "a"_a, "b"_a, "Solution of the linear system; zero where the matrix is singular.");
+    m.def("newton", &direction, "hessian"_a, "gradient"_a, "modified"_a,
+          "Search direction of Algorithm A.3 or, modified, A.4, at a node.");
+}
+
+void bind_tournament(nb::module_ m) {
+    m.doc() = "The priority queue of `worst_first`: a tournament tree of hexes by ascending key.";
+    m.def("tournament", &tournament, "key"_a, "hexes"_a,
+          "The tree (2 k,) int32 of the hexes (k,) int32; tree[1] is the hex of the smallest key (m,) float64.");
+    m.def("replay", &replay, "tree"_a, "key"_a, "leaf"_a,
+          "Update the tree after the key of the hex at a leaf, 0 to k - 1, has changed.");
+}
+
+}  // namespace
 }  // namespace hexmend
 
 NB_MODULE(hexmend_test_kernels, m) {
-#define BIND(name)                                   \
-    {                                                \
-        nb::module_ family = m.def_submodule(#name); \
-        hexmend::bind_##name(family);                \
-    }
-    HEXMEND_TEST_FAMILIES(BIND)
+    using namespace hexmend;
+    bind_barrier(m.def_submodule("barrier"));
+    bind_element_step(m.def_submodule("element_step"));
+    bind_hexahedron(m.def_submodule("hexahedron"));
+    bind_symmetric(m.def_submodule("symmetric"));
+    bind_tournament(m.def_submodule("tournament"));
 }

@@ -9,8 +9,7 @@ namespace hexmend {
 
 using Integers = std::span<const std::int64_t>;
 
-// Rows of `width` numbers, each the shortest text that reads back as the same float; `last` has an integer to append to
-// each row, or is empty.
+// Rows of `width` numbers and, unless `last` is empty, an integer.
 std::string decimal_lines(Numbers values, std::int64_t width, Integers last);
 
 // Rows of `width` integers.

@@ -1,4 +1,5 @@
-#include "view/occlusion.hpp"
+
+#include "view/view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ using PixelPoint = std::array<float, 3>;  // x and y in pixels, height towards t
 // would hide the corner itself, and by OFFSET_PIXELS along the normal: 0.71 pixels avoid self-shadowing at every angle,
 // because the height of the shifted point above the surface grows with the surface's slope.
 constexpr double INSET = 0.15, OFFSET_PIXELS = 1.0;
-
-Vector vector(const Point &p) { return {p[0], p[1], p[2]}; }
 
 // Height map of a scene seen along a direction: the largest height in each pixel of a square.
 class HeightMap {
@@ -106,7 +105,7 @@ void normals(Points points, PointNumbers start, PointNumbers places, std::span<P
             sum += cross(vector(points[places[at - 1]]) - first, vector(points[places[at]]) - first);
         double size = length(sum);
         if (size > 0) sum = (1 / size) * sum;
-        answer[i] = {sum.x, sum.y, sum.z};
+        answer[i] = point(sum);
     }
 }
 
@@ -140,16 +139,15 @@ void shine(Points points, PointNumbers start, PointNumbers places, Points normal
         for (std::int64_t i : facing)
             for (std::int64_t at = start[i]; at < start[i + 1]; ++at) reached[d][at] = map.lit(map.place(looked[at]));
     });
-    parallel_chunks(start.size() - 1, 1024, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i)
-            for (std::size_t d = 0; d < directions.size(); ++d) {
-                double share = dot(vector(directions[d]), vector(normals[i]));  // Lambert's cosine
-                if (share <= 0) continue;
-                for (std::int64_t at = start[i]; at < start[i + 1]; ++at) {
-                    whole[at] += share;
-                    if (reached[d][at]) light[at] += share;
-                }
+    parallel_for(start.size() - 1, 1024, [&](std::int64_t i) {
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+            double share = dot(vector(directions[d]), vector(normals[i]));  // Lambert's cosine
+            if (share <= 0) continue;
+            for (std::int64_t at = start[i]; at < start[i + 1]; ++at) {
+                whole[at] += share;
+                if (reached[d][at]) light[at] += share;
             }
+        }
     });
 }
 

@@ -1,4 +1,5 @@
-#include "view/skin.hpp"
+
+#include "view/view.hpp"
 
 #include <algorithm>
 #include <utility>

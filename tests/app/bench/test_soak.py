@@ -1,4 +1,4 @@
-"""The soak: its rounds work for real, and its verdict tells memory that grows from memory that does not."""
+"""The soak: real rounds, and a verdict that detects growing memory."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def test_a_mesh_that_cannot_be_opened_ends_it(qapp, tmp_path):
         list(soak([tmp_path / "none.vtu"], 0))
 
 
-def test_where_memory_is_not_told_that_is_said_at_once(qapp, monkeypatch, capsys):
-    def untold():
+def test_memory_that_cannot_be_measured_is_reported_at_once(qapp, monkeypatch, capsys):
+    def unknown():
         raise OSError
 
-    monkeypatch.setattr("hexmend.study.bench.section.resident_mb", untold)
+    monkeypatch.setattr("hexmend.study.bench.section.resident_mb", unknown)
     assert main(["soak", "--minutes", "0"]) != 0
-    assert "soak needs a system that tells" in capsys.readouterr().err
+    assert "soak needs a system with /proc" in capsys.readouterr().err
 
 
 @pytest.mark.slow

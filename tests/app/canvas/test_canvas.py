@@ -10,12 +10,12 @@ from PySide6.QtWidgets import QApplication, QToolButton
 
 from hexmend.quality import measure
 from hexmend_app.canvas.canvas import Canvas
-from hexmend_app.canvas.captions import Caption
+from hexmend_app.canvas.view_captions import Caption
 from hexmend_app.canvas.wipe_handle import WipeHandle
-from hexmend_app.scene.camera.pose import Pose
-from hexmend_app.scene.frame import Frame
-from hexmend_app.state.clip import ClipPlane
-from hexmend_app.state.views import Wipe
+from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT, drag, turn
 from tests.core.grids import grid
 from tests.patience import PATIENCE
@@ -46,7 +46,7 @@ def canvas(qtbot):
 
 
 def pose(canvas):
-    return Pose.of(canvas.viewport.camera)
+    return pose_of(canvas.viewport.camera)
 
 
 def rested(qtbot, canvas):
@@ -91,7 +91,7 @@ def test_views_are_gone_back_and_forward_through(canvas, qtbot):
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
     canvas.forward_view()  # there is none
-    assert not canvas.travel.under_way
+    assert not canvas.travel.active
     canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
 
@@ -125,9 +125,9 @@ def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
 def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
-    assert canvas.travel.under_way
+    assert canvas.travel.active
     QTest.keyClick(canvas.interactor, Qt.Key.Key_Left)
-    assert not canvas.travel.under_way
+    assert not canvas.travel.active
 
 
 @pytest.mark.slow
@@ -138,12 +138,12 @@ def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
         canvas.fly_to(h)
         rested(qtbot, canvas)
     canvas.return_to_pose()
-    assert canvas.travel.under_way
+    assert canvas.travel.active
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
     canvas.look_along("+z")
     canvas.return_to_pose()  # there is nothing to return to
-    assert not canvas.travel.under_way
+    assert not canvas.travel.active
 
 
 @pytest.mark.slow
@@ -164,7 +164,7 @@ def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
-    qtbot.waitUntil(lambda: canvas.travel.under_way, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.travel.active, timeout=PATIENCE)
     rested(qtbot, canvas)
     after = pose(canvas)
     assert len(clicks) == 1  # the first of both chooses
@@ -189,7 +189,7 @@ def test_two_clicks_with_ctrl_dig_twice(canvas):
     for kind in (QEvent.Type.MouseButtonDblClick, QEvent.Type.MouseButtonRelease):
         QApplication.sendEvent(view, QMouseEvent(kind, at, view.mapToGlobal(at), LEFT, LEFT, ctrl))
     assert len(dug) == 2
-    assert not canvas.travel.under_way
+    assert not canvas.travel.active
 
 
 def test_a_right_click_asks_for_a_menu_and_a_right_drag_zooms(canvas, qtbot):
@@ -248,7 +248,7 @@ def test_up_and_projection_are_told(canvas):
 @pytest.mark.slow
 def test_a_plane_is_flown_to(canvas, qtbot):
     canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
-    assert canvas.travel.under_way
+    assert canvas.travel.active
     rested(qtbot, canvas)
     np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
 
@@ -265,7 +265,7 @@ def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
     others = [(MESH, FIGURES)] * 3
     for size in ((600, 500), (900, 700), (420, 320)):
         canvas.resize(*size)
-        canvas.show_beside(others)
+        canvas.show_side_by_side(others)
         canvas.frame.set_captions([Caption(f"view {k}", 0.5, 0, None) for k in range(4)], None)
         turn()
         bar = canvas.colour_bar.geometry()
@@ -278,7 +278,7 @@ def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
 
 
 def test_the_colour_bar_keeps_off_the_knob_of_a_wipe(canvas):
-    canvas.show_beside([(MESH, FIGURES)], Wipe(0, 1, 0.5))
+    canvas.show_side_by_side([(MESH, FIGURES)], Wipe(0, 1, 0.5))
     home = canvas.colour_bar.geometry()
     edge = canvas.findChild(WipeHandle)
     for share in (0.5, 0.9, 0.95):

@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QImage
 from PySide6.QtTest import QTest
 
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.scene.ticks import nice_ticks
+from hexmend_app.scene.colour.ticks import nice_ticks
 
 
 @pytest.fixture
@@ -45,11 +45,11 @@ def test_the_gradient_shows_the_whole_table_in_order(shown, ramp):
 def test_inverted_elements_have_a_swatch_of_their_colour(shown, ramp, colour):
     bar = ColourBar()
     bar.set_table(ramp)
-    bar.set_apart([("inverted", 3, colour)])
+    bar.set_special([("inverted", 3, colour)])
     shown(bar)
     assert np.all(pixels(bar) == (0x12, 0xAB, 0x34), axis=2).sum() > 80
     assert "inverted (3)" in bar.accessibleDescription()
-    bar.set_apart([("inverted", 0, colour)])
+    bar.set_special([("inverted", 0, colour)])
     assert bar.accessibleDescription().startswith("inverted;")
 
 
@@ -99,23 +99,23 @@ def test_several_kinds_set_apart_have_a_swatch_each_below_the_gradient(shown, ra
     bar.set_table(ramp)
     bar.set_range(-0.25, 0.25)
     kinds = [("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234"), ("mended", 12, "#3412ab")]
-    bar.set_apart(kinds)
+    bar.set_special(kinds)
     shown(bar, 130)
     rgb = pixels(bar)
     for colour in ((0x12, 0xAB, 0x34), (0xAB, 0x12, 0x34), (0x34, 0x12, 0xAB)):
         assert (rgb == colour).all(axis=2).sum() > 80
     assert bar.accessibleDescription() == ("newly inverted (3); still inverted; mended (12); q(H) from -0.25 to 0.25")
-    bar.set_apart(kinds[2:])
+    bar.set_special(kinds[2:])
     assert bar.accessibleDescription().startswith("mended (12); q(H)")
     assert [one.isVisible() for one in bar.swatches] == [True, False, False]
 
 
 def test_a_swatch_asks_for_its_elements_by_mouse_and_keys_while_there_are_some(shown):
     bar = ColourBar()
-    bar.set_apart([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234")])
+    bar.set_special([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234")])
     shown(bar, 130)
     asked = []
-    bar.apart_clicked.connect(asked.append)
+    bar.special_clicked.connect(asked.append)
     for swatch in bar.swatches:
         QTest.mouseClick(swatch, Qt.MouseButton.LeftButton)
     assert asked == ["newly inverted"]
@@ -127,11 +127,11 @@ def test_a_swatch_asks_for_its_elements_by_mouse_and_keys_while_there_are_some(s
 
 def test_the_width_holds_still_while_counts_and_colours_change(shown):
     bar = ColourBar()
-    bar.set_apart([("inverted", 1, "#12ab34")])
+    bar.set_special([("inverted", 1, "#12ab34")])
     shown(bar)
     before = bar.sizeHint()
     for count in (12, 999, 99_999):
-        bar.set_apart([("inverted", count, "#12ab34")])
+        bar.set_special([("inverted", count, "#12ab34")])
         assert bar.sizeHint() == before
 
 

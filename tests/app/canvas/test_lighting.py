@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend_app.state.look import Look
+from hexmend_app.picture.appearance import Look
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -13,13 +13,13 @@ def rested(window, qtbot):
     """Wait until the view has its light."""
     window.canvas.rest()
     body = window.canvas.viewport.body
-    qtbot.waitUntil(lambda: body.light is not None and not window.canvas.lighting.under_way, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: body.light is not None and not window.canvas.lighting.active, timeout=PATIENCE)
     return body
 
 
 def test_a_view_that_rests_is_shaded(window, qtbot):
     body = rested(window, qtbot)
-    assert body.unlit is None
+    assert body.needs_shading is None
     assert body.light.min() < 1
 
 
@@ -39,7 +39,7 @@ def test_without_shading_nothing_is_worked_out(window, qtbot):
     qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == window.session.view.look, timeout=PATIENCE)
     window.canvas.panes.still()
     window.canvas.lighting.start()
-    assert not window.canvas.lighting.under_way
+    assert not window.canvas.lighting.active
     assert window.session.view.look == Look(shading=False, dug=frozenset({3}))
 
 
@@ -47,4 +47,4 @@ def test_closing_ends_it(window):
     window.canvas.panes.still()
     window.canvas.lighting.start()
     window.canvas.lighting.shut_down()
-    assert not window.canvas.lighting.under_way
+    assert not window.canvas.lighting.active

@@ -5,10 +5,10 @@ from PySide6.QtCore import QPoint, QRect
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QToolButton, QWidget
 
-from hexmend_app.canvas.captions import HEIGHT, Caption, CaptionRow
+from hexmend_app.canvas.view_captions import HEIGHT, Caption, CaptionRow
 from hexmend_app.canvas.view_frame import ViewFrame
-from hexmend_app.scene.arrangement import grid
-from hexmend_app.state.views import Wipe
+from hexmend_app.scene.views.arrangement import grid
+from hexmend_app.state.view.side_views import Wipe
 from tests.app.driving import LEFT
 
 

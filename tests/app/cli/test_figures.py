@@ -1,4 +1,4 @@
-"""The figures of the study that show meshes, drawn in a process that has no display."""
+"""The figures of the study that show meshes, drawn in a process without a display."""
 
 import os
 import subprocess
@@ -12,11 +12,11 @@ import pytest
 from PIL import Image
 
 from hexmend.study.thesis.mesh_figures import MESH_FIGURES
-from hexmend_app.scene.export.tally import tally
+from hexmend_app.scene.render.colour_count import count_colours
 
 ROOT = Path(__file__).resolve().parents[3]
 
-#: Draws every figure, of small meshes.
+#: Program that draws every figure, of small meshes.
 DRAW = """
 import sys
 from pathlib import Path
@@ -51,13 +51,13 @@ def test_a_figure_is_small_and_shows_something(drawn, figure):
     assert path.stat().st_size < 150_000
     image = Image.open(path)
     assert image.size[0] == 900
-    colours, counts = tally(np.asarray(image.convert("RGB")))
+    colours, counts = count_colours(np.asarray(image.convert("RGB")))
     assert len(colours) > 8
     assert counts.max() < 0.99 * counts.sum()  # not the background alone
 
 
 def test_sections_alone_are_coloured_by_quality(drawn):
-    """Colours far from grey, and a bar below, are there where q(H) is shown."""
+    """Only pictures of q(H) have vivid colours and a colour bar."""
     for figure in MESH_FIGURES:
         pixels = np.asarray(Image.open(drawn[figure.number]).convert("RGB")).astype(int)
         vivid = float((np.ptp(pixels, axis=2) > 120).mean())
@@ -65,7 +65,7 @@ def test_sections_alone_are_coloured_by_quality(drawn):
 
 
 def test_sections_have_one_plane_and_one_camera(drawn):
-    """Of one mesh the three are the same picture."""
+    """The three pictures of one mesh are identical."""
     pictures = [drawn[figure.number].read_bytes() for figure in MESH_FIGURES if figure.shows == "section"]
     assert len(pictures) == 3
     assert len(set(pictures)) == 1

@@ -11,11 +11,11 @@ from hexmend import gallery, io
 
 pytestmark = pytest.mark.slow
 
-#: The program; the signal comes while VTK calls Python back.
+#: The program; a signal arrives while VTK calls back into Python.
 PROGRAM = """
 import os, signal, sys
 from hexmend.cli.main import main
-from hexmend_app.scene.stage import Stage
+from hexmend_app.scene.render.stage import Stage
 whole = Stage.__init__
 def begin(self, size):
     whole(self, size)

@@ -1,6 +1,9 @@
-"""`hexmend render` of scenes: what the file says, what options say in its place, and what is written of both."""
+"""`hexmend render` of scenes: the file, the options that override it, and the scene that is written."""
 
 from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -8,18 +11,24 @@ from PIL import Image
 
 from hexmend.cli.main import main
 from hexmend.io import write
-from hexmend_app.state.scene import (
-    Bar,
+from hexmend_app.cli import scene_options
+from hexmend_app.codec.config_table import option
+from hexmend_app.picture import (
     Camera,
+    ColourBarStyle,
     Colours,
+    ConfigTable,
     Cut,
-    Lines,
+    CutStyle,
+    Isolate,
+    LineStyle,
     Page,
-    Panel,
-    Place,
+    PicturePanel,
     Plane,
     Range,
     Scene,
+    Show,
+    TextPlace,
     camera_text,
     read_scene,
     write_scene,
@@ -30,14 +39,34 @@ FILE = Scene(
     cameras={"side": Camera("+y")},
     cut=Cut((Plane((0, 1, 0), 0.5),)),
     colours=Colours("scaled-jacobian", "plasma", Range.FITTED),
-    lines=Lines(0.4),
+    lines=LineStyle(0.4),
     page=Page(60, 40, dpi=150, shading=False),
 )
 
 
+@dataclass(frozen=True)
+class Frame(ConfigTable):
+    """A frame.
+
+    Parameters
+    ----------
+    width : float
+        Of its lines.
+    """
+
+    width: float = option(1.0, low=0, unit="pt")
+
+
+@dataclass(frozen=True)
+class Framed(Scene):
+    """A scene with a frame."""
+
+    frame: Frame = option(Frame)
+
+
 @pytest.fixture
 def render(tmp_path, capsys):
-    """Runs the command on a mesh; the scene that it draws and the picture."""
+    """Run the command on a mesh; return the scene that it draws, the picture and the output."""
     write(tmp_path / "mesh.vtu", scrambled(grid(3), 0.4))
     write_scene(tmp_path / "scene.toml", FILE)
 
@@ -51,7 +80,7 @@ def render(tmp_path, capsys):
     return run
 
 
-def test_a_scene_is_drawn_as_it_stands(render):
+def test_a_scene_is_drawn_unchanged(render):
     scene, image, said = render()
     assert scene == FILE
     assert image.size == (354, 236)
@@ -74,19 +103,47 @@ def test_a_scene_is_drawn_as_it_stands(render):
         (["--metric", "volume"], "colours", Colours("volume", "plasma", Range.FITTED)),
         (["--colour-range", "0.2,0.4"], "colours", Colours("scaled-jacobian", "plasma", (0.2, 0.4))),
         (["--clip", "x:0.25", "--flip"], "cut", Cut((Plane((-1, 0, 0), 0.75),))),
-        (["--no-edges"], "lines", Lines(0.0)),
-        (["--no-bar"], "bar", Bar(Place.NONE)),
-        (["--captions", "mended"], "panels", (Panel(caption="mended"),)),
+        (["--no-edges"], "lines", LineStyle(0.0)),
+        (["--no-bar"], "bar", ColourBarStyle(TextPlace.NONE)),
+        (["--captions", "mended"], "panels", (PicturePanel(caption="mended"),)),
     ],
 )
-def test_options_take_the_place_of_what_the_scene_says(render, words, field, value):
+def test_options_override_the_scene(render, words, field, value):
     scene, _, _ = render(*words)
     assert getattr(scene, field) == value
     others = [name for name in ("page", "camera", "colours", "cut", "lines", "bar", "panels") if name != field]
     assert all(getattr(scene, name) == getattr(FILE, name) for name in others)
 
 
-def test_what_options_alone_ask_for_is_saved_as_a_scene_that_draws_the_same(render, tmp_path):
+@pytest.mark.parametrize(
+    ("words", "field", "value"),
+    [
+        (["--page-margin", "2", "--page-crop"], "page", Page(60, 40, dpi=150, shading=False, margin=2, crop=True)),
+        (["--no-page-figures"], "page", Page(60, 40, dpi=150, shading=False, figures=False)),
+        (["--bar-ticks", "0,0.5", "--bar-place", "right"], "bar", ColourBarStyle(TextPlace.RIGHT, (0.0, 0.5))),
+        (["--bar-ticks", "4", "--bar-title", "6"], "bar", ColourBarStyle(ticks=4, title="6")),
+        (["--show-hidden", "3,1", "--show-peel", "1"], "show", Show(hidden=(3, 1), peel=1)),
+        (["--show-isolate", "{ hexes = [4], rings = 0 }"], "show", Show(isolate=Isolate((4,), 0))),
+        (["--quality-range", "-inf,0.5"], "show", Show(quality=(-np.inf, 0.5), inverted=True)),
+        (["--camera-up", "y", "--camera-parallel"], "camera", Camera(up="y", parallel=True)),
+        (["--colour-range", "full"], "colours", Colours("scaled-jacobian", "plasma", Range.FULL)),
+        (["--smooth"], "cut", Cut((Plane((0, 1, 0), 0.5),), style=CutStyle.SMOOTH)),
+    ],
+)
+def test_every_key_of_a_scene_is_an_option(render, words, field, value):
+    scene, _, _ = render(*words)
+    assert getattr(scene, field) == value
+
+
+def test_a_new_key_of_a_table_is_an_option_at_once(monkeypatch):
+    monkeypatch.setattr(scene_options, "Scene", Framed)
+    parser = argparse.ArgumentParser()
+    scene_options.add_arguments(parser, (*scene_options.MESH_TABLES, "frame"))
+    assert "--frame-width X Of its lines. From 0 up pt, default 1.0." in " ".join(parser.format_help().split())
+    assert scene_options.with_options(parser.parse_args(["--frame-width", "2"]), Framed()).frame == Frame(2.0)
+
+
+def test_options_alone_are_saved_as_a_scene_that_draws_the_same(render, tmp_path):
     words = ["--clip", "z:0.4", "--smooth", "--metric", "edge-ratio", "--structure", "sharp", "--size", "300x200"]
     _, image, _ = render(*words, scene=False)
     (tmp_path / "drawn.toml").rename(tmp_path / "scene.toml")
@@ -127,7 +184,7 @@ def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
         (["--save-scene", "scene.json"], 3, "a scene cannot be written as .json"),
     ],
 )
-def test_what_cannot_be_drawn_is_said_before_anything_is_written(tmp_path, capsys, words, status, said):
+def test_errors_are_reported_before_anything_is_written(tmp_path, capsys, words, status, said):
     write(tmp_path / "mesh.vtu", grid(2))
     assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.png"), *words]) == status
     assert said in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""`hexmend report` and `hexmend figures`, in a process that has a display or has none."""
+"""`hexmend report` and `hexmend figures`, with and without a display."""
 
 import hashlib
 import json
@@ -26,7 +26,7 @@ METHODS = ["--methods", "laplacian,mend", "--max-iterations", "8"]
 
 @pytest.fixture
 def hexmend(monkeypatch):
-    """Runs the command line; gives its exit status."""
+    """Run the command line, and return its exit status."""
     own = {"report": lambda: report.command, "figures": lambda: figure_set.command}
     monkeypatch.setattr(program, "commands", lambda: own)
     return lambda *words: program.main([*map(str, words)])
@@ -44,7 +44,7 @@ def test_a_report_names_its_mesh_its_methods_and_how_to_repeat_it(hexmend, mesh_
     text = path.read_text(encoding="utf-8")
     assert hashlib.sha256(mesh_file.read_bytes()).hexdigest() in text
     assert "<h1>a &lt; b</h1>" in text
-    for said in ("laplacian", "mend", "The worst hexes", "What is locked", "max_iterations 8", "SHA-256"):
+    for said in ("laplacian", "mend", "The worst hexes", "Locked hexes", "max_iterations 8", "SHA-256"):
         assert said in text
     assert f"hexmend figures {mesh_file} {' '.join(METHODS)} -o bridge-figures" in text
     assert "http" not in text.replace("http-equiv", "")  # nothing is asked of a network
@@ -109,7 +109,7 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
         (["report", "-o", "a.html", "--scene", "../fine.toml"], "2 pictures on a page 170 mm wide: the page has"),
     ],
 )
-def test_what_cannot_be_used_is_said_before_the_work(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words, said):
+def test_errors_are_reported_before_the_runs(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words, said):
     monkeypatch.chdir(tmp_path)
     Path("../fine.toml").write_text("[page]\ndpi = 2400", encoding="utf-8")
     command, *others = words
@@ -176,7 +176,7 @@ def test_commands_of_a_report_take_no_name_for_an_option(hexmend, mesh_file, tmp
 
 @pytest.fixture
 def interrupting(monkeypatch):
-    """Makes functions send signals to this process before their work."""
+    """Make functions send signals to this process before their work."""
 
     def interrupt(module, name, number=signal.SIGINT, times=1, call=1):
         whole, calls = getattr(module, name), []

@@ -45,11 +45,11 @@ def test_the_figures_of_the_thesis_are_drawn_by_one_command(tmp_path, monkeypatc
     ("words", "said"),
     [
         (["--format", "gif"], "--format 'gif' cannot be used: expected names among png, pdf, svg"),
-        (["--width-mm", "90"], "--width-mm '90' cannot be used: expected no --thesis beside it"),
-        (["--only", "cut"], "--only 'cut' cannot be used: expected no --thesis beside it"),
+        (["--width-mm", "90"], "--width-mm '90' cannot be used: expected no --thesis with it"),
+        (["--only", "cut"], "--only 'cut' cannot be used: expected no --thesis with it"),
     ],
 )
-def test_what_the_thesis_has_not_is_refused_at_once(tmp_path, monkeypatch, capsys, words, said):
+def test_options_that_the_thesis_excludes_are_rejected_at_once(tmp_path, monkeypatch, capsys, words, said):
     monkeypatch.setattr(program, "commands", lambda: {"figures": lambda: figure_set.command})
     assert program.main(["figures", "plane", "--thesis", *words, "-o", str(tmp_path / "set")]) == 2
     assert said in capsys.readouterr().err

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QLabel
 
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.state.run import Phase
-from hexmend_app.widgets.export_dialog import ExportDialog
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.widgets.dialogs.export_dialog import ExportDialog
 from tests.app.driving import phase
 from tests.patience import PATIENCE
 
@@ -24,7 +24,7 @@ SHORT = StoppingCriteria(max_iterations=3)
 @pytest.fixture
 def worked(window, qtbot):
     """A window in which a method has run, and methods have been compared."""
-    window.session.smoothing.start(METHODS["laplacian"](), SHORT)
+    window.session.run.start(METHODS["laplacian"](), SHORT)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], SHORT)
     qtbot.waitUntil(lambda: not window.session.comparison.busy, timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""Meshes and results in a notebook that is really run."""
+"""Meshes and results in a notebook that is run."""
 
 import asyncio
 import base64
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from hexmend_app.scene.export.tally import tally
+from hexmend_app.scene.render.colour_count import count_colours
 
 CELLS = (
     "import hexmend as hx\nmesh = hx.gallery.make('bridge-sharp', size=500, scramble=0.4, seed=1)\nmesh",
@@ -23,7 +23,7 @@ CELLS = (
 
 @pytest.fixture(scope="module")
 def outputs(tmp_path_factory):
-    """What the cells show, each a mapping of types, or the message of an error."""
+    """Output of the cells: a mapping of types for each, or the message of an error."""
     nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
     pytest.importorskip("trame_pyvista")
     folder = tmp_path_factory.mktemp("notebook")
@@ -62,7 +62,7 @@ def test_a_mesh_shows_its_picture_and_its_figures(outputs):
     (shown,) = outputs[0]
     pixels = picture(shown["text/html"])
     assert pixels.shape == (640, 960, 3)
-    assert len(tally(pixels)[0]) > 100
+    assert len(count_colours(pixels)[0]) > 100
     assert "scaled Jacobian min" in shown["text/html"]
 
 
@@ -77,6 +77,6 @@ def test_a_view_is_there_to_be_turned(outputs):
     assert {"text/html", "application/vnd.jupyter.widget-view+json"} & set(shown)
 
 
-def test_an_unknown_metric_is_said(outputs):
+def test_an_unknown_metric_is_reported(outputs):
     (said,) = outputs[3]
     assert "no-such-metric" in said

@@ -17,7 +17,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.report.case import Case, run_methods
 from tests.browsers import SOFTWARE, chromium
 
-#: A promise that is kept when some frames have been drawn.
+#: A promise that is fulfilled when some frames have been drawn.
 _FRAMES = (
     "() => new Promise((done) => { let n = 4; const next = () => n-- ? requestAnimationFrame(next) : done(); next(); })"
 )
@@ -25,13 +25,13 @@ _FRAMES = (
 
 @pytest.fixture(scope="session")
 def case() -> Case:
-    """A mesh with inverted hexes, and what two methods made of it."""
+    """A mesh with inverted hexes, and the results of two methods."""
     mesh = gallery.make("bridge-sharp", size=864, scramble=0.4, seed=1)
     return run_methods(mesh, None, [METHODS["laplacian"](), METHODS["mend"]()], StoppingCriteria(max_iterations=20))
 
 
 class Opened:
-    """A page in the browser, with what it complained of and asked for."""
+    """A page in the browser, with its errors and requests."""
 
     def __init__(self, page):
         self.page = page
@@ -48,7 +48,7 @@ class Opened:
         self.drawn()
 
     def drawn(self) -> None:
-        """Wait until what was asked for is on the screen: faces are found in one frame and drawn in the next."""
+        """Wait until changes are on the screen: faces are found in one frame and drawn in the next."""
         self.page.evaluate(_FRAMES)
 
     def canvas(self) -> bytes:
@@ -62,14 +62,14 @@ class Opened:
         return self.page.locator(f"[data-is={name}]").first
 
     def text(self, name: str) -> str:
-        """What it says."""
+        """The text of a control."""
         self.drawn()
         return self.control(name).inner_text()
 
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory) -> Iterator[Callable[..., Opened]]:
-    """Makes pages, each in a context of its own; options are those of that, and `arguments` of the browser."""
+    """Make pages, each in a new context; options are those of the context, and `arguments` those of the browser."""
     with chromium(tmp_path_factory.mktemp("browser")) as launch, ExitStack() as programs:
 
         @cache

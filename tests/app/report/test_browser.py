@@ -1,4 +1,4 @@
-"""The report in a real browser: the mesh can be turned, cut and coloured, and nothing is asked of any network."""
+"""The report in a real browser: the mesh can be rotated, cut and coloured, and no network is used."""
 
 import io
 import re
@@ -9,10 +9,10 @@ import pytest
 from PIL import Image
 
 from hexmend.quality import METRICS, measure, rank_worst
+from hexmend_app.picture import Page, Scene
 from hexmend_app.report.figure_set import Style
 from hexmend_app.report.page import chapter, page, write_page
-from hexmend_app.scene.export.tally import tally
-from hexmend_app.state.scene import Page, Scene
+from hexmend_app.scene.render.colour_count import count_colours
 
 pytestmark = pytest.mark.slow
 
@@ -21,12 +21,15 @@ STYLE = Style(Scene(page=Page(dpi=72)))
 
 @pytest.fixture(scope="module")
 def written(case, tmp_path_factory):
-    from hexmend_app.scene.graphics import prepare_off_screen
+    from hexmend_app.scene.render.graphics import prepare_off_screen
 
     prepare_off_screen()
     path = tmp_path_factory.mktemp("report") / "report.html"
     write_page(
-        path, page("Report", [chapter(case, STYLE, [["info", "mesh"]], alive=True)], "hexmend report", alive=True)
+        path,
+        page(
+            "Report", [chapter(case, STYLE, [["info", "mesh"]], interactive=True)], "hexmend report", interactive=True
+        ),
     )
     return path
 
@@ -47,12 +50,12 @@ def fresh(report):
 
 
 def colours(picture):
-    """How many there are, in steps that the eye tells apart."""
-    return len(tally(pixels(picture) // 16)[0])
+    """Number of colours, in steps that the eye distinguishes."""
+    return len(count_colours(pixels(picture) // 16)[0])
 
 
 def share(picture, red, green, blue, near=40):
-    """How much of a picture has nearly a colour."""
+    """Share of a picture with nearly this colour."""
     return float((np.abs(pixels(picture).astype(int) - (red, green, blue)).max(axis=1) < near).mean())
 
 
@@ -120,7 +123,7 @@ def test_mouse_and_keys_turn_it(fresh):
 
 
 def test_before_more_is_inverted_than_after(fresh):
-    """Magenta is what is inverted: the mesh was tangled, and is mended."""
+    """Inverted hexes are magenta: the mesh was tangled, and is mended."""
     magenta = 231, 25, 138
     fresh.control("method").select_option("mend")
     fresh.control("high").fill("0.5")  # what lies inside is seen
@@ -185,7 +188,7 @@ def test_fingers_turn_and_zoom_it(browser, written):
 
 
 @pytest.mark.slow
-def test_without_webgl_the_picture_stands_in_its_place(browser, written):
+def test_without_webgl_the_picture_is_shown_instead(browser, written):
     with browser(("--disable-3d-apis",)) as opened:
         opened.open(written, alive=False)
         assert "cannot be turned here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
@@ -209,8 +212,8 @@ def test_every_picture_says_what_it_shows(fresh):
 @pytest.mark.slow
 def test_contents_lead_to_every_part_of_several_meshes(browser, case, tmp_path):
     path = tmp_path / "report.html"
-    told = [chapter(case, STYLE, [], alive=False, place=place) for place in ("mesh-1", "mesh-2")]
-    write_page(path, page("Two", told, "hexmend report", alive=False))
+    told = [chapter(case, STYLE, [], interactive=False, place=place) for place in ("mesh-1", "mesh-2")]
+    write_page(path, page("Two", told, "hexmend report", interactive=False))
     with browser() as opened:
         opened.page.goto(path.as_uri())
         links = opened.page.locator("nav a")
@@ -233,7 +236,7 @@ def test_on_paper_there_are_pictures_and_no_controls(fresh):
 
 
 @pytest.mark.slow
-def test_it_is_dark_where_that_is_asked_for(fresh):
+def test_it_is_dark_in_a_dark_theme(fresh):
     shades = []
     for scheme in ("light", "dark"):
         fresh.page.emulate_media(color_scheme=scheme)
@@ -248,7 +251,7 @@ def test_names_from_outside_are_text(browser, case, tmp_path):
     versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))
     hostile = replace(case, name=name, versions=versions)
     path = tmp_path / "report.html"
-    write_page(path, page(name, [chapter(hostile, STYLE, [["info", name]], alive=True)], name, alive=True))
+    write_page(path, page(name, [chapter(hostile, STYLE, [["info", name]], interactive=True)], name, interactive=True))
     with browser() as opened:
         opened.open(path)
         assert opened.page.title() == name
@@ -258,7 +261,7 @@ def test_names_from_outside_are_text(browser, case, tmp_path):
         assert opened.asked == [path.as_uri()]
 
 
-def test_of_a_value_beyond_those_that_are_kept_its_end_is_told(fresh, case):
+def test_a_value_out_of_range_is_shown_as_beyond_the_end_of_the_range(fresh, case):
     said = """async () => {
       const part = (name) => document.querySelector(`.viewer script[data-of=${name}]`).textContent;
       const mesh = new HexMesh(JSON.parse(part("head")), await unpacked(part("bytes")));

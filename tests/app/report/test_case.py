@@ -1,4 +1,4 @@
-"""The runs that a report tells of."""
+"""The runs of a report."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What the page holds of a mesh: as it was measured, within what a screen shows."""
+"""The mesh data of a page: measured values, to the precision of a screen."""
 
 import base64
 import gzip
@@ -8,16 +8,16 @@ import pytest
 
 from hexmend.quality import METRICS
 from hexmend_app.report import viewer as module
-from hexmend_app.report.viewer import Shown, in_script, packed, viewer
+from hexmend_app.report.viewer import ViewerState, in_script, packed, viewer
 
 
 @pytest.fixture(scope="module")
 def kept(case):
-    return packed(case.initial.mesh, [Shown(one.name, one.mesh.points) for one in case.versions])
+    return packed(case.initial.mesh, [ViewerState(one.name, one.mesh.points) for one in case.versions])
 
 
 def array(blob, place, kind):
-    """An array of the blob, its bytes put together again."""
+    """Decode an array of the blob."""
     data, (start, count) = gzip.decompress(base64.b64decode(blob)), place
     width = np.dtype(kind).itemsize
     planes = np.frombuffer(data, np.uint8)[start : start + count * width].reshape(width, count)
@@ -51,7 +51,7 @@ def test_values_come_back(kept, case, name):
 
 
 def test_the_same_mesh_makes_the_same_page(kept, case):
-    assert packed(case.initial.mesh, [Shown(one.name, one.mesh.points) for one in case.versions]) == kept
+    assert packed(case.initial.mesh, [ViewerState(one.name, one.mesh.points) for one in case.versions]) == kept
 
 
 def test_no_name_ends_a_script():
@@ -60,7 +60,7 @@ def test_no_name_ends_a_script():
 
 def test_a_mesh_too_large_for_a_browser_is_a_picture_with_the_reason(case, monkeypatch):
     monkeypatch.setattr(module, "MOST_HEXES", 10)
-    page = viewer(case.initial.mesh, [Shown("initial", case.initial.mesh.points)], "<figure>picture</figure>")
+    page = viewer(case.initial.mesh, [ViewerState("initial", case.initial.mesh.points)], "<figure>picture</figure>")
     assert "<figure>picture</figure>" in page
     assert "a page holds 10 hexes, and it has" in page
     assert "<canvas" not in page

@@ -1,4 +1,4 @@
-"""The worst hexes, and what is said of them."""
+"""The worst hexes, and the texts on them."""
 
 import numpy as np
 

@@ -9,7 +9,7 @@ pytestmark = pytest.mark.slow
 
 
 def test_a_process_that_draws_loads_no_plots():
-    program = "import sys, hexmend_app.scene.export.sheet; print(*sys.modules)"
+    program = "import sys, hexmend_app.scene.page.page_renderer; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     loaded = set(done.stdout.split())
     assert "pyvista" in loaded

@@ -15,10 +15,10 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state import mesh_repairer, mesh_saver
-from hexmend_app.state.deeds import Changed, Moved, Saved
-from hexmend_app.state.run import Phase
-from hexmend_app.widgets.waiting import WaitingDialog
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.user_events import MeshEdited, MeshSaved, NodesMoved
+from hexmend_app.state.tasks import mesh_repairer, mesh_saver
+from hexmend_app.widgets.dialogs.waiting import WaitingDialog
 from tests.app.driving import key, open_and_wait, phase
 from tests.patience import PATIENCE
 
@@ -61,7 +61,7 @@ def told(window):
 
 
 def smooth(window, qtbot):
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0)))
     window.refresh()
 
@@ -85,7 +85,7 @@ def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate, 
     assert window.busy.isHidden()
     assert window.windowTitle().startswith("out.vtu")
     assert not window.isWindowModified()
-    assert [type(one) for one in told] == [Saved]
+    assert [type(one) for one in told] == [MeshSaved]
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, session.document.now.mesh.points)
 
 
@@ -100,7 +100,7 @@ def test_what_is_changed_while_a_mesh_is_saved_is_not_saved(window, qtbot, tmp_p
         writing.opened.set()
     assert session.document.modified
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, then.mesh.points)
-    assert [(type(one), getattr(one, "now", None)) for one in told] == [(Moved, None), (Saved, then)]
+    assert [(type(one), getattr(one, "now", None)) for one in told] == [(NodesMoved, None), (MeshSaved, then)]
     session.commands.undo()
     assert not session.document.modified
 
@@ -187,14 +187,14 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told
     assert not session.editable
     assert not session.commands.repair()
     session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
-    assert not session.smoothing.busy
+    assert not session.run.busy
     key(tangled, Qt.Key.Key_N)
     assert (session.document.now, session.document.undo_title, told) == (before, None, [])
     with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
         repairing.opened.set()
     tangled.refresh()
     assert session.document.now.summary.inverted == 0
-    assert [type(one) for one in told] == [Changed]
+    assert [type(one) for one in told] == [MeshEdited]
     assert session.editable
     session.commands.undo()
     assert session.document.now is before
@@ -236,24 +236,24 @@ def test_what_ends_a_run_is_done_after_its_iteration(window, qtbot, what, mesh_f
     stage = Stage(method(), StoppingCriteria(max_iterations=30, tolerance=0))
     session.commands.run(stage)
     qtbot.waitUntil(going.is_set, timeout=PATIENCE)
-    start, first = session.document.now, session.smoothing.record
+    start, first = session.document.now, session.run.record
     act = {
         "reset": session.commands.reset,
         "open": lambda: session.commands.open(mesh_file),
         "branch": lambda: session.commands.branch(stage),
     }[what]
     act()
-    assert session.smoothing.phase is Phase.STOPPING
+    assert session.run.phase is Phase.STOPPING
     window.refresh()
     assert window.busy.text() == "Stopping…"
     goes_on.set()
     if what == "open":
-        qtbot.waitUntil(lambda: session.document.now is not start and not session.smoothing.busy, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: session.document.now is not start and not session.run.busy, timeout=PATIENCE)
         qtbot.waitUntil(lambda: not session.opener.busy, timeout=PATIENCE)
         assert session.history.records == []
     elif what == "reset":
-        qtbot.waitUntil(lambda: not session.smoothing.busy, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
         np.testing.assert_array_equal(session.document.now.mesh.points, start.mesh.points)
     else:
-        qtbot.waitUntil(lambda: session.smoothing.record is not first, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: session.run.record is not first, timeout=PATIENCE)
         qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)

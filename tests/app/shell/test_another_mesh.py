@@ -14,8 +14,8 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
-from hexmend_app.state.run import Phase
+from hexmend_app.picture.appearance import Arrows, ColourScale, Structure, Traces, ValueRange
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
@@ -40,7 +40,7 @@ def select_the_last(window, qtbot):
     mesh = window.session.document.now.mesh
     window.session.selection.visit(mesh.n_hexes - 1)
     window.session.selection.choose(mesh.n_hexes - 1, mesh.n_nodes - 1)
-    window.features["inspect"].panel.set_corners_in_view(True)
+    window.features["hex_inspector"].panel.set_corners_in_view(True)
     window.show_panel("hex")
 
 
@@ -61,25 +61,25 @@ def filter_and_peel(window, qtbot):
 
 
 def explain_a_node(window, qtbot):
-    window.session.order.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
+    window.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
     key(window, Qt.Key.Key_D)
     qtbot.waitUntil(lambda: window.canvas.viewport.extras.selection.node_step is not None, timeout=PATIENCE)
 
 
 def begin_a_sweep(window, qtbot):
-    window.session.order.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
+    window.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
     key(window, Qt.Key.Key_F11)
-    assert window.session.stepping.sweep is not None
+    assert window.session.node_sweep.sweep is not None
 
 
 def run_and_pause(window, qtbot):
-    window.session.order.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=50, tolerance=0)))
+    window.session.run_setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=50, tolerance=0)))
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
 
 
 def run_and_go_back(window, qtbot):
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
     window.session.timeline.go(window.session.history.records[-1], 1)
     window.session.view.change(
@@ -89,7 +89,7 @@ def run_and_go_back(window, qtbot):
 
 def break_at_the_last(window, qtbot):
     mesh = window.session.document.now.mesh
-    window.session.smoothing.break_at(Breakpoints(hex=mesh.n_hexes - 1, node=mesh.n_nodes - 1))
+    window.session.run.break_at(Breakpoints(hex=mesh.n_hexes - 1, node=mesh.n_nodes - 1))
 
 
 def compare(window, qtbot):
@@ -117,12 +117,14 @@ def show_the_structure(window, qtbot):
     window.session.view.change(
         structure=Structure(irregular=True, sharp=True, boundary=True, kinds=True, locked=True, original=True)
     )
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
 
 
 def examine(window, qtbot):
     window.show_panel("doctor")
-    qtbot.waitUntil(lambda: window.session.examiner.of(window.session.document.now.mesh) is not None, timeout=PATIENCE)
+    qtbot.waitUntil(
+        lambda: window.session.mesh_checker.of(window.session.document.now.mesh) is not None, timeout=PATIENCE
+    )
 
 
 WORKS = (
@@ -172,12 +174,14 @@ LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_layer_that_fails_on_a_mesh_is_left_out_and_the_mesh_is_shown(window, small_file, qtbot, layer, monkeypatch):
     extras, failures = window.canvas.viewport.extras, []
+    window.session.view.change(structure=Structure(original=True))
+    window.refresh()
 
     def fail(*_):
         raise RuntimeError(f"{layer} has failed")
 
     for name in ("draw", "show", "choose", "set_mesh"):
-        kind = type(getattr(extras, layer))
+        kind = type(extras.optional.get(layer) or getattr(extras, layer))
         if hasattr(kind, name):
             monkeypatch.setattr(kind, name, fail)
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
@@ -210,7 +214,9 @@ def test_where_the_elements_cannot_be_drawn_no_mesh_is_shown(window, small_file,
     is_shown(window)
 
 
-@pytest.mark.parametrize("name", ["cut", "inspect", "histogram", "structure", "tags", "quality", "smooth", "node"])
+@pytest.mark.parametrize(
+    "name", ["cut", "hex_inspector", "histogram", "structure", "tags", "quality", "smooth", "node_step"]
+)
 def test_a_panel_that_fails_on_a_mesh_does_not_keep_the_mesh_before_in_the_view(
     window, small_file, qtbot, name, monkeypatch
 ):

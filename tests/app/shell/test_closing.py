@@ -15,7 +15,7 @@ import sys
 from PySide6.QtCore import QSettings, QTimer
 for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
     QSettings.setPath(form, QSettings.Scope.UserScope, sys.argv[2])
-from hexmend_app.shell.program import application, open_window
+from hexmend_app.shell.start.program import application, open_window
 from hexmend_app.shell.window import Window
 
 def close():

@@ -6,32 +6,38 @@ import sys
 
 import numpy as np
 import pytest
+import pyvista as pv
 from PIL import Image
-from PySide6.QtWidgets import QComboBox
+from PySide6.QtWidgets import QComboBox, QFileDialog
 
 import hexmend_app.features
 from hexmend import gallery
 from hexmend.cli.main import main
 from hexmend.io import write
 from hexmend.quality import METRICS
+from hexmend_app.picture import Page
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.window import Window
-from hexmend_app.state.document import State
+from hexmend_app.state.mesh.document import State
 from tests.examples import example
 
 EXAMPLE = example("A feature of the viewer")
 
 
+def _add_folder(tmp_path, monkeypatch, name, source):
+    folder = tmp_path / name
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    (folder / "feature.py").write_text(source, encoding="utf-8")
+    monkeypatch.setattr(hexmend_app.features, "__path__", [*hexmend_app.features.__path__, str(tmp_path)])
+
+
 @pytest.fixture
 def with_folder(qtbot, tmp_path, monkeypatch):
     """A window that finds one folder more."""
-    folder = tmp_path / "volume"
-    folder.mkdir()
-    (folder / "__init__.py").touch()
-    (folder / "feature.py").write_text(EXAMPLE, encoding="utf-8")
-    monkeypatch.setattr(hexmend_app.features, "__path__", [*hexmend_app.features.__path__, str(tmp_path)])
+    _add_folder(tmp_path, monkeypatch, "volume", EXAMPLE)
     window = Window()
-    window.furnish()
+    window.build_features()
     window.show()
     yield window
     window.close()
@@ -54,6 +60,38 @@ def test_a_folder_is_enough(with_folder, cube):
     assert window.in_front("volume")
     volume = METRICS["volume"].of(cube.points, cube.hexes, window.session.document.now.figures).sum()
     assert np.isclose(float(window.features["volume"].panel.text().split()[0]), volume)
+
+
+@pytest.fixture
+def with_plotter(tmp_path, monkeypatch):
+    """The feature that draws with PyVista is a folder more."""
+    _add_folder(tmp_path, monkeypatch, "cad_surface", example("Drawing with PyVista"))
+    yield
+    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.cad_surface")]:
+        del sys.modules[name]
+
+
+def test_a_feature_draws_with_pyvista(with_plotter, fresh_window, tmp_path, monkeypatch):
+    low, high = np.reshape(fresh_window.canvas.viewport.bounds, (3, 2)).T
+    pv.Sphere(radius=np.linalg.norm(high - low) / 2, center=(low + high) / 2).save(tmp_path / "part.stl")
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "part.stl"), ""))
+    without = _picture(fresh_window, tmp_path / "without.png")
+    fresh_window.action("cad").trigger()
+    assert {"cad", "arrows"} <= fresh_window.plotter.actors.keys()
+    with_both = _picture(fresh_window, tmp_path / "with.png")
+    assert _near(with_both, (90, 215, 0)) > _near(without, (90, 215, 0)) + 100
+    assert _near(with_both, (200, 160, 95)) > _near(without, (200, 160, 95)) + 1000  # orange over the paper
+
+
+def _picture(window, path):
+    """The pixels of a picture that is saved."""
+    assert window.features["save"].write_picture(path, window.canvas.scene(Page()))
+    return np.asarray(Image.open(path).convert("RGB"), int)
+
+
+def _near(pixels, colour):
+    """How many pixels have about a colour."""
+    return np.count_nonzero((np.abs(pixels - colour) < 50).all(axis=-1))
 
 
 @pytest.fixture

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QLabel, QMenu
 
-from hexmend_app.feature import MENUS, Action, Feature, Panel, Place
+from hexmend_app.feature import MENUS, Action, Feature, Panel, PanelPlace
 from hexmend_app.shell import features as finding
 from hexmend_app.shell.keys import as_markdown
-from hexmend_app.shell.offers import commands
-from hexmend_app.shell.palette import CommandPalette
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.shell.palette.palette_entries import commands
 from hexmend_app.shell.window import Window
 
 
@@ -40,7 +40,9 @@ class FeatureCounting(Feature):
         )
 
     def panels(self):
-        return (Panel(id="count", title="Counter", widget=self.panel, place=Place.FACTS, help="What was counted."),)
+        return (
+            Panel(id="count", title="Counter", widget=self.panel, place=PanelPlace.FACTS, help="What was counted."),
+        )
 
     def refresh(self):
         self.refreshed += 1
@@ -59,7 +61,7 @@ def with_example(qtbot, monkeypatch, tmp_path):
     monkeypatch.setattr(finding, "name_of", lambda kind: kind.__name__.removeprefix("Feature").lower())
     window = Window()
     qtbot.addWidget(window)
-    window.furnish()
+    window.build_features()
     window.show()
     yield window
     window.close()
@@ -121,3 +123,28 @@ def test_the_page_of_keys_in_the_docs_is_what_the_features_declare(window):
     """`make docs` writes it."""
     page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"
     assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
+
+
+def test_the_orders_of_menus_and_of_refreshing_follow_that_of_building_unless_declared():
+    class FeatureListed(Feature):
+        order = 7
+        menu_order = 80
+
+    class FeatureRefreshed(Feature):
+        order = 8
+        refresh_order = 1
+
+    assert (FeatureListed.menu_order, FeatureListed.refresh_order) == (80, 7)
+    assert (FeatureRefreshed.menu_order, FeatureRefreshed.refresh_order) == (8, 1)
+
+
+@pytest.mark.slow
+def test_a_new_iteration_refreshes_only_what_shows_it(window, qtbot, monkeypatch):
+    calls = []
+    for name in ("timeline", "help"):
+        feature = window.features[name]
+        monkeypatch.setattr(feature, "refresh", lambda name=name: calls.append(name))
+    window.refresh_iteration()
+    assert calls == ["timeline"]
+    window.refresh()
+    assert sorted(calls) == ["help", "timeline", "timeline"]

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.scene.palette import BLUE
+from hexmend_app.theme.palette import BLUE
 from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, choose_by_keys, key, named
 
@@ -98,6 +98,7 @@ FRONTS = [
     ("run", "quality", "tags"),
     ("run", "quality", "compare"),
     ("look", "histogram", "script"),
+    ("look", "histogram", "console"),
 ]
 
 
@@ -157,7 +158,7 @@ def test_tab_goes_in_reading_order(everything_on):
         window.messages,
         window.features["timeline"].panel,
         named(window, QTabBar, "Panels below the view"),
-        window.features["inspect"].worst_list,
+        window.features["hex_inspector"].worst_list,
         named(window, QTabBar, "Tools"),
         tools,
         named(window, QTabBar, "Figures"),
@@ -184,7 +185,7 @@ def test_tab_goes_in_reading_order(everything_on):
 
 def assert_read_from_the_top(window, reached):
     for panel in (
-        window.features["look"].panel,
+        window.features["appearance"].panel,
         window.features["cut"].panel,
         window.features["cut"].inside,
         window.features["smooth"].panel,

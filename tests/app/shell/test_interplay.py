@@ -16,10 +16,10 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.scene.layers import body
-from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
-from hexmend_app.state.document import State
-from hexmend_app.state.run import Phase
+from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.scene.layers import mesh as body
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, key, move, named, open_and_wait, phase, pixels
 from tests.app.features.cut.test_cut import seen_at
 from tests.core.grids import grid, scrambled
@@ -44,7 +44,7 @@ def test_nothing_changes_the_mesh_while_another_is_read(window, qtbot, tmp_path)
         window.session.commands.tag("late", [8])
         window.session.commands.undo()
         assert window.session.document.now is before
-        assert not window.session.smoothing.busy
+        assert not window.session.run.busy
     assert window.session.document.now is window.session.document.start
     assert window.session.document.now.mesh.n_hexes == 27
     window.refresh()

@@ -19,7 +19,7 @@ from PySide6.QtCore import QPointF, QSettings
 from PySide6.QtTest import QTest
 from tests.app.driving import LEFT
 from hexmend import gallery, io
-from hexmend_app.shell.program import application
+from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 
 QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, sys.argv[2])
@@ -27,7 +27,7 @@ app = application()
 window = Window()
 window.setGeometry(0, 0, 1001, 651)
 window.show()
-window.furnish()
+window.build_features()
 window.build_canvas()
 path = sys.argv[2] + "/cube.vtu"
 io.write(path, gallery.make("cube", size=512))

@@ -7,9 +7,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from hexmend_app.state import session_data, task
-from hexmend_app.state.places import VARIABLE
-from hexmend_app.state.task import GRACE, Task, running
+from hexmend_app.state.session import session_data
+from hexmend_app.state.settings.paths import VARIABLE
+from hexmend_app.state.tasks import task
+from hexmend_app.state.tasks.task import GRACE, Task, running
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE
 
@@ -72,7 +73,7 @@ def waits(kept):
 
 def test_closing_waits_for_all_threads_together(kept, gate, waits, windows):
     session, tasks = kept.session, []
-    parts = (session.saver, session.repairer, session.finder, session.classer, session.explainer, session.examiner,
+    parts = (session.saver, session.repairer, session.structure_finder, session.boundary_classifier, session.node_step_task, session.mesh_checker,
              session.opener, kept.canvas.lighting)  # fmt: skip
     for part in parts:
         tasks.append(Task(type(part).__name__, lambda _: gate.wait(PATIENCE / 1000)))

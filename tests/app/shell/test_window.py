@@ -10,10 +10,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QWidget
 
 from hexmend.quality import METRICS
-from hexmend_app.shell.program import report_unexpected_errors
-from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.shell.start.program import report_unexpected_errors
 from hexmend_app.widgets.section import Section
-from tests.app.driving import LEFT, drag, key, named, pixels
+from tests.app.driving import drag, key, named, pixels
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -46,7 +46,7 @@ def test_the_chosen_hex_is_told_whatever_panel_is_in_front(window):
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
 def test_nothing_is_cut_off(window, qtbot, size):
     window.resize(*size)
-    qtbot.waitUntil(lambda: window.docks.width() == size[0], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.width() == size[0], timeout=PATIENCE)
     for panel in ("run", "look", "cut", "show", "histogram", "quality"):
         window.show_panel(panel)
         window.refresh()
@@ -65,7 +65,7 @@ def test_nothing_is_cut_off(window, qtbot, size):
 
 def test_no_panel_is_wider_than_the_column_that_it_is_unfolded_in(window, qtbot):
     window.resize(1100, 700)
-    qtbot.waitUntil(lambda: window.docks.width() == 1100, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.width() == 1100, timeout=PATIENCE)
     for panel in ("run", "recipe", "look", "cut", "inside", "show"):
         window.show_panel(panel)
         for section in window.findChildren(Section):
@@ -141,17 +141,6 @@ def test_keys_reach_the_view_as_soon_as_a_mesh_is_shown(fresh_window):
     assert not fresh_window.docks.hidden
 
 
-def test_the_folded_drawer_is_dragged_open(window):
-    drawer, handle = window.docks.drawer, window.docks.drawer.parentWidget().handle(1)
-    drawer.set_folded(True)
-    at = handle.rect().center()
-    QTest.mousePress(handle, LEFT, pos=at)
-    QTest.mouseMove(handle, at - QPoint(0, 200))
-    QTest.mouseRelease(handle, LEFT, pos=at)
-    assert not drawer.folded
-    assert drawer.height() > 150
-
-
 def test_it_is_said_that_only_a_part_is_shown_until_esc_brings_back_the_rest(window):
     counts = named(window, QLabel, "Counts")
     window.action("next_worst").trigger()
@@ -172,7 +161,7 @@ def test_a_feature_that_fails_to_refresh_is_said_once_and_the_others_go_on(fresh
         raise ZeroDivisionError("one over nothing")
 
     later = []
-    monkeypatch.setattr(window.features["look"], "refresh", fail)
+    monkeypatch.setattr(window.features["appearance"], "refresh", fail)
     monkeypatch.setattr(window.features["compare"], "refresh", lambda: later.append(1))
     window.session.selection.changed.emit()
     qtbot.waitUntil(lambda: len(later) > 0)

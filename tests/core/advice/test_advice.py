@@ -60,7 +60,7 @@ def followed(mesh, result, suggestion):
 
 def energy(mesh, smoother):
     """The objective that a method minimises."""
-    return objective(measure(mesh.points, mesh.hexes), *smoother.power)
+    return objective(measure(mesh.points, mesh.hexes), *smoother.norm)
 
 
 @pytest.mark.slow
@@ -156,10 +156,10 @@ def test_locked_hexes_are_named_and_nothing_vain_is_suggested():
     advice = advise(smooth(mesh, "mend"))
     assert advice.locked.tolist() == [mesh.topology.node_corners.items[0] // 8]
     assert advice.unlocked.size == 0
-    assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.left
-    assert "sliding alone does not free it. Correct the boundary" in advice.left
-    assert "try mend with boundary = slide" in advice.left
-    assert "Let it slide" not in advice.left
+    assert "1 of 315 hexes is inverted. It is locked: fixed nodes alone hold it in inversion" in advice.state
+    assert "sliding alone does not free it. Correct the boundary" in advice.state
+    assert "try mend with boundary = slide" in advice.state
+    assert "Let it slide" not in advice.state
     assert advice.suggestions == ()
 
 
@@ -172,7 +172,7 @@ def test_of_a_recipe_the_last_stage_is_explained():
 def test_a_perfect_mesh_wants_nothing():
     advice = advise(smooth(make("cube", size=64, scramble=0.3), "mend"))
     assert advice.suggestions == ()
-    assert advice.left.endswith("This is close to the best possible.")
+    assert advice.state.endswith("This is close to the best possible.")
 
 
 def test_a_mesh_with_nothing_free_is_explained():
@@ -196,7 +196,7 @@ def test_a_run_that_was_stopped_says_so_and_what_is_inverted():
     run.close()
     advice = advise(run.result())
     assert advice.reason.startswith("Stopped by you after 1 iteration.")
-    assert advice.left.startswith(f"{advice.unlocked.size} of 500 hexes are inverted. 369 were at the start.")
+    assert advice.state.startswith(f"{advice.unlocked.size} of 500 hexes are inverted. 369 were at the start.")
     assert [one.title for one in advice.suggestions] == ["Mend"]
 
 
@@ -219,7 +219,7 @@ def test_locked_hexes_that_sliding_can_free_are_counted_and_freed():
     assert 0 < now.freed < advice.locked.size
     assert (
         f"{now.freed} can be freed by sliding alone, {advice.locked.size - now.freed} cannot. Let it slide"
-        in advice.left
+        in advice.state
     )
     chosen = next(one for one in advice.suggestions if one.title == "Mend with sliding boundary")
     assert f"{now.freed} of the {advice.locked.size} locked hexes can be freed" in chosen.text
@@ -233,7 +233,7 @@ def test_a_mend_cut_short_on_a_detour_is_begun_again():
     result = smooth(mesh, METHODS["mend"](goal="scaled-jacobian", boundary="slide"), StoppingCriteria(max_iterations=7))
     advice = advise(result)
     assert result.kept < result.iterations
-    assert "sliding has not freed these so far." in advice.left
+    assert "sliding has not freed these so far." in advice.state
     longer = next(one for one in advice.suggestions if one.title == "Undo, then the same with larger limits")
     assert longer.undo
     assert longer.smoother == METHODS["mend"](goal="scaled-jacobian", boundary="slide")
@@ -248,6 +248,6 @@ def test_a_mend_cut_short_on_a_detour_is_begun_again():
 
 def test_a_locked_hex_that_sliding_has_not_freed_is_not_told_to_slide():
     result = smooth(with_locked_corner(grid(1)), METHODS["local-nr"](boundary="slide"))
-    left = advise(result).left
+    left = advise(result).state
     assert "sliding has not freed these" in left
     assert "Correct the boundary" in left

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary, Surface
+from hexmend.boundary import PartitionedSurface, SlidingBoundary
 from hexmend.mesh.mesh import Mesh
 from tests.core.grids import grid
 
@@ -45,7 +45,9 @@ def slid(mesh: Mesh, amplitude: float, seed: int = 0) -> Mesh:
     return mesh.with_points(points)
 
 
-def project(surface: Surface, x: np.ndarray, nodes: np.ndarray, smooth: bool = True) -> tuple[np.ndarray, np.ndarray]:
+def project(
+    surface: PartitionedSurface, x: np.ndarray, nodes: np.ndarray, smooth: bool = True
+) -> tuple[np.ndarray, np.ndarray]:
     """Project nodes at x onto their curves and patches; returns positions and the directions there."""
     found = surface.trees.closest(x, surface.group_of(nodes))
-    return found.places, surface.directions(found, smooth)
+    return found.points, surface.directions(found, smooth)

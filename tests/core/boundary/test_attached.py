@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend.boundary import NodeClass, Surface, boundary_of
+from hexmend.boundary import NodeClass, PartitionedSurface, boundary_of
 from hexmend.boundary.normals import triangle_normals, vertex_normals
 from hexmend.boundary.unlocking import freed_by_sliding
 from tests.core.grids import grid
@@ -25,9 +25,9 @@ def test_nodes_of_a_curve_slide_on_a_curve_within_a_quarter_of_the_reach(cube, s
     on = np.flatnonzero((boundary.node_class == NodeClass.CURVE) & (mesh.points[:, 0] == 0) & (mesh.points[:, 1] == 0))
     points = mesh.points.copy()
     points[on, 0] += shift
-    attached = Surface(mesh.points, boundary).attached(points, boundary, reach)
+    attached = PartitionedSurface(mesh.points, boundary).attached(points, boundary, reach)
     assert (attached.node_class[on] == curve).all()
-    (part,) = set(attached.part[on].tolist())
+    (part,) = set(attached.component[on].tolist())
     if curve == NodeClass.CURVE:
         assert {part} == set(boundary.part[on].tolist())
     else:
@@ -41,17 +41,17 @@ def test_what_is_out_of_reach_of_all_patches_stays(cube, shift, kind):
     top = np.flatnonzero((boundary.node_class == NodeClass.PATCH) & (mesh.points[:, 2] == 4))
     points = mesh.points.copy()
     points[top, 2] += shift
-    attached = Surface(mesh.points, boundary).attached(points, boundary, 1.0)
+    attached = PartitionedSurface(mesh.points, boundary).attached(points, boundary, 1.0)
     assert (attached.node_class[top] == kind).all()
-    assert ((attached.part[top] >= 0) == (kind == NodeClass.PATCH)).all()
+    assert ((attached.component[top] >= 0) == (kind == NodeClass.PATCH)).all()
 
 
 def test_on_its_own_surface_each_node_slides_where_it_did(cube):
     mesh, boundary = cube
-    attached = Surface(mesh.points, boundary).attached(mesh.points, boundary, 1.0)
+    attached = PartitionedSurface(mesh.points, boundary).attached(mesh.points, boundary, 1.0)
     np.testing.assert_array_equal(attached.node_class, boundary.node_class)
     on = boundary.node_class == NodeClass.CURVE
-    np.testing.assert_array_equal(attached.part[on], boundary.part[on])
+    np.testing.assert_array_equal(attached.component[on], boundary.part[on])
 
 
 def test_normals_at_the_vertices_of_a_patch_are_weighted_by_angles_and_do_not_mix_with_other_patches():

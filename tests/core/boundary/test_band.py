@@ -31,8 +31,8 @@ def test_distances_at_first_are_those_from_samples_of_the_surface_to_the_boundar
 @pytest.mark.parametrize("shift", [0.0, 0.25])
 def test_samples_beyond_a_limit_are_found_and_no_others(shift):
     mesh, band = band_of(shift)
-    every = np.arange(len(band.midpoints))
-    far = band.target.distances(mesh.points[band.midpoints].mean(axis=1))
+    every = np.arange(len(band.samples))
+    far = band.target.distances(mesh.points[band.samples].mean(axis=1))
     for limit in (1e-3, 0.1, 0.2499, 0.2501):
         off = band.boundary_deviation(mesh.points, every, limit)
         np.testing.assert_array_equal(off.indices, np.flatnonzero(far > limit))
@@ -47,8 +47,8 @@ def test_samples_beyond_a_limit_are_found_and_no_others(shift):
 
 def test_each_sample_may_have_a_limit_of_its_own():
     mesh, band = band_of(0.25)
-    every = np.arange(len(band.midpoints))
-    far = band.target.distances(mesh.points[band.midpoints].mean(axis=1))
+    every = np.arange(len(band.samples))
+    far = band.target.distances(mesh.points[band.samples].mean(axis=1))
     own = np.where(every % 2, 0.1, 0.3)
     np.testing.assert_array_equal(band.boundary_deviation(mesh.points, every, own).indices, np.flatnonzero(far > own))
 
@@ -57,9 +57,9 @@ def test_a_boundary_is_its_own_surface_where_no_other_is_given():
     mesh, band = band_of(target=False)
     far, nodes, _ = band.initial_surface_deviation
     assert not far.any()
-    np.testing.assert_array_equal(nodes, band.midpoints)
+    np.testing.assert_array_equal(nodes, band.samples)
     points = mesh.points + [0, 0, 0.5]
-    assert band.boundary_deviation(points, np.arange(len(band.midpoints))).distances.max() == pytest.approx(0.5)
+    assert band.boundary_deviation(points, np.arange(len(band.samples))).distances.max() == pytest.approx(0.5)
     assert band.surface_deviation(points).distances.max() == pytest.approx(0.5)
 
 
@@ -67,24 +67,24 @@ def test_a_boundary_is_its_own_surface_where_no_other_is_given():
 def test_nodes_have_left_the_band_where_they_are_further_than_its_tolerance_and_than_at_first(shift, left):
     mesh, band = band_of(size=0.25)
     points = mesh.points + [shift, 0, 0]
-    assert (band.outside_band(points).size > 0) == left
-    assert band.outside_band(mesh.points).size == 0
+    assert (band.nodes_outside_band(points).size > 0) == left
+    assert band.nodes_outside_band(mesh.points).size == 0
     at_first = band_of(0.5, size=0.25)[1]  # it was further from the beginning
-    assert at_first.outside_band(mesh.points).size == 0
-    assert at_first.outside_band(mesh.points - [0.1, 0, 0]).size > 0
-    assert band_of(size=np.inf)[1].outside_band(points + 9).size == 0
+    assert at_first.nodes_outside_band(mesh.points).size == 0
+    assert at_first.nodes_outside_band(mesh.points - [0.1, 0, 0]).size > 0
+    assert band_of(size=np.inf)[1].nodes_outside_band(points + 9).size == 0
 
 
 def test_midpoints_that_move_with_a_node_are_the_node_and_those_of_its_edges_and_faces():
     _, band = band_of()
-    at = band.midpoints_of(np.array([0]))
-    assert (band.midpoints[at] == 0).any(axis=1).all()
-    assert len(at) == (band.midpoints == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
+    at = band.samples_at(np.array([0]))
+    assert (band.samples[at] == 0).any(axis=1).all()
+    assert len(at) == (band.samples == 0).any(axis=1).sum() == 7  # a corner: itself, three edges, three faces
 
 
 def test_the_tolerance_is_no_smaller_than_the_rounding_of_the_size_of_the_boundary():
     mesh, band = band_of(size=0.0)
-    assert band.tolerance == pytest.approx(1e-9 * np.sqrt(12))
-    assert band_of(size=0.5)[1].tolerance == 0.5
+    assert band.max_deviation == pytest.approx(1e-9 * np.sqrt(12))
+    assert band_of(size=0.5)[1].max_deviation == 0.5
     nothing = Band(mesh.points, np.empty((0, 4), np.int32), mesh.points, None, 0.0)
-    assert nothing.tolerance == 0
+    assert nothing.max_deviation == 0

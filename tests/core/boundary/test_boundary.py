@@ -106,7 +106,7 @@ def touching(shared):
 
 def test_cubes_that_touch_in_a_node_have_a_corner_there():
     mesh = touching(1)
-    boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
+    boundary = classify(mesh.points, mesh.topology.boundary_faces, feature_angle=100)
     (node,) = np.flatnonzero((mesh.points == 1).all(axis=1))
     assert boundary.node_class[node] == NodeClass.CORNER
     assert (counts(boundary)[0], boundary.n_patches) == (1, 2)
@@ -114,7 +114,7 @@ def test_cubes_that_touch_in_a_node_have_a_corner_there():
 
 def test_cubes_that_touch_in_an_edge_have_a_curve_there_however_large_the_angle():
     mesh = touching(2)
-    boundary = classify(mesh.points, mesh.topology.boundary_faces, degrees=100)
+    boundary = classify(mesh.points, mesh.topology.boundary_faces, feature_angle=100)
     edge = np.flatnonzero((mesh.points[:, :2] == 1).all(axis=1))
     assert boundary.segments.tolist() == [sorted(edge.tolist())]
     assert (boundary.node_class[edge] == NodeClass.CORNER).all()

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexmend.boundary import NodeClass, SkinSurface, Surface, boundary_of, mutual_distances, surface_change
+from hexmend.boundary import NodeClass, PartitionedSurface, SkinSurface, boundary_of, mutual_distances, surface_change
 from hexmend.errors import MeshError
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
@@ -73,7 +73,7 @@ def test_figures_without_a_unit_do_not_depend_on_the_unit(unit, stretch):
 def test_flat_solids_keep_their_surface_and_volume_while_their_nodes_slide(seed):
     mesh = grid(5, 4, 3)
     boundary = boundary_of(mesh)
-    surface = Surface(mesh.points, boundary)
+    surface = PartitionedSurface(mesh.points, boundary)
     nodes = np.flatnonzero(boundary.node_class >= NodeClass.CURVE)
     points = mesh.points.copy()
     random = np.random.default_rng(seed)
@@ -88,7 +88,7 @@ def test_flat_solids_keep_their_surface_and_volume_while_their_nodes_slide(seed)
 def test_nodes_that_slide_on_a_ball_leave_it_the_less_the_finer_it_is():
     def furthest(n):
         mesh = ball(n)
-        surface = Surface(mesh.points, boundary_of(mesh))
+        surface = PartitionedSurface(mesh.points, boundary_of(mesh))
         nodes = np.flatnonzero(mesh.topology.boundary)
         points = mesh.points.copy()
         points[nodes], _ = project(

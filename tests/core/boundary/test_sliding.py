@@ -10,7 +10,7 @@ from tests.core.boundary.solids import ball
 def test_rings_of_sliding_nodes_are_on_their_own_curves_and_patches():
     mesh = make("bridge-sharp", size=500)
     sliding = SlidingBoundary(mesh)
-    kind, part, rings = sliding.boundary.node_class, sliding.boundary.part, sliding.rings
+    kind, part, rings = sliding.boundary.node_class, sliding.boundary.component, sliding.rings
     for node in range(mesh.n_nodes):
         whole, ring = mesh.topology.rings[node], rings[node]
         assert set(ring) <= set(whole)

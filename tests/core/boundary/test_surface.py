@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend import kernels
-from hexmend.boundary import ClosestPointTrees, NodeClass, Surface, boundary_of, classify
+from hexmend.boundary import ClosestPointTrees, NodeClass, PartitionedSurface, boundary_of, classify
 from hexmend.errors import MeshError
 from tests.core.boundary.solids import ball, cylinder, project, wavy
 from tests.core.grids import grid
@@ -51,10 +51,10 @@ def test_closest_points_are_those_of_brute_force(seed, n, k, degenerate):
     found = trees.closest(x, of)
     for i in range(6):
         distance = min(np.linalg.norm(brute(points[np.unique(piece)], x[i]) - x[i]) for piece in pieces[group == of[i]])
-        assert np.linalg.norm(found.places[i] - x[i]) == pytest.approx(distance, rel=1e-12, abs=1e-12)
+        assert np.linalg.norm(found.points[i] - x[i]) == pytest.approx(distance, rel=1e-12, abs=1e-12)
         piece = pieces[trees.order[found.pieces[i]]]
         assert group[trees.order[found.pieces[i]]] == of[i]
-        np.testing.assert_allclose(found.weights[i] @ points[piece], found.places[i], atol=1e-12)
+        np.testing.assert_allclose(found.weights[i] @ points[piece], found.points[i], atol=1e-12)
         assert found.weights[i].min() >= 0
         assert found.weights[i].sum() == pytest.approx(1, abs=1e-14)
 
@@ -70,9 +70,9 @@ def test_trees_whose_points_have_moved_find_what_new_ones_do_and_enough_is_enoug
         ClosestPointTrees(moved, pieces, group).closest(x, of),
         ClosestPointTrees(points, pieces, group).with_points(moved),
     )
-    far, found = (np.linalg.norm(one.places - x, axis=1) for one in (new, refitted.closest(x, of)))
+    far, found = (np.linalg.norm(one.points - x, axis=1) for one in (new, refitted.closest(x, of)))
     np.testing.assert_allclose(found, far, rtol=1e-12, atol=1e-12)
-    rough = np.linalg.norm(refitted.closest(x, of, enough).places - x, axis=1)
+    rough = np.linalg.norm(refitted.closest(x, of, enough).points - x, axis=1)
     assert (rough <= np.maximum(far, enough) + 1e-12).all()
     np.testing.assert_allclose(rough[far > enough], far[far > enough], rtol=1e-12)
 
@@ -84,13 +84,13 @@ def test_the_closest_point_sees_the_whole_triangle_at_a_right_angle_or_more(seed
     points = unit * random.normal(size=(3, 3))
     x = unit * 3 * random.normal(size=(40, 3))
     found = ClosestPointTrees(points, np.array([[0, 1, 2]], np.int32), np.zeros(1, int)).closest(x, np.zeros(40, int))
-    away, ways = x - found.places, points[None] - found.places[:, None]
+    away, ways = x - found.points, points[None] - found.points[:, None]
     assert np.einsum("ij,ikj->ik", away, ways).max() <= 1e-12 * unit**2 * 10
 
 
 def sliding(mesh, kinds=(NodeClass.CURVE, NodeClass.PATCH)):
     boundary = boundary_of(mesh)
-    return boundary, Surface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.node_class, kinds))
+    return boundary, PartitionedSurface(mesh.points, boundary), np.flatnonzero(np.isin(boundary.node_class, kinds))
 
 
 @pytest.mark.parametrize("mesh", [grid(4, 3, 2), ball(6), cylinder(), wavy(grid(4), 0.3)], ids=lambda mesh: mesh.name)
@@ -192,7 +192,7 @@ def test_any_number_of_threads_gives_the_same():
 
     with ThreadPoolExecutor(1) as own:
         one, three = own.map(found, (1, 3))
-    for field in ("places", "pieces", "weights"):
+    for field in ("points", "pieces", "weights"):
         np.testing.assert_array_equal(getattr(one, field), getattr(three, field))
 
 
@@ -224,9 +224,9 @@ def test_nodes_slide_on_the_surface_of_a_file(fine):
     points = 4 / points.max() * points
     mesh = grid(4)
     boundary = boundary_of(mesh)
-    surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary)
+    surface = PartitionedSurface(points, classify(points, triangles)).attached(mesh.points, boundary)
     np.testing.assert_array_equal(surface.node_class, boundary.node_class)
-    own = Surface(mesh.points, boundary)
+    own = PartitionedSurface(mesh.points, boundary)
     nodes = np.flatnonzero(boundary.node_class >= NodeClass.CURVE)
     x = mesh.points[nodes] + 0.3 * np.random.default_rng(0).normal(size=(len(nodes), 3))
     (places, there), (same, here) = project(surface, x, nodes), project(own, x, nodes)
@@ -237,7 +237,7 @@ def test_nodes_slide_on_the_surface_of_a_file(fine):
 def test_curve_nodes_slide_on_patches_where_a_surface_has_no_curve():
     mesh = cylinder()
     points, triangles = as_triangles(ball(8))
-    surface = Surface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
+    surface = PartitionedSurface(points, classify(points, triangles)).attached(mesh.points, boundary_of(mesh))
     nodes = np.flatnonzero(mesh.topology.boundary)
     assert (surface.node_class[nodes] == NodeClass.PATCH).all()
     radius = np.linalg.norm(project(surface, mesh.points[nodes], nodes)[0], axis=1)

@@ -149,12 +149,12 @@ def test_a_signal_while_progress_is_printed_loses_nothing(smooth, tmp_path, numb
 @pytest.mark.parametrize(("module", "kind", "name"), [
     ("hexmend.cli.output.progress", "_Lines", "show"),
     ("hexmend.run.run", "Run", "result"),
-    ("hexmend.cli.commands.smooth", "Smooth", "run"),
+    ("hexmend.cli.command", "CoreCommand", "run"),
 ])  # fmt: skip
 @pytest.mark.parametrize("count", [1, 3])
 def test_signals_after_an_iteration_lose_nothing_and_before_it_everything(smooth, tmp_path, module, kind, name, count):
     status, said = ended(smooth(CALLS.format(module=module, kind=kind, name=name, count=count)))
-    if kind == "Smooth":
+    if kind == "CoreCommand":
         assert (status, said) == (130, ["hexmend: interrupted"])
         assert (tmp_path / "out.vtu").read_text() == "old"
     else:

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
 from hexmend.energy.assembled_hessian import AssembledHessian, unpack_symmetric
+from hexmend.energy.hex_energy import pack_corners
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.errors import MeshError
 from hexmend.kernels import conjugate_gradients
@@ -19,14 +20,14 @@ deltas = st.sampled_from([(0.15, 0.0), (0.15, 0.1), (0.9, 0.02), (3.0, 0.5)])
 exponents = st.sampled_from([1.0, 2.0, 3.5])
 
 
-def hessian_of(mesh, delta=0.0, p=2.0, left_out=None, shift=0.0):
-    energy = MeshEnergy(mesh, ObjectiveNorm(p), left_out)
+def hessian_of(mesh, delta=0.0, p=2.0, omitted=None, shift=0.0):
+    energy = MeshEnergy(mesh, ObjectiveNorm(p), omitted)
     return energy.hessian(energy.to_edge_units(mesh.points), delta).shifted(shift)
 
 
 def some_left_out(mesh, share, seed):
     bits = np.random.default_rng(seed).uniform(size=(mesh.n_hexes, 8)) < share
-    return np.packbits(bits, axis=1, bitorder="little")[:, 0]
+    return pack_corners(bits)
 
 
 def by_parts(hessian, parts):
@@ -190,9 +191,9 @@ def test_the_end_of_a_solve_is_reported():
             np.empty(64 * len(right) + 16, np.float32),
         )
 
-    assert end(0.5, 100)[1] == conjugate_gradients.DONE
-    assert end(0.5, 2) == (2, conjugate_gradients.TOO_MANY)
-    assert end(-5.0, 100)[1] == conjugate_gradients.NEGATIVE_CURVATURE
+    assert end(0.5, 100)[1] == conjugate_gradients.SolveStatus.DONE
+    assert end(0.5, 2) == (2, conjugate_gradients.SolveStatus.TOO_MANY)
+    assert end(-5.0, 100)[1] == conjugate_gradients.SolveStatus.NEGATIVE_CURVATURE
 
 
 def test_damping_adds_a_multiple_of_the_diagonal_and_makes_the_matrix_positive_definite():

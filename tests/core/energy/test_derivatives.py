@@ -39,17 +39,17 @@ def energy_of(x, delta, offset=1.0):
 ETA = ObjectiveNorm(1.0)
 
 
-def gradient_of(x, delta, power=ETA):
+def gradient_of(x, delta, norm=ETA):
     """The gradient of eta(H)^p by the kernel, (8, 3)."""
     shares = np.empty((1, 8, 3))
-    objective.gradient(x, HEX, delta, power, WHOLE, shares)
+    objective.gradient(x, HEX, delta, norm, WHOLE, shares)
     return shares[0]
 
 
-def product_of(x, v, delta, power):
+def product_of(x, v, delta, norm):
     """The Hessian of eta(H)^p times v by the kernel, (8, 3)."""
     shares = np.empty((1, 8, 3))
-    objective.hessian_product(x, HEX, HEX, v, delta, power, WHOLE, shares)
+    objective.hessian_product(x, HEX, HEX, v, delta, norm, WHOLE, shares)
     return shares[0]
 
 
@@ -92,8 +92,8 @@ def test_gradient_of_a_hex_is_that_of_complex_steps(case, offset):
 
 
 @given(corners(), seeds, powers)
-def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed, power):
-    (x, delta), (p, offset) = case, power
+def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed, norm):
+    (x, delta), (p, offset) = case, norm
     assume(eta_of(x, delta, offset) > 1e-2)
     v = np.random.default_rng(seed).normal(size=(8, 3))
 
@@ -103,7 +103,7 @@ def test_hessian_of_a_hex_is_that_of_differences_of_complex_gradients(case, seed
     step = 1e-4 * max(delta, 0.02) / np.abs(v).max()
     coarse, fine = ((of_power(x + h * v) - of_power(x - h * v)) / (2 * h) for h in (2 * step, step))
     expected = (4 * fine - coarse) / 3  # Richardson: fourth order
-    product = product_of(x, v, delta, power)
+    product = product_of(x, v, delta, norm)
     np.testing.assert_allclose(product, expected, rtol=1e-5, atol=1e-6 * np.abs(expected).max())
 
 
@@ -117,10 +117,10 @@ def test_what_softened_energy_falls_below_zero_counts_as_zero(seed, p):
 
 
 @given(seeds, powers, st.sampled_from([0.0, 0.05]))
-def test_derivatives_of_a_mesh_are_those_of_differences(seed, power, delta):
+def test_derivatives_of_a_mesh_are_those_of_differences(seed, norm, delta):
     mesh = scrambled(grid(3), 0.2 if delta == 0 else 0.8, seed)
     assume(delta > 0 or measure(mesh.points, mesh.hexes).q.min() > 0.2)
-    energy = MeshEnergy(mesh, power)
+    energy = MeshEnergy(mesh, norm)
     x, v = energy.to_edge_units(mesh.points), np.random.default_rng(seed + 1).normal(size=(8, 3))
     gradient, hessian = energy.gradient(x, delta), energy.hessian(x, delta)
     step = 1e-6

@@ -10,15 +10,15 @@ from hexmend.kernels import local
 from tests.core.grids import grid, scrambled
 
 
-def patch_of(mesh, node, delta, power=SQUARES):
-    """Return a patch's corners at the node, length scale, value, gradient and second derivatives."""
+def patch_of(mesh, node, delta, norm=SQUARES):
+    """Return a patch's corners at the node, and its energy there."""
     star = mesh.topology.node_corners[node]
-    return star, *local.patch_energy(mesh.points, mesh.hexes, star, 0.0, delta, power)
+    return star, local.patch_energy(mesh.points, mesh.hexes, star, 0.0, delta, norm)
 
 
-def value(mesh, star, scale, y, delta, power):
+def value(mesh, star, scale, y, delta, norm):
     curve = np.array([[1.0, np.nan]])
-    local.energy_along(mesh.points, mesh.hexes, star, scale, y, delta, power, curve)
+    local.energy_along(mesh.points, mesh.hexes, star, scale, y, delta, norm, curve)
     return curve[0, 1]
 
 
@@ -28,60 +28,62 @@ CASES = st.tuples(st.integers(0, 2**32 - 1), st.sampled_from([0.1, 0.4, 0.9]), P
 
 @given(CASES)
 def test_value_is_the_energy_of_the_attached_hexes(case):
-    seed, amplitude, power, soft = case
+    seed, amplitude, norm, soft = case
     mesh = scrambled(grid(3), amplitude, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
-    star, scale, *_ = patch_of(mesh, node, delta)
+    star, patch = patch_of(mesh, node, delta)
+    scale = patch.factor
     y = np.random.default_rng(seed).uniform(-0.2, 0.2, 3)
     points = mesh.points.copy()
     points[node] += y / scale
     attached = mesh.hexes[mesh.topology.node_corners[node] // 8]
-    expected = (energies(points * scale, attached, delta, None, power.offset) ** power.p).sum()
-    got = value(mesh, star, scale, y, delta, power)
+    expected = (energies(points * scale, attached, delta, None, norm.offset) ** norm.p).sum()
+    got = value(mesh, star, scale, y, delta, norm)
     assert got == pytest.approx(expected, rel=1e-9)
 
 
 @given(CASES)
 def test_gradient_is_that_of_central_differences(case):
-    seed, amplitude, power, soft = case
+    seed, amplitude, norm, soft = case
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
     delta = 0.05 if soft else 0.0
     node = int(np.flatnonzero(mesh.free)[seed % 8])
-    star, scale, f, gradient, _ = patch_of(mesh, node, delta, power)
-    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, power))
+    star, patch = patch_of(mesh, node, delta, norm)
+    scale, f, gradient = patch.factor, patch.value, patch.gradient
+    assert f == pytest.approx(value(mesh, star, scale, np.zeros(3), delta, norm))
     step = 1e-6
     for k in range(3):
         y = np.zeros(3)
         y[k] = step
-        rise = value(mesh, star, scale, y, delta, power) - value(mesh, star, scale, -y, delta, power)
+        rise = value(mesh, star, scale, y, delta, norm) - value(mesh, star, scale, -y, delta, norm)
         assert rise / (2 * step) == pytest.approx(gradient[k], rel=1e-5, abs=1e-5 * max(1, f))
 
 
 @given(CASES)
 def test_gradient_and_hessian_are_rows_and_blocks_of_the_meshs(case):
-    seed, amplitude, power, soft = case
+    seed, amplitude, norm, soft = case
     mesh = scrambled(grid(3), amplitude if soft else 0.15, seed)
     k = seed % 8
-    energy = MeshEnergy(mesh, power)
+    energy = MeshEnergy(mesh, norm)
     node = int(energy.nodes[k])
     unit = 0.05 if soft else 0.0  # of the patch
-    _, scale, _, gradient, own = patch_of(mesh, node, unit, power)
-    delta = unit / (scale * energy.unit) ** 3
-    x, ratio = energy.to_edge_units(mesh.points), scale * energy.unit
-    np.testing.assert_allclose(np.multiply(gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
+    _, patch = patch_of(mesh, node, unit, norm)
+    x, ratio = energy.to_edge_units(mesh.points), patch.factor * energy.unit
+    delta = unit / ratio**3
+    np.testing.assert_allclose(np.multiply(patch.gradient, ratio), energy.gradient(x, delta)[k], rtol=1e-9, atol=1e-9)
     block = energy.hessian(x, delta).assembled(np.float64).diagonal_blocks[k]
-    np.testing.assert_allclose(np.multiply(own, ratio**2), block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
+    np.testing.assert_allclose(np.multiply(patch.hessian, ratio**2), block, rtol=1e-8, atol=1e-9 * np.abs(block).max())
 
 
 def test_a_perfect_patch_has_no_gradient():
     mesh = grid(2)
-    _, _, f, gradient, _ = patch_of(mesh, 13, 0.0)
-    assert f == pytest.approx(0, abs=1e-12)
-    assert gradient == pytest.approx([0, 0, 0], abs=1e-12)
+    _, patch = patch_of(mesh, 13, 0.0)
+    assert patch.value == pytest.approx(0, abs=1e-12)
+    assert patch.gradient == pytest.approx([0, 0, 0], abs=1e-12)
 
 
 def test_a_patch_without_extent_has_no_factor():
     mesh = grid(2)
     flat = mesh.with_points(np.zeros_like(mesh.points))
-    assert patch_of(flat, 13, 0.1)[1] == 0
+    assert patch_of(flat, 13, 0.1)[1].factor == 0

@@ -17,7 +17,7 @@ def energies_of(kind):
     """Make two energies of one mesh that share the data that depend on the mesh alone."""
     mesh = make("bridge-sharp", size=2000)
     first = MeshEnergy(mesh, POWERS[0]) if kind == "fixed" else SlidingEnergy(SlidingBoundary(mesh), POWERS[0])
-    return first, first.with_objective(POWERS[1], first.left_out)
+    return first, first.with_objective(POWERS[1], first.omitted)
 
 
 def answers(energy, x, steps=30):

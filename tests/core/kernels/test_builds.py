@@ -24,7 +24,7 @@ sigma = np.empty((mesh.n_hexes, 8))
 elements.corner_determinants(mesh.points, mesh.hexes, sigma)
 matrix = energy.hessian(x, 0.1).shifted(50.0).assembled(np.float64)
 colours, swept = mesh.topology.colouring(mesh.free), x.copy()
-settings = local.NodeStepSettings(local.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), LineSearch(max_backtracks=60))
+settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, 0.1, ObjectiveNorm(), LineSearch(max_backtracks=60))
 local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)
 figures = measure(mesh.points, mesh.hexes)
 np.savez(

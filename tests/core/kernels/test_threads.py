@@ -115,10 +115,10 @@ def mesh():
 
 def figures(mesh):
     """Energies and gradient shares: two loops over all hexes."""
-    left_out = np.zeros(mesh.n_hexes, np.uint8)
+    omitted = np.zeros(mesh.n_hexes, np.uint8)
     eta, shares = np.empty(mesh.n_hexes), np.empty((mesh.n_hexes, 8, 3))
-    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, left_out, eta)
-    objective.gradient(mesh.points, mesh.hexes, 0.1, (2.0, 1.0), left_out, shares)
+    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, omitted, eta)
+    objective.gradient(mesh.points, mesh.hexes, 0.1, (2.0, 1.0), omitted, shares)
     return eta.tobytes() + shares.tobytes()
 
 
@@ -144,9 +144,9 @@ from hexmend import gallery, kernels
 from hexmend.kernels import objective
 kernels.set_threads(3)
 mesh = gallery.make("five-side", size=3000)
-left_out, eta = np.zeros(mesh.n_hexes, np.uint8), np.empty(mesh.n_hexes)
+omitted, eta = np.zeros(mesh.n_hexes, np.uint8), np.empty(mesh.n_hexes)
 def call():
-    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, left_out, eta)
+    objective.energies(mesh.points, mesh.hexes, 0.1, 1.0, omitted, eta)
     return eta.sum()
 first = call()
 """

@@ -37,7 +37,7 @@ def test_a_sweep_with_an_object_whose_arrays_nobody_else_holds():
     colours, view = mesh.topology.colouring(mesh.free), HexMesh(*arrays(mesh))
     gc.collect()
     overwritten = [np.full(mesh.hexes.shape, 10**6, np.int32) for _ in range(20)]
-    settings, swept = local.NodeStepSettings(local.NEWTON, 0.1, (2.0, 1.0), LineSearch()), []
+    settings, swept = local.NodeStepSettings(local.Direction.NEWTON, 0.1, (2.0, 1.0), LineSearch()), []
     for hex_mesh in view, mesh.topology.hex_mesh:
         swept.append(mesh.points.copy())
         local.sweep(swept[-1], hex_mesh, colours.start, colours.items, settings)
@@ -79,7 +79,7 @@ def test_arrays_of_another_type_or_shape_are_refused_by_name():
 def test_a_surface_wants_tangents_and_tangents_a_surface():
     mesh = grid(3)
     sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
-    settings = local.NodeStepSettings(local.NEWTON, 0.1, (2.0, 1.0), LineSearch())
+    settings = local.NodeStepSettings(local.Direction.NEWTON, 0.1, (2.0, 1.0), LineSearch())
     given = mesh.points.copy(), mesh.topology.hex_mesh, colours.start, colours.items, settings
     with pytest.raises(ValueError, match="surface and tangents"):
         local.sweep(*given, sliding.sliding_surface)

@@ -48,7 +48,7 @@ def test_the_line_search_is_algorithm_a_5(name, seed, amplitude):
     step = explain(mesh, smoother, int(np.flatnonzero(mesh.free)[seed % 8]))
     assert step.status is StepStatus.MOVED
     np.testing.assert_array_equal([t.alpha for t in step.trials], 2.0 * 0.5 ** np.arange(len(step.trials)))
-    assert [t.energy < t.bound for t in step.trials] == [False] * step.cuts + [True]
+    assert [t.energy < t.bound for t in step.trials] == [False] * step.backtracks + [True]
     assert step.alpha == step.trials[-1].alpha
     np.testing.assert_allclose(step.after, step.before + step.alpha * step.direction, atol=1e-13)
     for trial in step.trials:

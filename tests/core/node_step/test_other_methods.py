@@ -32,7 +32,10 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
         np.testing.assert_array_equal(step.after, step_of_all.points[node])
         assert step.is_global
         assert step.delta == step_of_all.diagnostics["delta"]
-        assert (step.alpha, step.cuts) == (step_of_all.diagnostics["step_length"], step_of_all.diagnostics["cuts"])
+        assert (step.alpha, step.backtracks) == (
+            step_of_all.diagnostics["step_length"],
+            step_of_all.diagnostics["backtracks"],
+        )
         assert step.shift == step_of_all.diagnostics["shift"]
         row, x = int(np.flatnonzero(energy.nodes == node)[0]), energy.to_edge_units(mesh.points)
         assert step.energy == energy.value(x, step.delta)
@@ -44,7 +47,7 @@ def test_a_global_step_is_the_nodes_part_of_the_methods(name, amplitude):
         np.testing.assert_allclose(step.hessian[np.triu_indices(3)], block, rtol=1e-7, atol=1e-8 * np.abs(block).max())
         assert step.trials[-1].energy < step.trials[-1].bound
         assert step.trials[-1].alpha == step.alpha
-        assert [t.energy < t.bound for t in step.trials] == [False] * step.cuts + [True]
+        assert [t.energy < t.bound for t in step.trials] == [False] * step.backtracks + [True]
         at = step.trials[-1]
         assert np.interp(at.alpha, *step.curve.T) == pytest.approx(at.energy, rel=0.1)
 

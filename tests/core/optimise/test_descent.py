@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
-from hexmend.optimise.descent import MAX_STEP, descend, is_perfect, shorten_to_range
+from hexmend.optimise.descent import DESCENT, descend, is_perfect, shorten_to_range
 from hexmend.optimise.search_direction import SearchDirection, steepest_descent
 from tests.core.grids import grid, scrambled
 
@@ -42,8 +42,8 @@ def test_no_node_goes_further_than_it_may_and_others_go_on(seed, reach):
         taken[most] = descend(energy, x, 0.0, find, LineSearch(), most)
     moved = np.linalg.norm(taken[reach].x - x, axis=1)
     assert (moved <= reach * own_edges(mesh, x) * (1 + 1e-9)).all()
-    assert np.abs(taken[reach].found.p).max() <= reach * own_edges(mesh, x).max() * (1 + 1e-9)
-    assert taken[reach].cuts <= taken[np.inf].cuts
+    assert np.abs(taken[reach].direction.vector).max() <= reach * own_edges(mesh, x).max() * (1 + 1e-9)
+    assert taken[reach].backtracks <= taken[np.inf].backtracks
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])
@@ -64,7 +64,7 @@ def test_a_step_from_perfect_cubes_stays():
     x = energy.to_edge_units(mesh.points)
     taken = descend(energy, x, 0.0, steepest_descent, LineSearch())
     assert taken.x is x
-    assert (taken.alpha, taken.slope, taken.cuts) == (0.0, 0.0, 0)
+    assert (taken.alpha, taken.slope, taken.backtracks) == (0.0, 0.0, 0)
 
 
 def test_from_an_infinite_energy_there_is_no_step():
@@ -88,9 +88,9 @@ def test_a_step_out_of_the_range_of_numbers_is_shortened_and_keeps_its_direction
     step = np.array([[longest, 0.5 * longest, 0.0], [0.0, -0.25 * longest, 1.0]])
     shortened = step.copy()
     shorten_to_range(shortened, unit)
-    assert np.abs(shortened).max() == pytest.approx(MAX_STEP / unit)
+    assert np.abs(shortened).max() == pytest.approx(DESCENT.max_coordinate / unit)
     np.testing.assert_allclose(shortened / shortened[0, 0], step / longest, rtol=1e-12)
-    within = np.array([[-0.99, 0.5, 0.0]]) * MAX_STEP / unit
+    within = np.array([[-0.99, 0.5, 0.0]]) * DESCENT.max_coordinate / unit
     again = within.copy()
     shorten_to_range(again, unit)
     np.testing.assert_array_equal(again, within)

@@ -53,9 +53,7 @@ def problem():
     return energy, x, energy.value(x), energy.gradient(x), energy.hessian(x)
 
 
-@pytest.mark.parametrize(
-    "solver", [Minres(1e-10, precision=np.float64), ConjugateGradients(1e-10, precision=np.float64)]
-)
+@pytest.mark.parametrize("solver", [Minres(1e-10), ConjugateGradients(1e-10, precision=np.float64)])
 def test_solvers_solve_where_the_matrix_is_positive_definite(problem, solver):
     *_, gradient, hessian = problem
     hessian = hessian.shifted(0.5)
@@ -71,7 +69,7 @@ def test_minres_solves_an_indefinite_system(problem):
     hessian = hessian.shifted(-1.0)
     values = np.linalg.eigvalsh(hessian.assembled(np.float64).matrix().toarray())
     assert values[0] < 0 < values[-1]
-    solution, _ = Minres(1e-10, precision=np.float64)(hessian, gradient.ravel())
+    solution, _ = Minres(1e-10)(hessian, gradient.ravel())
     np.testing.assert_allclose(hessian @ solution, gradient.ravel(), atol=1e-7)
 
 
@@ -93,15 +91,15 @@ def test_extreme_eigenvalues_are_good_to_a_thousandth(problem):
 
 def test_directions_are_those_of_appendix_a(problem):
     *_, value, gradient, hessian = problem
-    np.testing.assert_allclose(steepest_descent(value, gradient, hessian).p, -gradient / (2 * np.sqrt(value)))
-    newton = Newton(Minres(1e-12, precision=np.float64))(value, gradient, hessian).p
+    np.testing.assert_allclose(steepest_descent(value, gradient, hessian).vector, -gradient / (2 * np.sqrt(value)))
+    newton = Newton(Minres(1e-12))(value, gradient, hessian).vector
     np.testing.assert_allclose(hessian @ newton.ravel(), -gradient.ravel(), atol=1e-8)
     indefinite = hessian.shifted(-1.0)
-    found = ModifiedNewton(Minres(1e-12, precision=np.float64))(value, gradient, indefinite)
+    found = ModifiedNewton(Minres(1e-12))(value, gradient, indefinite)
     shift = found.shift - indefinite.shift
     values = np.linalg.eigvalsh(indefinite.assembled(np.float64).matrix().toarray())
     assert shift == pytest.approx(0.001 * values[-1] - values[0], rel=1e-2)
-    assert np.vdot(found.p, gradient) < 0
+    assert np.vdot(found.vector, gradient) < 0
 
 
 def test_delta_is_zero_once_nothing_is_inverted():
@@ -126,10 +124,10 @@ def test_a_truncated_newton_step_is_as_good_as_the_model_deserves():
     for _ in range(7):
         gradient, hessian = energy.gradient(x), energy.hessian(x)
         found = find(energy.value(x), gradient, hessian)
-        assert np.vdot(found.p, gradient) < 0
+        assert np.vdot(found.vector, gradient) < 0
         norms.append(np.linalg.norm(gradient))
-        residuals.append(np.linalg.norm(hessian @ found.p.ravel() + gradient.ravel()) / norms[-1])
-        x = energy.moved(x, found.p)
+        residuals.append(np.linalg.norm(hessian @ found.vector.ravel() + gradient.ravel()) / norms[-1])
+        x = energy.moved(x, found.vector)
     assert max(residuals) < 0.5  # the tolerance is in the norm of the preconditioner
     assert min(residuals) < 0.01 < residuals[0]
     assert norms[-1] < 1e-7 * norms[0]
@@ -140,7 +138,7 @@ def test_a_hessian_that_is_not_positive_definite_is_damped_until_it_is(problem):
     find, indefinite = TruncatedNewton(), hessian.shifted(-1.0)
     found = find(value, gradient, indefinite)
     assert found.shift >= 0.05
-    assert np.vdot(found.p, gradient) < 0
+    assert np.vdot(found.vector, gradient) < 0
     again = find(value, gradient, indefinite)
     assert again.shift == found.shift  # remembered: no attempt is lost
     find(value, gradient, hessian.shifted(5.0))

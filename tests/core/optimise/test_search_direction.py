@@ -9,16 +9,11 @@ from scipy.sparse.linalg import ArpackNoConvergence
 
 from hexmend.energy import MeshEnergy
 from hexmend.optimise import search_direction
-from hexmend.optimise.search_direction import (
-    DAMPING_DECAY,
-    DAMPING_GROWTH,
-    GRADIENT_FLOOR,
-    MAX_DAMPING_INCREASES,
-    MIN_DAMPING,
-    ModifiedNewton,
-    TruncatedNewton,
-)
+from hexmend.optimise.search_direction import ModifiedNewton, TruncatedNewton, TruncatedNewtonConfig
 from tests.core.grids import grid, scrambled
+
+CONFIG = TruncatedNewtonConfig()
+FIRST, SECOND = CONFIG.min_damping, CONFIG.damping_growth * CONFIG.min_damping
 
 
 class Matrix:
@@ -36,7 +31,7 @@ class Matrix:
 
 
 def tolerances(lengths, unit=1.0, **options):
-    find, matrix = TruncatedNewton(**options), Matrix()
+    find, matrix = TruncatedNewton(TruncatedNewtonConfig(**options)), Matrix()
     for length in lengths:
         find(1.0, np.array([[unit * length, 0.0, 0.0]]), matrix)
     return [tolerance for _, tolerance, _, _ in matrix.asked]
@@ -51,7 +46,7 @@ def test_the_tolerance_follows_the_square_of_what_is_left_of_the_gradient_in_any
 
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
 def test_no_more_is_asked_than_leaves_enough_of_the_first_gradient(unit):
-    lengths = [1.0, 20 * GRADIENT_FLOOR, 5 * GRADIENT_FLOOR]
+    lengths = [1.0, 20 * CONFIG.gradient_floor, 5 * CONFIG.gradient_floor]
     assert tolerances(lengths, unit, loosest=0.9, tightest=1e-12)[1:] == pytest.approx([1 / 20, 1 / 5])
 
 
@@ -60,30 +55,30 @@ def test_the_tolerance_stays_within_its_bounds():
 
 
 def test_the_direction_is_the_solution_for_minus_the_gradient():
-    find, matrix = TruncatedNewton(iterations=17), Matrix()
+    find, matrix = TruncatedNewton(TruncatedNewtonConfig(iterations=17)), Matrix()
     gradient = np.array([[1.0, -2.0, 3.0], [4.0, 5.0, -6.0]])
     found = find(1.0, gradient, matrix)
-    np.testing.assert_array_equal(found.p, -gradient / 2)
+    np.testing.assert_array_equal(found.vector, -gradient / 2)
     np.testing.assert_array_equal(matrix.asked[0][0], -gradient.ravel())
     assert (matrix.asked[0][2], found.solver_iterations, found.shift) == (17, 3, 0.0)
 
 
 def test_damping_rises_until_the_curvature_is_positive_and_falls_again():
-    find, matrix = TruncatedNewton(), Matrix(needed=DAMPING_GROWTH * MIN_DAMPING)
+    find, matrix = TruncatedNewton(), Matrix(needed=SECOND)
     found = find(1.0, np.ones((1, 3)), matrix)
-    assert [damping for *_, damping in matrix.asked] == [0.0, MIN_DAMPING, DAMPING_GROWTH * MIN_DAMPING]
-    assert (found.shift, found.solver_iterations) == (DAMPING_GROWTH * MIN_DAMPING, 9)
+    assert [damping for *_, damping in matrix.asked] == [0.0, FIRST, SECOND]
+    assert (found.shift, found.solver_iterations) == (SECOND, 9)
     matrix.needed, matrix.asked = 0.0, []
     for _ in range(3):
         find(1.0, np.ones((1, 3)), matrix)
-    first = DAMPING_GROWTH * MIN_DAMPING
-    assert [damping for *_, damping in matrix.asked] == [first, first / DAMPING_DECAY, 0.0]
+    assert [damping for *_, damping in matrix.asked] == [SECOND, SECOND / CONFIG.damping_decay, 0.0]
 
 
 def test_damping_is_raised_so_often_and_no_oftener():
     find, matrix = TruncatedNewton(), Matrix(needed=np.inf)
-    assert find(1.0, np.ones((1, 3)), matrix).shift == MIN_DAMPING * DAMPING_GROWTH ** (MAX_DAMPING_INCREASES - 1)
-    assert len(matrix.asked) == MAX_DAMPING_INCREASES + 1
+    shift = FIRST * CONFIG.damping_growth ** (CONFIG.max_damping_increases - 1)
+    assert find(1.0, np.ones((1, 3)), matrix).shift == shift
+    assert len(matrix.asked) == CONFIG.max_damping_increases + 1
 
 
 class Shifted:
@@ -104,7 +99,7 @@ def test_the_least_eigenvalue_is_raised_to_a_thousandth_of_the_greatest(monkeypa
     monkeypatch.setattr(search_direction, "extreme_eigenvalues", lambda hessian: (least, greatest))
     found = ModifiedNewton(lambda hessian, right: (right / 2, 5))(1.0, np.array([[2.0, 4.0, 6.0]]), Shifted())
     assert found.shift == pytest.approx(shift)
-    assert (found.p.tolist(), found.solver_iterations) == ([[-1.0, -2.0, -3.0]], 5)
+    assert (found.vector.tolist(), found.solver_iterations) == ([[-1.0, -2.0, -3.0]], 5)
 
 
 def test_where_eigenvalues_are_not_found_the_least_counts_as_0_and_the_greatest_is_computed(monkeypatch):

@@ -9,7 +9,7 @@ from scipy.stats import special_ortho_group
 from hexmend.energy import ObjectiveNorm, energies, objective
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, UNIT_CUBE
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import corner_determinants, corner_qualities, locked, measure, summarise
+from hexmend.quality import corner_determinants, corner_qualities, locked_hexes, measure, summarise
 from tests.core.grids import grid, scrambled
 
 ONE = np.arange(8, dtype=np.int32)[None]
@@ -151,9 +151,7 @@ def test_energy_is_softened_by_delta_and_unsoftened_at_zero():
 def test_objective_is_the_p_norm(p, offset):
     mesh = scrambled(grid(3), 0.1)
     eta = energies(mesh.points, mesh.hexes) + 1 - offset
-    assert objective(mesh.points, mesh.hexes, power=ObjectiveNorm(p, offset)) == pytest.approx(
-        (eta**p).sum() ** (1 / p)
-    )
+    assert objective(mesh.points, mesh.hexes, norm=ObjectiveNorm(p, offset)) == pytest.approx((eta**p).sum() ** (1 / p))
 
 
 def test_summary_of_a_tangled_mesh():
@@ -186,7 +184,7 @@ def test_a_corner_of_fixed_nodes_locks_its_hex():
     free = summarise(bad.with_points(mesh.points))
     assert free.locked_inverted == 0
     figures = measure(points, mesh.hexes)
-    assert locked(points, mesh.hexes, np.zeros(27, bool), figures.inverted).sum() == 0
+    assert locked_hexes(points, mesh.hexes, np.zeros(27, bool), figures.inverted).sum() == 0
 
 
 def test_single_hex_mesh_summary():

@@ -61,10 +61,10 @@ def test_moves_and_changes_are_measured_against_what_is_asked(run):
 
 
 def test_cuts_of_the_line_search():
-    still, cut = iteration(1, MESH.points), iteration(2, MESH.points, cuts=5, step_length=0.17)
-    assert Breakpoints(cuts=5).hit(still, cut, 1.0) is None
-    assert "5 times, to 0.17" in Breakpoints(cuts=4).hit(still, cut, 1.0).sentence
-    assert Breakpoints(cuts=0).hit(cut, still, 1.0) is None
+    still, cut = iteration(1, MESH.points), iteration(2, MESH.points, backtracks=5, step_length=0.17)
+    assert Breakpoints(backtracks=5).hit(still, cut, 1.0) is None
+    assert "5 times, to 0.17" in Breakpoints(backtracks=4).hit(still, cut, 1.0).sentence
+    assert Breakpoints(backtracks=0).hit(cut, still, 1.0) is None
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_how_many_elements_inverted_is_said(run):
 
 
 def test_where_several_are_reached_the_first_is_told(run):
-    cut = iteration(2, run[-1].points, cuts=5)
-    both = Breakpoints(inverts=True, cuts=1)
+    cut = iteration(2, run[-1].points, backtracks=5)
+    both = Breakpoints(inverts=True, backtracks=1)
     assert both.hit(run[0], cut, 1.0).hexes
     assert "5 times" in both.hit(cut, cut, 1.0).sentence

@@ -27,20 +27,20 @@ def mesh():
     return make("five-side", size=300, scramble=0.3)
 
 
-def of_points(mesh, points, power):
+def of_points(mesh, points, norm):
     """The objective as the kernels of the optimisers have it."""
-    return np.power(energies(points, mesh.hexes, offset=power.offset), power.p).sum()
+    return np.power(energies(points, mesh.hexes, offset=norm.offset), norm.p).sum()
 
 
-@pytest.mark.parametrize("power", POWERS, ids=lambda power: power.formula)
+@pytest.mark.parametrize("norm", POWERS, ids=lambda norm: norm.formula)
 @pytest.mark.parametrize("name", OPTIMISERS)
-def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name, power):
-    method = METHODS[name](p=power.p, offset=power.offset)
+def test_the_recorded_objective_is_that_of_the_method_and_never_rises(mesh, name, norm):
+    method = METHODS[name](p=norm.p, offset=norm.offset)
     run = iterate(mesh, method, StoppingCriteria(max_iterations=25))
     values = []
     for it in run:
         if it.quality.n_inverted == 0:
-            assert it.objective == pytest.approx(of_points(mesh, it.points, power), rel=1e-12)
+            assert it.objective == pytest.approx(of_points(mesh, it.points, norm), rel=1e-12)
             values.append(run.history[-1]["objective"])
     assert len(values) > 2
     assert values[-1] < values[0]
@@ -67,16 +67,17 @@ def test_the_figures_before_and_after_keep_the_objective_that_all_meshes_have(me
     assert result.after.objective != result.history[-1]["objective"]
 
 
-@pytest.mark.parametrize("power", POWERS, ids=lambda power: power.formula)
-def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(power):
+@pytest.mark.parametrize("norm", POWERS, ids=lambda norm: norm.formula)
+def test_a_run_goes_on_for_as_long_as_the_objective_of_its_method_falls(norm):
     mesh = make("five-side", size=300)
     stop = StoppingCriteria(tolerance=1.0)  # every step is short enough: only the objective keeps it going
-    result = smooth(mesh, METHODS["local-sd"](p=power.p, offset=power.offset), stop)
+    result = smooth(mesh, METHODS["local-sd"](p=norm.p, offset=norm.offset), stop)
     assert result.outcome is Outcome.CONVERGED
-    least = power.least * mesh.n_hexes
+    least = norm.cube_value * mesh.n_hexes
     values = [row["objective"] - least for row in result.history]
     falls = [
-        before - now > max(1e-3 * before, 1e-2 * (power.of(1.0) - power.least)) for before, now in pairwise(values)
+        before - now > max(1e-3 * before, 1e-2 * (norm.contribution(1.0) - norm.cube_value))
+        for before, now in pairwise(values)
     ]
     assert falls == [True] * (len(falls) - 1) + [False]
 
@@ -100,10 +101,10 @@ def test_a_table_compares_methods_by_one_objective_and_names_it(mesh):
     methods = ["laplacian", METHODS["local-sd"](offset=0.0), METHODS["mend"](p=4.0)]
     answer = compare(mesh, methods, StoppingCriteria(max_iterations=10, keep_last=True))
     record = answer.record()
-    power = ObjectiveNorm(2.0, 0.0)  # of the first that minimises something
+    norm = ObjectiveNorm(2.0, 0.0)  # of the first that minimises something
     meshes = [mesh, *(row.mesh for row in answer.rows)]
     for row, one in zip(comparison_rows(record), meshes, strict=True):
-        assert row["objective"] == objective(measure(one.points, one.hexes), *power)
+        assert row["objective"] == objective(measure(one.points, one.hexes), *norm)
         assert row["objective_formula"] == "Σ η², offset 0"
     table = record_table(record)
     assert "objective Σ η², offset 0" in [line[0] for line in table.rows]

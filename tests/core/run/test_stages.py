@@ -113,16 +113,16 @@ def test_limits_in_place_of_the_recipes_own(mesh):
 
 def test_the_most_that_it_can_come_to(mesh):
     run = iterate(mesh, Recipe.of(stage("getme", 3), stage("local-sd", 2)))
-    assert (run.limit, run.stage_number, run.stage_count) == (5, 1, 2)
+    assert (run.max_iterations, run.stage_number, run.stage_count) == (5, 1, 2)
     for _ in run:
-        assert run.limit == 5
+        assert run.max_iterations == 5
     assert run.stage_number == 2
     short = iterate(
         grid(3), Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=100)), stage("mend", 2))
     )
     next(short)
     assert short.stage == short.recipe.stages[0]
-    assert short.limit == 1 + 2  # a perfect grid: the first stage has converged
+    assert short.max_iterations == 1 + 2  # a perfect grid: the first stage has converged
 
 
 def test_closing_ends_the_whole(mesh):

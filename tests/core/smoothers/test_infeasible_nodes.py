@@ -11,7 +11,7 @@ from tests.core.boundary.solids import ball, slid
 class Wall:
     """A surface whose room ends at x = 1."""
 
-    def outside_band(self, points):
+    def nodes_outside_band(self, points):
         return np.flatnonzero(points[:, 0] > 1)
 
 
@@ -66,5 +66,5 @@ def test_evaluations_of_nodes_that_slide_are_counted_too(name):
         steps = METHODS[name](boundary=boundary).steps(mesh)
         next(steps)
         diagnostics.append(next(steps).diagnostics)
-    assert diagnostics[1]["derivatives"] > diagnostics[0]["derivatives"] > 0
-    assert diagnostics[1]["energies"] > diagnostics[0]["energies"] > 0
+    assert diagnostics[1]["derivative_evaluations"] > diagnostics[0]["derivative_evaluations"] > 0
+    assert diagnostics[1]["energy_evaluations"] > diagnostics[0]["energy_evaluations"] > 0

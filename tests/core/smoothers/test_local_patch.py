@@ -35,7 +35,7 @@ def hexes_at(mesh, nodes):
 
 def swept(mesh, patches, k, smoother, delta):
     """The points after the step of patch k alone, and how often its hexes were asked."""
-    points, step = mesh.points.copy(), PatchStepSettings(delta, smoother.power, smoother.line_search)
+    points, step = mesh.points.copy(), PatchStepSettings(delta, smoother.norm, smoother.line_search)
     asked = sweep(points, patches.kernel_partition, np.array([0, 1], np.int32), np.array([k], np.int32), step)
     return points, asked
 
@@ -124,7 +124,7 @@ def test_a_step_is_newtons_for_the_nodes_of_the_patch(seed, size, p):
         return
     patches, smoother = partition_patches(mesh, size, 0), LocalPatch(p=p)
     small, used, unit = part(mesh, patches, 0)
-    energy = MeshEnergy(small, smoother.power)
+    energy = MeshEnergy(small, smoother.norm)
     scale = energy.unit  # 1 but for rounding
     x = small.points / scale
     hessian = energy.hessian(x).assembled(np.float64).matrix().toarray()
@@ -167,7 +167,7 @@ def test_no_patch_raises_its_energy_nor_moves_a_node_of_others(seed, size, overl
     moved = np.flatnonzero((points != mesh.points).any(axis=1))
     assert np.isin(moved, patches.nodes[k]).all()
     small, used, unit = part(mesh, patches, k)
-    energy = MeshEnergy(small, smoother.power)
+    energy = MeshEnergy(small, smoother.norm)
     before, now = energy.value(small.points, delta), energy.value(points[used] / unit, delta)
     assert now <= before * (1 + 1e-9) + 1e-12
 

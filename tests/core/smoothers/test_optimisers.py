@@ -34,7 +34,7 @@ def test_each_offset_has_the_lower_objective_of_its_kind_and_zero_the_higher_mea
     ones, zeros = best(mesh, "mend", 1.0), best(mesh, "mend", 0.0)
 
     def value(mesh, offset):
-        return objective(mesh.points, mesh.hexes, power=ObjectiveNorm(2.0, offset))
+        return objective(mesh.points, mesh.hexes, norm=ObjectiveNorm(2.0, offset))
 
     assert value(ones, 1.0) < value(zeros, 1.0)
     assert value(zeros, 0.0) < value(ones, 0.0)
@@ -94,25 +94,30 @@ def test_a_step_that_descends_too_little_for_armijo_is_cut(name, boundary):
         # One and a half times Newton's step gains three eighths of what the slope promises.
         method = METHODS[name](c1=c1, initial_step=1.5, boundary=boundary)
         run = iterate(mesh, method, StoppingCriteria(max_iterations=1, tolerance=0))
-        trials.append(sum(step.diagnostics["energies" if "energies" in step.diagnostics else "cuts"] for step in run))
+        trials.append(
+            sum(
+                step.diagnostics["energy_evaluations" if "energy_evaluations" in step.diagnostics else "backtracks"]
+                for step in run
+            )
+        )
     assert trials[0] < trials[1]
 
 
-@pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
+@pytest.mark.parametrize("direction", local.Direction)
 @pytest.mark.parametrize("c1", [1e-4, 0.5])
 def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
     mesh = make("five-side", size=150, scramble=0.5, seed=3)
     corners, hexes, cut = mesh.topology.node_corners, mesh.hexes, 0
-    first = 30.0 if direction == local.STEEPEST_DESCENT else 1.5  # far enough to gain too little
+    first = 30.0 if direction is local.Direction.STEEPEST_DESCENT else 1.5  # far enough to gain too little
     for node in np.flatnonzero(mesh.free):
         star = corners[node]
-        _, value, _, _ = local.patch_energy(mesh.points, hexes, star, 0.0, 0.05, SQUARES)
+        value = local.patch_energy(mesh.points, hexes, star, 0.0, 0.05, SQUARES).value
         settings = local.NodeStepSettings(direction, 0.05, SQUARES, LineSearch(first, c1=c1))
-        _, _, slope, _, _, alpha, _, trials = local.recorded_step(mesh.points, hexes, star, settings)
-        if alpha:
-            steps, reached, _ = np.reshape(trials, (-1, 3)).T
-            enough = reached < value + c1 * steps * slope
-            assert steps[-1] == alpha
+        step = local.recorded_step(mesh.points, hexes, star, settings)
+        if step.alpha:
+            steps, reached, _ = step.trials.T
+            enough = reached < value + c1 * steps * step.slope
+            assert steps[-1] == step.alpha
             assert enough.tolist() == [False] * (len(steps) - 1) + [True]
             cut += (reached[:-1] < value).any()  # it descended, but not enough
     assert cut or c1 < 0.1
@@ -121,5 +126,5 @@ def test_the_step_of_a_node_satisfies_armijos_condition(direction, c1):
 @pytest.mark.parametrize("name", ["local-sd", "local-nr", "local-mnr"])
 def test_nodes_that_have_converged_cost_few_evaluations(name):
     run = iterate(make("five-side", size=150), METHODS[name](), StoppingCriteria(max_iterations=400, tolerance=0))
-    sweeps = [step.diagnostics["energies"] / step.diagnostics["derivatives"] for step in run]
+    sweeps = [step.diagnostics["energy_evaluations"] / step.diagnostics["derivative_evaluations"] for step in run]
     assert max(sweeps[-50:]) < 3  # where rounding hides what a shorter step would gain, none is tried

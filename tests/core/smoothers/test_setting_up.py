@@ -37,8 +37,8 @@ def test_perfect_cubes_are_converged(name):
 @pytest.mark.parametrize("exponent", [0.0, 1.0, 3.0])
 def test_weights_of_getme_are_those_of_the_paper_and_never_nothing(exponent):
     q = np.array([0.0, 0.19, 0.75, 1.0])
-    weigh = METHODS["getme"](weights="paper", exponent=exponent).weigh
+    weigh = METHODS["getme"](weights="paper", exponent=exponent).hex_weights
     np.testing.assert_allclose(weigh(q)[:3], (1 - q[:3]) ** (exponent / 2))
     assert (weigh(q) > 0).all()
-    np.testing.assert_allclose(METHODS["getme"]().weigh(q), [10, 0.19**-0.5, 0.75**-0.5, 1])
-    assert METHODS["getme"](weights="equal").weigh(q).tolist() == [1, 1, 1, 1]
+    np.testing.assert_allclose(METHODS["getme"]().hex_weights(q), [10, 0.19**-0.5, 0.75**-0.5, 1])
+    assert METHODS["getme"](weights="equal").hex_weights(q).tolist() == [1, 1, 1, 1]

@@ -117,7 +117,7 @@ def test_a_boundary_that_stays_does_not_see_it():
 @pytest.mark.parametrize("change", [lambda x: 1000 * x, lambda x: x + 50, lambda x: x / 25.4])
 def test_a_surface_of_another_unit_or_place_is_refused(change):
     mesh, skin = ball(4), skin_of(ball(6))
-    with pytest.raises(MeshError, match=r"part\.stl: .* mean edge lengths or more from it.*unit or place"):
+    with pytest.raises(MeshError, match=r"part\.stl: .* mean edge lengths or more from it.*unit or position"):
         mesh.sliding_on(SkinSurface(change(skin.points), skin.faces, skin.name))
 
 

@@ -17,7 +17,7 @@ from hexmend.iteration import Outcome
 from hexmend.kernels import local
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import locked, measure
+from hexmend.quality import locked_hexes, measure
 from hexmend.report import record
 from hexmend.run import StoppingCriteria, iterate, smooth
 from hexmend.run.recipe import Recipe, Stage
@@ -153,7 +153,7 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
     mesh = slid(grid(3), 0.3, seed=5)
     sliding = SlidingBoundary(mesh)
     moved = next(itertools.islice(METHODS["laplacian"](boundary="slide", update="simultaneous").steps(mesh), 1, None))
-    kind, part = sliding.boundary.node_class, sliding.boundary.part
+    kind, part = sliding.boundary.node_class, sliding.boundary.component
     edges = {tuple(sorted(edge)) for edge in mesh.topology.edges[mesh.topology.edge_on_boundary].tolist()}
     curves = {tuple(sorted(edge)) for edge in sliding.boundary.segments.tolist()}
     for node in sliding.nodes:
@@ -163,7 +163,7 @@ def test_laplacian_takes_the_mean_over_the_neighbours_on_the_nodes_own_curve_or_
         np.testing.assert_allclose(moved.points[node], mesh.points[ring].mean(axis=0), atol=1e-12)  # its sides are flat
 
 
-@pytest.mark.parametrize("direction", [local.STEEPEST_DESCENT, local.NEWTON, local.MODIFIED_NEWTON])
+@pytest.mark.parametrize("direction", local.Direction)
 def test_nodes_that_do_not_slide_are_visited_as_ever(direction):
     mesh = slid(ball(4), 0.2)
     sliding, colours = SlidingBoundary(mesh), mesh.topology.colouring(mesh.free)
@@ -253,7 +253,7 @@ def pushed_in():
 
 def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_path, capsys):
     mesh = pushed_in()
-    which = locked(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
+    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
     assert which.sum() == 1
     assert (freed_by_sliding(mesh, which) == which).all()
     pinned = np.zeros(mesh.n_nodes, dtype=bool)
@@ -267,7 +267,7 @@ def test_locked_hexes_that_sliding_frees_are_told_from_those_that_it_cannot(tmp_
 
 def test_a_hex_with_a_corner_in_a_flat_side_is_not_freed():
     mesh = flattened()
-    which = locked(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
+    which = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, measure(mesh.points, mesh.hexes).inverted)
     assert which.any()
     assert not freed_by_sliding(mesh, which).any()
 

@@ -31,9 +31,9 @@ def one_by_one(mesh, smoother, nodes):
     points, delta = mesh.points.copy(), smoother.delta_at(mesh, mesh.points)
     for node in nodes:
         star = mesh.topology.node_corners[node]
-        verdict, *_, place, _ = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta))
-        if verdict == local.MOVED:
-            points[node] = place
+        step = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta))
+        if step.status is local.StepStatus.MOVED:
+            points[node] = step.place
     return points
 
 

@@ -17,9 +17,9 @@ def swept(mesh, free, **more):
     candidates = np.flatnonzero(free[mesh.hexes].any(axis=1)).astype(np.int32)
     values = {"scaling": 1.0, "relaxation": 0.3, "penalty": 0.001, "rejection_penalty": 0.01} | more
     step, q, sound = worst_first.WorstFirstSettings(**values), before.q.copy(), ~before.inverted
-    taken_back = worst_first.sweep(points, mesh.topology.hex_mesh, free, candidates, q, sound, step)
+    rejected = worst_first.sweep(points, mesh.topology.hex_mesh, free, candidates, q, sound, step)
     np.testing.assert_array_equal(points[~free], mesh.points[~free])
-    return before, measure(points, mesh.hexes), taken_back
+    return before, measure(points, mesh.hexes), rejected
 
 
 @settings(max_examples=15)
@@ -39,7 +39,7 @@ def test_where_the_least_cannot_rise_the_mean_does(seed):
     points = np.concatenate([rough.points, flat.points * [1, 1, 0.02] + 9])
     mesh = Mesh(points, np.concatenate([rough.hexes, flat.hexes + rough.n_nodes]))
     free = np.concatenate([rough.free, np.arange(12) == 4])
-    before, after, taken_back = swept(mesh, free, penalty=1.0, rejection_penalty=2.0)
-    assert taken_back >= 2
+    before, after, rejected = swept(mesh, free, penalty=1.0, rejection_penalty=2.0)
+    assert rejected >= 2
     assert after.q.min() == before.q.min() == before.q[-2:].min()
     assert after.q.sum() > before.q.sum()

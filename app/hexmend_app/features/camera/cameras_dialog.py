@@ -1,4 +1,4 @@
-"""The cameras that are kept, to be gone to, renamed and deleted."""
+"""Dialog that applies, renames and deletes saved cameras."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.errors import ParameterError
-from hexmend_app.state.cameras import Cameras
-from hexmend_app.widgets.style import WORSE, explain, note
+from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.theme.style import WORSE, note, set_help
 
 _NAME = Qt.ItemDataRole.UserRole
 
 
 class CamerasDialog(QDialog):
-    """A list of names, and what is done with the one that is chosen.
+    """List of saved cameras with buttons for the selected camera.
 
     Parameters
     ----------
@@ -32,20 +32,20 @@ class CamerasDialog(QDialog):
     Signals
     -------
     chosen(name)
-        It is to be looked through; the dialog stays.
+        The user applies a camera; the dialog stays open.
     """
 
     chosen = Signal(str)
 
-    def __init__(self, cameras: Cameras, parent: QWidget | None = None):
+    def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Kept cameras")
+        self.setWindowTitle("Saved cameras")
         self._cameras = cameras
         self.list = QListWidget()
-        explain(self.list, "Kept cameras", "Double-click looks through a camera, F2 renames it, Delete deletes it.")
+        set_help(self.list, "Saved cameras", "Double-click applies a camera, F2 renames it, Delete deletes it.")
         self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
         self._problem = note("", WORSE)
-        self._problem.setAccessibleName("What is wrong")
+        self._problem.setAccessibleName("Error")
         self._buttons = [QPushButton(text) for text in ("&Go to", "&Rename", "&Delete")]
         for button, act in zip(self._buttons, (self._go, self._edit, self._delete), strict=True):
             button.setAutoDefault(False)
@@ -57,7 +57,7 @@ class CamerasDialog(QDialog):
                   context=Qt.ShortcutContext.WidgetShortcut)  # fmt: skip
         self._lay_out()
         self._show("")
-        # Later: the list is not to be filled anew within the editor that renames.
+        # Queued: the list must not be refilled while its editor is open.
         cameras.changed.connect(self._on_changed, Qt.ConnectionType.QueuedConnection)
 
     def _lay_out(self) -> None:
@@ -79,7 +79,7 @@ class CamerasDialog(QDialog):
 
     @property
     def _name(self) -> str:
-        """The camera that is chosen, "" for none."""
+        """Name of the selected camera, "" if none is selected."""
         item = self.list.currentItem()
         return "" if item is None else item.data(_NAME)
 
@@ -96,12 +96,12 @@ class CamerasDialog(QDialog):
             self._cameras.remove(self._name)
 
     def _rename(self, item: QListWidgetItem) -> None:
-        """Call a camera as was typed, or say why not."""
+        """Rename a camera, or show why the name is rejected."""
         name, before = item.text().strip(), item.data(_NAME)
         problem = ""
         try:
             if name != before and name in self._cameras.all:
-                problem = f"There is a camera “{name}” already: choose another name, or delete that one first."
+                problem = f"A camera “{name}” exists already: choose another name, or delete that camera first."
             elif name != before:
                 self._cameras.rename(before, name)
                 return
@@ -113,7 +113,7 @@ class CamerasDialog(QDialog):
         self._refuse(problem)
 
     def _on_changed(self) -> None:
-        """Show the cameras of now; the one in the place of the chosen one is chosen."""
+        """Refresh the list and keep the selected row."""
         row = self.list.currentRow()
         self._refuse("")
         self._show("")

@@ -1,15 +1,15 @@
-"""The menu of the cameras that are kept."""
+"""Menu of saved cameras."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
-from hexmend_app.state.cameras import Cameras
+from hexmend_app.state.view.saved_cameras import SavedCameras
 
 
 class CamerasMenu(QMenu):
-    """Offers the cameras that are kept by name.
+    """Lists the saved cameras by name.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ class CamerasMenu(QMenu):
 
     chosen = Signal(str)
 
-    def __init__(self, cameras: Cameras, parent: QWidget | None = None):
+    def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
         super().__init__("Go to c&amera", parent)
         self._cameras = cameras
         self.aboutToShow.connect(self._fill)
@@ -37,5 +37,5 @@ class CamerasMenu(QMenu):
         for number, name in enumerate(self._cameras.all, start=1):
             letter = f"&{number % 10}  " if number <= 10 else "     "
             action = self.addAction(letter + name.replace("&", "&&"))
-            action.setStatusTip(f"Look through the camera “{name}”.")
+            action.setStatusTip(f"Apply the camera “{name}”.")
             action.triggered.connect(lambda _=False, name=name: self.chosen.emit(name))

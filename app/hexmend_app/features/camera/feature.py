@@ -1,4 +1,4 @@
-"""Where the view is looked at from."""
+"""Camera of the 3D view: directions, history, and saved cameras."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
-from hexmend_app.feature import Action, Feature, Host, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.eye import Journey
-from hexmend_app.state.scene import Camera, camera_from, camera_text
-from hexmend_app.state.stand import Stand
-from hexmend_app.widgets.questions import ask_camera_name
+from hexmend_app.picture import Camera, camera_from, camera_text
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.state.view.camera_request import PoseHistoryData
+from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -36,19 +36,19 @@ _ROLL = 15
 
 
 class FeatureCamera(Feature):
-    """Brings the camera elsewhere, and back."""
+    """Moves the camera, and saves and restores its pose."""
 
     order = 51
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = Seen()
-        self._cameras = self.session.cameras
+        self._seen = ChangeTracker()
+        self._cameras = self.session.saved_cameras
         self._menu = CamerasMenu(self._cameras, host.dialog_parent)
         self._menu.chosen.connect(self.go)
         self.session.selection.visited.connect(self._fly)
-        self.session.eye.now = self._stand
-        self.session.eye.travelled = self._journey
+        self.session.camera_request.now = self._stand
+        self.session.camera_request.travelled = self._journey
 
     def actions(self) -> Sequence[Action]:
         """Fit, the directions, back and forward, what is up, and how depth is drawn."""
@@ -59,29 +59,29 @@ class FeatureCamera(Feature):
                 menu="View",
                 keys="F",
                 icon="fit-to-page-outline",
-                help="Show all that is shown of the mesh, as large as it can be.",
+                help="Fit everything visible into the view.",
                 tool="Fit",
                 handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
             ),
             *self._directions(),
-            self._move("face", "Face the pl&ane", "Shift+C", "Look straight at the plane of the cut.", self._face,
+            self._move("face", "Face the pl&ane", "Shift+C", "Look perpendicularly at the cutting plane.", self._face,
                        lambda: self._plane is not None, in_view=True),
             self._move("roll_left", "Roll to the &left", "Shift+[", "Turn the picture counter-clockwise.",
                        lambda: self.canvas.roll(_ROLL)),
             self._move("roll_right", "Roll to the ri&ght", "Shift+]", "Turn the picture clockwise.",
                        lambda: self.canvas.roll(-_ROLL)),
-            self._move("view_back", "View &back", "Alt+Left", "Fly to the view before this one.",
+            self._move("view_back", "View &back", "Alt+Left", "Return to the previous view.",
                        lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
-            self._move("view_forward", "View for&ward", "Alt+Right", "Fly to the view that was left by going back.",
+            self._move("view_forward", "View for&ward", "Alt+Right", "Go to the next view.",
                        lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
             *(
                 Action(
                     id=f"up_{axis}",
                     text=f"{axis.upper()} is &up" if axis == "z" else f"{axis.upper()} is up",
                     menu="View/Up",
-                    help=f"Let the {axis.upper()} axis point upwards in every direction that is looked from.",
+                    help=f"Point the {axis.upper()} axis upwards in the standard views.",
                     handle=lambda on, axis=axis: self.canvas.set_up(axis),
                     enabled=self._ready,
                     checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
@@ -89,9 +89,9 @@ class FeatureCamera(Feature):
                 )
                 for axis in "xyz"
             ),
-            self._move("copy_camera", "&Copy camera", "", "Copy where the camera stands, for a picture or another "
+            self._move("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for a picture or another "
                        "window.", self.copy, lambda: self._draws),
-            self._move("paste_camera", "&Paste camera", "", "Look from where a copied text says.", self.paste),
+            self._move("paste_camera", "&Paste camera", "", "Apply the camera from the clipboard.", self.paste),
             *self._kept(),
             Action(
                 id="parallel",
@@ -99,7 +99,7 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 part=3,
                 keys="P",
-                help="Without perspective, for figures.",
+                help="Use parallel projection instead of perspective.",
                 handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
                 checked=lambda: self.canvas is not None and self.canvas.parallel,
@@ -107,7 +107,7 @@ class FeatureCamera(Feature):
         )  # fmt: skip
 
     def _directions(self) -> Iterator[Action]:
-        """Those that look along an axis, or from a corner."""
+        """Yield the actions that look along an axis or from a corner."""
         yield from (
             Action(
                 id=id,
@@ -115,7 +115,7 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 keys=keys,
                 icon=icon,
-                help=f"Look at what is shown from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
+                help=f"Look at the mesh from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
                 tool=tool,
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
@@ -124,26 +124,26 @@ class FeatureCamera(Feature):
         )
 
     def _kept(self) -> Sequence[Action]:
-        """What is done with cameras that are kept by name."""
+        """Return the actions for saved cameras."""
         return (
             Action(
                 id="keep_camera",
-                text="&Keep camera as…",
+                text="&Save camera as…",
                 menu="View/Camera",
                 part=2,
                 keys="Ctrl+Shift+K",
                 icon="camera-plus-outline",
-                help="Keep where the camera stands under a name, to come back to, for pictures and in the session.",
+                help="Save the camera under a name, for later use, for pictures and in the session.",
                 handle=self.ask_name,
                 enabled=lambda: self._draws,
                 submenu=self._menu,
             ),
             Action(
                 id="cameras",
-                text="Kept ca&meras…",
+                text="Saved ca&meras…",
                 menu="View/Camera",
                 part=2,
-                help="Go to a kept camera, rename or delete it.",
+                help="Apply, rename or delete a saved camera.",
                 handle=self.show_cameras,
                 enabled=lambda: self._draws and bool(self._cameras.all),
             ),
@@ -158,11 +158,11 @@ class FeatureCamera(Feature):
 
         Where a session says where the camera is to stand, it does once the session's mesh is drawn.
         """
-        if self.session.eye.wanted is not None and self._draws:
-            self._look_through(self.session.eye.wanted, self.session.eye.journey)
-            self.session.eye.wanted, self.session.eye.journey = None, Journey()
+        if self.session.camera_request.wanted is not None and self._draws:
+            self._look_through(self.session.camera_request.wanted, self.session.camera_request.journey)
+            self.session.camera_request.wanted, self.session.camera_request.journey = None, PoseHistoryData()
         isolated = self.session.view.look.isolation is not None
-        if self.canvas is not None and self._seen.another("isolated", isolated):
+        if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
                 self.canvas.remember_pose()
             else:
@@ -215,10 +215,10 @@ class FeatureCamera(Feature):
         """Keep where the camera stands under a name, or say why not."""
         camera = Camera.at(self.canvas.stand)
         done = f"The camera is kept as “{name}”: View > Camera has it, and so have pictures."
-        self.host.said("The camera was not kept", lambda: self._cameras.keep(name, camera), done)
+        self.host.try_and_report("The camera was not kept", lambda: self._cameras.keep(name, camera), done)
 
     def go(self, name: str) -> None:
-        """Look through a kept camera."""
+        """Apply a saved camera."""
         if self._draws and name in self._cameras.all:
             self._look_through(self._cameras.all[name])
 
@@ -229,12 +229,12 @@ class FeatureCamera(Feature):
         dialog.deleteLater()
 
     def cameras_dialog(self) -> CamerasDialog:
-        """The dialog in which kept cameras are gone to, renamed and deleted."""
+        """Return the dialog that applies, renames and deletes saved cameras."""
         dialog = CamerasDialog(self._cameras, self.host.dialog_parent)
         dialog.chosen.connect(self.go)
         return dialog
 
-    def _look_through(self, camera: Camera, journey: Journey | None = None) -> None:
+    def _look_through(self, camera: Camera, journey: PoseHistoryData | None = None) -> None:
         if camera.stand is not None:
             self.canvas.stand_at(camera.stand, journey)
         else:
@@ -244,17 +244,17 @@ class FeatureCamera(Feature):
 
     @property
     def _draws(self) -> bool:
-        """Whether the view has drawn the open mesh."""
+        """True if the view has drawn the open mesh."""
         frame = None if self.canvas is None else self.canvas.viewport.frame
         return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
 
-    def _stand(self) -> Stand | None:
-        """Where the camera stands."""
+    def _stand(self) -> CameraPose | None:
+        """Return the current pose of the camera."""
         return self.canvas.stand if self._draws else None
 
-    def _journey(self) -> Journey:
-        """Where it has stood."""
-        return self.canvas.journey if self._draws else self.session.eye.journey
+    def _journey(self) -> PoseHistoryData:
+        """Return the history of poses."""
+        return self.canvas.journey if self._draws else self.session.camera_request.journey
 
     def _ready(self) -> bool:
         return self.canvas is not None

@@ -8,12 +8,12 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
-from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, Entry
-from hexmend_app.scene.palette import CHOSEN, FRAME, ON_CHOSEN
-from hexmend_app.state.choices import CompareChoices
-from hexmend_app.widgets.element_table import shape_table
+from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
+from hexmend_app.state.view.panel_settings import ComparisonSettings
+from hexmend_app.theme.palette import CHOSEN, FRAME, ON_CHOSEN
+from hexmend_app.theme.style import MUTED, icon, on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.style import MUTED, dress, explain, icon, smaller, tabular, tint
+from hexmend_app.widgets.tables.hex_table import shape_table
 
 _HINT = "Tick methods and press Run: each begins with the mesh as it is now."
 
@@ -62,20 +62,20 @@ class ComparePanel(QWidget):
         self._model.view_toggled.connect(self.view_toggled)
         self._model.ticked.connect(self._enable)
         self._run = QPushButton(icon("play"), "Run")
-        explain(self._run, "Run the comparison", "Run the ticked methods one after another; the mesh stays as it is.")
+        set_help(self._run, "Run the comparison", "Run the ticked methods one after another; the mesh stays as it is.")
         self._cancel = QPushButton(icon("stop"), "Cancel")
-        explain(
+        set_help(
             self._cancel, "Cancel the comparison", "End after the iteration at hand, and keep what has been reached."
         )
         self._wipe = QPushButton(icon("compare"), "Wipe")
         self._wipe.setCheckable(True)
-        explain(self._wipe, "Wipe", "Lay two views over one another, with an edge between them that is dragged (W).")
+        set_help(self._wipe, "Wipe", "Lay two views over one another, with an edge between them that is dragged (W).")
         self._wipe.toggled.connect(self._paint_wipe)
-        dress(self._wipe, self._paint_wipe)
+        on_theme_change(self._wipe, self._paint_wipe)
         self._take = QPushButton("Take result")
-        explain(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
+        set_help(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
         self._save = QPushButton(icon("content-save-outline"), "")
-        explain(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
+        set_help(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
         self._status.setAccessibleName("Progress of the comparison")
@@ -106,7 +106,7 @@ class ComparePanel(QWidget):
         header.setSortIndicator(METHOD, Qt.SortOrder.AscendingOrder)
         header.setSectionsClickable(True)
         table.setSortingEnabled(True)
-        dress(table, lambda: self._frame_checks(table))
+        on_theme_change(table, lambda: self._frame_checks(table))
         table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         table.selectionModel().selectionChanged.connect(self._enable)
         table.doubleClicked.connect(self._toggle)
@@ -134,20 +134,20 @@ class ComparePanel(QWidget):
         layout.addWidget(self._table, 1)
         layout.addWidget(self._status)
 
-    def set_entries(self, entries: Sequence[Entry], full: bool, busy: bool) -> None:
+    def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Show rows; `full` where there is no room for another view, `busy` while methods are at work."""
         self._names = [one.name for one in entries]
         self._model.fill(entries, full, busy)
         self._fit_columns()
         self._enable()
 
-    def choices(self) -> CompareChoices:
-        """What is set."""
+    def choices(self) -> ComparisonSettings:
+        """Return the panel's settings."""
         header = self._table.horizontalHeader()
         descending = header.sortIndicatorOrder() == Qt.SortOrder.DescendingOrder
-        return CompareChoices(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
+        return ComparisonSettings(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
 
-    def set_choices(self, choices: CompareChoices) -> None:
+    def set_choices(self, choices: ComparisonSettings) -> None:
         """Set all of it."""
         self._model.tick(choices.ticked)
         order = Qt.SortOrder.DescendingOrder if choices.descending else Qt.SortOrder.AscendingOrder
@@ -160,8 +160,8 @@ class ComparePanel(QWidget):
         for column in range(model.columnCount()):
             title = model.headerData(column, Qt.Orientation.Horizontal)
             words = [model.index(row, column).data() for row in range(model.rowCount())]
-            room = _CHECK if column == METHOD else _AROUND
-            inside = max((text.horizontalAdvance(f"{word}0") for word in words if word), default=0) + room
+            space = _CHECK if column == METHOD else _AROUND
+            inside = max((text.horizontalAdvance(f"{word}0") for word in words if word), default=0) + space
             table.setColumnWidth(column, max(head.horizontalAdvance(title) + _AROUND, inside))
 
     def set_state(self, runnable: bool, editable: bool, several: bool, wiping: bool) -> None:
@@ -183,7 +183,7 @@ class ComparePanel(QWidget):
 
     @property
     def can_run(self) -> bool:
-        """Whether methods are ticked, and may run."""
+        """Return True if methods are ticked and may run."""
         return self._runnable and bool(self._model.ticks)
 
     def _chosen(self) -> str:

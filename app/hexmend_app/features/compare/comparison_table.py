@@ -13,7 +13,7 @@ from hexmend.quality import REGRESSION_KEYS
 from hexmend.quantity import Quantity
 from hexmend.report.comparison import LINES, label
 from hexmend.smoothers import METHODS
-from hexmend_app.widgets.style import BETTER, MUTED, WORSE, tabular
+from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
 
@@ -30,7 +30,7 @@ _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
+class ComparisonRow:
     """A row.
 
     Parameters
@@ -56,7 +56,7 @@ class Entry:
 
 
 def title_of(name: str) -> str:
-    """What a row is called: the method's title, or `INITIAL`.
+    """Return the title of a row: the method's title, or `INITIAL`.
 
     >>> title_of("local-sd"), title_of(INITIAL)
     ('Local steepest descent', 'initial')
@@ -64,7 +64,7 @@ def title_of(name: str) -> str:
     return METHODS[name].title if name in METHODS else name
 
 
-def best(entries: Sequence[Entry], figure: Quantity) -> set[str]:
+def best(entries: Sequence[ComparisonRow], figure: Quantity) -> set[str]:
     """Names of the methods whose figure is the best; none where there is nothing to choose.
 
     >>> rows = [Entry("a", "", {"q_min": 0.1}), Entry("b", "", {"q_min": 0.3}), Entry("c", "", {})]
@@ -99,13 +99,13 @@ class ComparisonModel(QAbstractTableModel):
 
     def __init__(self, ticks: Sequence[str], parent: QObject | None = None):
         super().__init__(parent)
-        self.entries: list[Entry] = []
+        self.entries: list[ComparisonRow] = []
         self.ticks = set(ticks)
         self.full = self.busy = False
         self._order = (METHOD, Qt.SortOrder.AscendingOrder)
         self._best: list[set[str]] = [set() for _ in LINES]
 
-    def fill(self, entries: Sequence[Entry], full: bool, busy: bool) -> None:
+    def fill(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
         """Take rows, whether there is no room for another view, and whether methods are at work."""
         entries = self._sorted(entries)
         same = [one.name for one in entries] == [one.name for one in self.entries]
@@ -129,7 +129,7 @@ class ComparisonModel(QAbstractTableModel):
             self.changePersistentIndex(index, self.index(now.index(before[index.row()]), index.column()))
         self.layoutChanged.emit()
 
-    def _sorted(self, entries: Sequence[Entry]) -> list[Entry]:
+    def _sorted(self, entries: Sequence[ComparisonRow]) -> list[ComparisonRow]:
         column, order = self._order
         first = [one for one in entries if one.name == INITIAL]
         known, without = [], []
@@ -139,7 +139,7 @@ class ComparisonModel(QAbstractTableModel):
         known.sort(key=lambda one: self._value(one, column), reverse=order == Qt.SortOrder.DescendingOrder)
         return first + known + without
 
-    def _value(self, entry: Entry, column: int) -> Any:
+    def _value(self, entry: ComparisonRow, column: int) -> Any:
         if column == METHOD:  # those that have run first
             return not entry.record, title_of(entry.name)
         return entry.shown if column == VIEW else entry.record.get(LINES[column - _FIRST].key)
@@ -158,13 +158,13 @@ class ComparisonModel(QAbstractTableModel):
         return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
 
     def flags(self, index: QModelIndex) -> Qt.ItemFlag:
-        entry, plain = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
+        entry, simple = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
         if index.column() == METHOD and entry.name != INITIAL:
-            return plain | _Flag.ItemIsUserCheckable if not self.busy else plain
+            return simple | _Flag.ItemIsUserCheckable if not self.busy else simple
         if index.column() == VIEW:
             free = entry.has_mesh and (entry.shown or not self.full)
-            return plain | _Flag.ItemIsUserCheckable if free else _Flag.ItemIsSelectable
-        return plain
+            return simple | _Flag.ItemIsUserCheckable if free else _Flag.ItemIsSelectable
+        return simple
 
     def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
         entry, column = self.entries[index.row()], index.column()
@@ -185,12 +185,12 @@ class ComparisonModel(QAbstractTableModel):
             return self._emphasis(entry, figure, entry.name in self._best[column - _FIRST], role)
         return None
 
-    def _check(self, entry: Entry, column: int) -> Qt.CheckState | None:
+    def _check(self, entry: ComparisonRow, column: int) -> Qt.CheckState | None:
         if column == METHOD and entry.name != INITIAL:
             return _CHECKS[entry.name in self.ticks]
         return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
 
-    def _emphasis(self, entry: Entry, figure: Quantity, is_best: bool, role: int) -> Any:
+    def _emphasis(self, entry: ComparisonRow, figure: Quantity, is_best: bool, role: int) -> Any:
         if role == _Role.FontRole and is_best:
             font = tabular(QFont())
             font.setBold(True)
@@ -230,7 +230,7 @@ class ComparisonModel(QAbstractTableModel):
         if role == _Role.ToolTipRole:
             words = figure.help if figure else (
                 "What is ticked runs. A click on a column's head sorts by it.",
-                "What is ticked is seen in a view of its own beside the mesh as it is now.",
+                "Selected results are shown in views next to the present mesh.",
             )[section]  # fmt: skip
             return f"<qt>{words}</qt>"
         return None

@@ -13,14 +13,14 @@ from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend.study.table_row import common_power
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend.study.table_row import common_norm
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.compare.compare_panel import ComparePanel
-from hexmend_app.features.compare.comparison_table import INITIAL, Entry, title_of
-from hexmend_app.state.comparison import Compared
-from hexmend_app.state.deeds import Tabled
-from hexmend_app.state.document import State
-from hexmend_app.widgets.export_dialog import TableDialog, answer
+from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.comparison import MethodResult
+from hexmend_app.state.session.user_events import TableExported
+from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
 from hexmend_app.widgets.wording import counted
 
 #: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
@@ -37,8 +37,8 @@ class FeatureCompare(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._comparison, self._views = session.comparison, session.views
-        self._seen = Seen()
+        self._comparison, self._views = session.comparison, session.side_views
+        self._seen = ChangeTracker()
         self._style = ChartStyle()  # what was called what in the last table
         panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(self._run)
@@ -48,7 +48,7 @@ class FeatureCompare(Feature):
         panel.wipe_toggled.connect(self._views.set_wiping)
         panel.save_requested.connect(self.ask)
         panel.offer_changed.connect(host.refresh_soon)
-        session.choices.offer("compare", panel.choices, panel.set_choices)
+        session.panel_settings.register("compare", panel.choices, panel.set_choices)
 
     def actions(self) -> Sequence[Action]:
         """Compare, and end that."""
@@ -82,7 +82,7 @@ class FeatureCompare(Feature):
                 id="compare",
                 title="Compare",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=20,
                 help="What each method makes of the mesh, in a table and in views.",
             ),
@@ -91,9 +91,9 @@ class FeatureCompare(Feature):
     def refresh(self) -> None:
         """Show what the methods reached, and what can be done with it."""
         comparison, views, session = self._comparison, self._views, self.session
-        if self._seen.another("table", comparison.results, comparison.initial, views.all, comparison.busy):
-            power = common_power(one.row for one in comparison.results)
-            entries = [self._initial(power), *(self._entry(name, comparison.of(name), power) for name in METHODS)]
+        if self._seen.changed("table", comparison.results, comparison.initial, views.all, comparison.busy):
+            norm = common_norm(one.row for one in comparison.results)
+            entries = [self._initial(norm), *(self._entry(name, comparison.of(name), norm) for name in METHODS)]
             self.panel.set_entries(entries, views.full, comparison.busy)
         runnable = session.editable and not comparison.busy  # two at once would spoil each other's times
         self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
@@ -108,22 +108,22 @@ class FeatureCompare(Feature):
 
     # The table
 
-    def _initial(self, power: ObjectiveNorm) -> Entry:
+    def _initial(self, norm: ObjectiveNorm) -> ComparisonRow:
         state = self._comparison.initial
         if state is None:
-            return Entry(INITIAL, "The mesh as it is when the methods begin.", {})
+            return ComparisonRow(INITIAL, "The mesh as it is when the methods begin.", {})
         help = "The mesh as it was when the methods began."
-        return Entry(INITIAL, help, _figures(state, power), True, self._views.shows(state))
+        return ComparisonRow(INITIAL, help, _figures(state, norm), True, self._views.shows(state))
 
-    def _entry(self, name: str, compared: Compared | None, power: ObjectiveNorm) -> Entry:
+    def _entry(self, name: str, compared: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
         method = METHODS[name]
         if compared is None:
-            return Entry(name, f"<b>{method.title}</b><br>{method.help}", {})
+            return ComparisonRow(name, f"<b>{method.title}</b><br>{method.help}", {})
         row, state = compared.row, compared.state
         figures = {one.key: getattr(row, one.key, None) for one in LINES}
-        record = figures | (_figures(state, power) if state is not None else {}) | {"worse": row.worse}
+        record = figures | (_figures(state, norm) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
-        return Entry(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
+        return ComparisonRow(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
 
     def _say(self) -> None:
         comparison, done = self._comparison, len(self._comparison.results)
@@ -134,19 +134,19 @@ class FeatureCompare(Feature):
         elif comparison.ending:
             self.panel.set_status(f"Ending {title_of(at.method)} after this iteration…")
         elif at.iteration:
-            further = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
-            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): {further}")
+            additional = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
+            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): {additional}")
         else:
             self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): preparing…")
 
     # What the user asks for
 
     def _run(self, names: list[str]) -> None:
-        self.session.order.use(lambda stage: self._start(names, stage))
+        self.session.run_setup.use(lambda stage: self._start(names, stage))
 
     def _start(self, names: list[str], stage: Stage) -> None:
         if self.session.editable:
-            smoothers = [self.session.order.smoother_of(name) for name in names]
+            smoothers = [self.session.run_setup.smoother_of(name) for name in names]
             if self.session.commands.may_run(*smoothers):
                 self._close_results()
                 self._comparison.start(smoothers, stage.stop)
@@ -176,7 +176,7 @@ class FeatureCompare(Feature):
 
     def dialog(self) -> TableDialog:
         """The dialog that asks: names are as they were last."""
-        record = self._comparison.given().record()
+        record = self._comparison.to_data().record()
         names = ["initial", *(row["method"] for row in record["rows"])]
         proposed = f"{self.host.stem}-comparison.csv"
 
@@ -189,17 +189,17 @@ class FeatureCompare(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""
         names, title = (None, None) if style is None else (style.names, style.title)
-        written = self.host.said(
+        written = self.host.try_and_report(
             "The table was not saved",
-            lambda: write_comparison(Path(path), self._comparison.given().record(), names, title),
+            lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
             f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
         )
         if written:
-            self.session.commands.done.emit(Tabled(Path(path), names, title))
+            self.session.commands.done.emit(TableExported(Path(path), names, title))
         return written
 
 
-def _figures(state: State, power: ObjectiveNorm) -> dict[str, Any]:
+def _figures(state: State, norm: ObjectiveNorm) -> dict[str, Any]:
     """The figures of a mesh, its objective by the p and offset that the table compares by."""
-    own = {"objective": objective(state.figures, *power), "objective_formula": power.formula}
+    own = {"objective": objective(state.figures, *norm), "objective_formula": norm.formula}
     return state.summary.to_dict() | own

@@ -1,4 +1,4 @@
-"""How far the axis of a chart reaches, in steps, so that it seldom changes while a run goes on."""
+"""Range of a chart's axis, rounded to steps so that it seldom changes during a run."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend_app.scene.ticks import nice_ticks
+from hexmend_app.scene.colour.ticks import nice_ticks
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Scale:
 UNIT = Scale(0.0, 1.0, ((0.0, "0"), (0.5, "0.5"), (1.0, "1")))
 
 
-def plain(known: np.ndarray, whole: bool) -> Scale:
+def simple(known: np.ndarray, whole: bool) -> Scale:
     """From zero to beyond the greatest of some values, (k,) float64 without nan; `whole` numbers or not.
 
     >>> plain(np.array([0.0, 4.2]), whole=False)
@@ -58,8 +58,8 @@ def powers(known: np.ndarray, whole: bool) -> Scale:
     ticks = [(float(k), _power(k)) for k in range(math.floor(high), low - 1, -step)]
     if floor is None:
         return Scale(float(low), high, tuple(ticks))
-    apart = [tick for tick in ticks if tick[0] - floor > 0.2 * (high - floor)]
-    return Scale(floor, high, (*apart, (floor, "0")), floor)
+    special = [tick for tick in ticks if tick[0] - floor > 0.2 * (high - floor)]
+    return Scale(floor, high, (*special, (floor, "0")), floor)
 
 
 def _round_up(value: float) -> float:

@@ -1,17 +1,17 @@
-"""What can be plotted of a run."""
+"""Charts that can be plotted for a run."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexmend.iteration.figures import HISTORY, NOTES
+from hexmend.iteration.figures import DIAGNOSTICS, HISTORY
 from hexmend.quantity import Quantity, format_significant
 
 #: The time of one iteration, which the plot takes from the times of two.
 STEP_SECONDS = Quantity(
     "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", format_significant, -1
 )
-_FIGURES = HISTORY | NOTES | {STEP_SECONDS.key: STEP_SECONDS}
+_FIGURES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
 
 
 @dataclass(frozen=True)
@@ -53,12 +53,12 @@ class Chart:
 
     @property
     def help(self) -> str:
-        """What its quantities are."""
+        """Return the help texts of the quantities."""
         return " ".join(one.figure.help for one in self.quantities)
 
 
-def _alone(key: str, title: str = "", **how: bool) -> Chart:
-    return Chart(key, title or _FIGURES[key].label, (Quantity(_FIGURES[key], **how),))
+def _alone(key: str, title: str = "", **style: bool) -> Chart:
+    return Chart(key, title or _FIGURES[key].label, (Quantity(_FIGURES[key], **style),))
 
 
 #: In the order in which it is offered.
@@ -72,7 +72,7 @@ CHARTS: dict[str, Chart] = {
         _alone("gradient_norm", log=True),
         _alone("step_length", log=True),
         _alone("solver_iterations", whole=True),
-        _alone("cuts", whole=True),
+        _alone("backtracks", whole=True),
         _alone("step_seconds", log=True),
         _alone("delta", log=True),
     )

@@ -9,8 +9,8 @@ import numpy as np
 
 from hexmend.iteration.figures import objective_changes
 from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
-from hexmend_app.scene.palette import BLUE, KEPT, Role
-from hexmend_app.state.history import Record
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.palette import BLUE, KEPT, Role
 
 #: Colours of runs, by slot; after the last, the first again.
 RUN_COLOURS = (BLUE, *KEPT)
@@ -26,7 +26,7 @@ class Columns:
     record : Record
     """
 
-    def __init__(self, record: Record):
+    def __init__(self, record: RunRecord):
         self.record = record
         self._known = 0
         self._changes: list[int] = []
@@ -63,8 +63,8 @@ class Columns:
         """Iterations from which on a quantity is another figure: the objective of another stage."""
         return self._changes if key == "objective" else []
 
-    def told(self, key: str) -> bool:
-        """Whether the method tells this at all."""
+    def reports(self, key: str) -> bool:
+        """Return True if the method reports this quantity."""
         return self._known < 2 or bool(np.isfinite(self.of(key)).any())
 
 
@@ -96,18 +96,18 @@ class Curve:
     kept: Callable[[], np.ndarray]
 
     @property
-    def record(self) -> Record:
+    def record(self) -> RunRecord:
         """The run."""
         return self.columns.record
 
     def x(self, by_time: bool) -> np.ndarray:
-        """Where its iterations are on the axis, (k,) float64."""
+        """Return the axis positions of the iterations, (k,) float64."""
         if by_time:
             return self.begins[1] + self.columns.seconds
         return self.begins[0] + np.arange(len(self.columns))
 
     def drawn(self, key: str, by_time: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Where a quantity's line goes, x and y, (k,) float64; nan is a gap, as where the objective becomes another."""
+        """Return x and y of a quantity's line, (k,) float64; nan is a gap, as where the objective changes."""
         breaks = self.columns.breaks(key)
         return np.insert(self.x(by_time), breaks, np.nan), np.insert(self.columns.of(key), breaks, np.nan)
 
@@ -121,8 +121,8 @@ def colour_of(curve: Curve) -> Role:
     return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
 
 
-def beginning(record: Record) -> tuple[float, float]:
-    """Where a run begins on the axes of iterations and of seconds: a branch where it left its parent."""
+def beginning(record: RunRecord) -> tuple[float, float]:
+    """Return the start of a run in iterations and seconds; a branch starts where it left its parent."""
     iteration, seconds = 0.0, 0.0
     while record.parent is not None:
         number, record = record.parent.number, record.parent.record

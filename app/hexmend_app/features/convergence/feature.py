@@ -1,4 +1,4 @@
-"""How runs converge: the lines between the history of runs and the charts that plot it."""
+"""Convergence feature: connects the history of runs to the charts that plot it."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 from superqt.utils import QSignalThrottler
 
 from hexmend.report.charts import ChartStyle
-from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.convergence.chart_file import figure, write_convergence
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning
-from hexmend_app.features.convergence.file import figure, write_convergence
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.state.deeds import Wrote
-from hexmend_app.state.history import Record
-from hexmend_app.state.run import Phase
-from hexmend_app.widgets.export_dialog import ChartDialog, answer
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
 
@@ -31,11 +31,11 @@ class FeatureConvergence(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._document, self._smoothing = session.document, session.smoothing
+        self._document, self._smoothing = session.document, session.run
         timeline = self._timeline = session.timeline
         self._history = session.history
-        self._columns: dict[Record, Columns] = {}
-        self._seen = Seen()
+        self._columns: dict[RunRecord, Columns] = {}
+        self._seen = ChangeTracker()
         self._style = ChartStyle()  # what the last figure was like
         panel = self.panel = ConvergencePanel()
         self._soon = QSignalThrottler(parent=panel)
@@ -46,7 +46,7 @@ class FeatureConvergence(Feature):
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
-        session.choices.offer("charts", panel.head.choices, panel.head.set_choices)
+        session.panel_settings.register("charts", panel.head.choices, panel.head.set_choices)
 
     def panels(self) -> Sequence[Panel]:
         """The charts."""
@@ -55,7 +55,7 @@ class FeatureConvergence(Feature):
                 id="convergence",
                 title="Convergence",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=10,
                 help="How the figures of each run went, iteration by iteration.",
             ),
@@ -67,14 +67,18 @@ class FeatureConvergence(Feature):
             return
         known = [(record, record.newest, record.result) for record in self._history.records]
         if self._smoothing.phase is not Phase.RUNNING:
-            if self._seen.another("curves", known, self._timeline.record, self._timeline.moment, self._smoothing.phase):
+            if self._seen.changed("curves", known, self._timeline.record, self._timeline.moment, self._smoothing.phase):
                 self._show()
         elif not self._timeline.live:
             self._mark()
         if self._smoothing.phase is Phase.RUNNING:
             self._soon.throttle()
 
-    def _on_toggled(self, record: Record, on: bool) -> None:
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
+    def _on_toggled(self, record: RunRecord, on: bool) -> None:
         record.plotted = on
         self._show()
 
@@ -86,7 +90,7 @@ class FeatureConvergence(Feature):
         self.panel.set_curves([self._curve(record) for record in records if len(self._columns[record])])
         self._mark()
 
-    def _curve(self, record: Record) -> Curve:
+    def _curve(self, record: RunRecord) -> Curve:
         return Curve(
             self._columns[record],
             record.slot,
@@ -114,19 +118,19 @@ class FeatureConvergence(Feature):
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
-        deed = self._told(Path())
-        chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-convergence.svg"
+        event = self._report(Path())
+        chart, proposed = figure(*event.given[1:], **event.options), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, "the charts", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""
-        return self.host.said(
+        return self.host.try_and_report(
             "The charts were not saved",
-            lambda: self.session.commands.carry_out(self._told(Path(path), style)),
+            lambda: self.session.commands.export(self._report(Path(path), style)),
             f"Convergence saved to {path}",
         )
 
-    def _told(self, path: Path, style: ChartStyle | None = None) -> Wrote:
+    def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         """The call that writes them."""
         set_to = self.panel.head.choices()
         options = {"by_time": set_to.by_time, "log": set_to.logarithmic, "from_zero": set_to.from_zero}
@@ -135,4 +139,4 @@ class FeatureConvergence(Feature):
         if style is not None:
             options["style"] = style
         values = path, self._document.name, self._history.records, set_to.shown
-        return Wrote("convergence", write_convergence, values, options)
+        return FileExported("convergence", write_convergence, values, options)

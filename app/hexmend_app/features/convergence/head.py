@@ -1,4 +1,4 @@
-"""What stands above the charts of runs: which are drawn, over which axis, and how."""
+"""Controls above the convergence charts: charts shown, axis and scale."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS, FIRST
-from hexmend_app.state.choices import ChartChoices
-from hexmend_app.widgets.menu_button import MenuButton
-from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import icon, smaller
+from hexmend_app.state.view.panel_settings import ChartSettings
+from hexmend_app.theme.style import icon, smaller
+from hexmend_app.widgets.inputs.menu_button import MenuButton
+from hexmend_app.widgets.inputs.segmented import Segmented
 
 _LOG = "Axes by powers of ten, but for quality and the counts of solver iterations and cuts; zero stands below them."
 _FROM_ZERO = "Lay all runs over one another from their start, rather than let a branch begin where it left its parent."
@@ -92,15 +92,15 @@ class ConvergenceHead(QWidget):
 
     @property
     def by_time(self) -> bool:
-        """Whether the axis is of seconds."""
+        """Return True if the axis shows seconds."""
         return self.axis.value() == "time"
 
-    def choices(self) -> ChartChoices:
-        """What is set."""
+    def choices(self) -> ChartSettings:
+        """Return the settings."""
         shown = tuple(key for key, action in self.charts.items() if action.isChecked())
-        return ChartChoices(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
+        return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
 
-    def set_choices(self, choices: ChartChoices) -> None:
+    def set_choices(self, choices: ChartSettings) -> None:
         """Set all of it, and say so."""
         for key, action in self.charts.items():
             action.setChecked(key in choices.shown)

@@ -25,7 +25,7 @@ class _Points(pg.ScatterPlotItem):
 
 
 class RunLine:
-    """What one quantity of one run is drawn with, anew only where it has changed.
+    """Graphics of one quantity of one run, redrawn only where it has changed.
 
     Attributes
     ----------
@@ -38,13 +38,13 @@ class RunLine:
         self.curve = pg.PlotCurveItem(connect="finite", skipFiniteCheck=False)
         self._points = _Points(pen=None)
         self.items = (self.curve, self._points)
-        self._how: tuple = ()
-        self._what: tuple = ()
+        self._style: tuple = ()
+        self._subject: tuple = ()
 
-    def draw(self, how: tuple[str, bool, Qt.PenStyle], what: tuple, find: Callable) -> None:
+    def draw(self, options: tuple[str, bool, Qt.PenStyle], subject: tuple, find: Callable) -> None:
         """Draw in a colour, strongly or not, in a style; `find` gives x and y of `what`."""
-        if how != self._how:
-            name, strong, style = how
+        if options != self._style:
+            name, strong, style = options
             colour = QColor(name)
             colour.setAlphaF(1.0 if strong else 0.65)
             self.curve.setPen(pg.mkPen(colour, width=2.0 if strong else 1.0, style=style))
@@ -52,7 +52,7 @@ class RunLine:
             self._points.setSize(5 if strong else 4)
             for item in self.items:
                 item.setZValue(10 if strong else 0)
-        if what != self._what:
+        if subject != self._subject:
             x, y = find()
             finite = np.isfinite(y)
             self.curve.setData(x, y) if finite.any() else self.curve.clear()
@@ -60,4 +60,4 @@ class RunLine:
             self._points.setVisible(few)
             if few:
                 self._points.setData(x[finite], y[finite])
-        self._how, self._what = how, what
+        self._style, self._subject = options, subject

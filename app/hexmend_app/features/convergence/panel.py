@@ -1,4 +1,4 @@
-"""How runs converge: charts of their figures below one another, and what is plotted in them."""
+"""Convergence panel: charts of the runs' figures below one another, and their settings."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.charts import CHARTS
+from hexmend_app.features.convergence.convergence_plot import ConvergencePlot
 from hexmend_app.features.convergence.curves import Curve
 from hexmend_app.features.convergence.head import ConvergenceHead
-from hexmend_app.features.convergence.plot import ConvergencePlot
+from hexmend_app.features.convergence.point_texts import describe
 from hexmend_app.features.convergence.run_legend import RunLegend
-from hexmend_app.features.convergence.words import describe
-from hexmend_app.scene.ticks import nice_ticks
-from hexmend_app.state.history import Record
+from hexmend_app.scene.colour.ticks import nice_ticks
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.style import note
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import note
 
 _NONE = "No method has run on this mesh yet. Its figures will appear here, iteration by iteration."
 
@@ -61,7 +61,7 @@ class ConvergencePanel(QWidget):
         super().__init__(parent)
         self.curves: Sequence[Curve] = ()
         self._foot: tuple = ()
-        self._shown: tuple[Record, int] | None = None
+        self._shown: tuple[RunRecord, int] | None = None
         self.plots = {key: ConvergencePlot(chart) for key, chart in CHARTS.items()}
         for plot in self.plots.values():
             plot.picked.connect(self.picked)
@@ -99,7 +99,7 @@ class ConvergencePanel(QWidget):
             self._layout.addWidget(part, stretch)
 
     def minimumSizeHint(self) -> QSize:
-        """What the buttons need in a row."""
+        """Return the fixed minimum size, wide enough for the buttons in one row."""
         return QSize(_SIDE + 120, 150)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -108,20 +108,20 @@ class ConvergencePanel(QWidget):
         self._place()
 
     def _place(self) -> None:
-        beside = self.width() >= _WIDE
+        neighbour = self.width() >= _WIDE
         directions = QBoxLayout.Direction
-        self._layout.setDirection(directions.RightToLeft if beside else directions.TopToBottom)
-        self.head.set_in_a_row(not beside)
-        self.side.setMinimumWidth(_SIDE if beside else 0)
-        self.side.setMaximumWidth(_SIDE if beside else _UNBOUNDED)
+        self._layout.setDirection(directions.RightToLeft if neighbour else directions.TopToBottom)
+        self.head.set_in_a_row(not neighbour)
+        self.side.setMinimumWidth(_SIDE if neighbour else 0)
+        self.side.setMaximumWidth(_SIDE if neighbour else _UNBOUNDED)
         row = self.fontMetrics().height() + 3
-        self._runs.setMaximumHeight(_UNBOUNDED if beside else min(2, len(self.curves)) * row)
+        self._runs.setMaximumHeight(_UNBOUNDED if neighbour else min(2, len(self.curves)) * row)
 
     # What is plotted
 
     @property
     def by_time(self) -> bool:
-        """Whether the axis is of seconds."""
+        """Return True if the axis shows seconds."""
         return self.head.by_time
 
     @property
@@ -139,7 +139,7 @@ class ConvergencePanel(QWidget):
         self._place()
         self._redraw()
 
-    def set_shown(self, record: Record | None, number: int = 0) -> None:
+    def set_shown(self, record: RunRecord | None, number: int = 0) -> None:
         """Mark the iteration that the view shows; None where that is none."""
         self._shown = None if record is None else (record, number)
         self._mark()

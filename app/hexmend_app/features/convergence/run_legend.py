@@ -8,10 +8,10 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from hexmend_app.features.convergence.curves import Curve, colour_of
-from hexmend_app.scene.palette import HOVER
-from hexmend_app.state.history import Record
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.theme.palette import HOVER
+from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, smaller
 from hexmend_app.widgets.legend import Swatch
-from hexmend_app.widgets.style import BLUE, MUTED, dress, explain, icon, smaller
 from hexmend_app.widgets.wording import counted
 
 
@@ -38,12 +38,12 @@ class RunLegend(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.rows: dict[Record, RunRow] = {}
+        self.rows: dict[RunRecord, RunRow] = {}
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(1)
         self._layout.addStretch()
-        dress(self, lambda: self.setStyleSheet(_sheet()))
+        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
         """Show these runs."""
@@ -66,7 +66,7 @@ class RunRow(QWidget):
 
     def __init__(self, curve: Curve):
         super().__init__()
-        self._told: tuple = ()
+        self._report: tuple = ()
         self.box = QCheckBox(curve.record.name)
         self.box.setFont(smaller(self.font()))
         self.box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -85,17 +85,17 @@ class RunRow(QWidget):
     def show_curve(self, curve: Curve) -> None:
         """Say what there is of the run now."""
         record = curve.record
-        told = (curve.shown, curve.current, curve.going, record.newest, record.parent)
-        if told == self._told:
+        text = (curve.shown, curve.current, curve.going, record.newest, record.parent)
+        if text == self._report:
             return
-        self._told = told
+        self._report = text
         self.box.setChecked(curve.shown)
         font = self.box.font()
         font.setBold(curve.current)
         self.box.setFont(font)
         branch = f", from {record.parent.name} on" if record.parent is not None else ""
         here = " It is the run that is gone through." if curve.current else ""
-        explain(self.box, record.name, f"Plot {record.title}: {counted(record.newest, 'iteration')}{branch}.{here}")
+        set_help(self.box, record.name, f"Plot {record.title}: {counted(record.newest, 'iteration')}{branch}.{here}")
         self.cross.setEnabled(not curve.going)
         help = "It goes on: stop it first." if curve.going else "Its figures and iterations are gone then."
-        explain(self.cross, f"Forget {record.name}", f"Keep {record.name} no longer. {help}")
+        set_help(self.cross, f"Forget {record.name}", f"Keep {record.name} no longer. {help}")

@@ -1,4 +1,4 @@
-"""Where the sides of a clipping box stand."""
+"""Page that edits the sides of a clipping box."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 from superqt import QRangeSlider
 
-from hexmend_app.widgets.style import explain, smaller, tabular
+from hexmend_app.theme.style import set_help, smaller, tabular
 from hexmend_app.widgets.wording import position
 
 _TICKS = 1000
@@ -41,7 +41,7 @@ class BoxPage(QWidget):
             slider.setPageStep(_TICKS // 20)
             slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             help = f"Where the box begins and ends along {name}. Drag an end, or what is between them to move both."
-            explain(slider, f"{name} of the box", help)
+            set_help(slider, f"{name} of the box", help)
             slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
             text = QLabel()
             text.setFont(tabular(smaller(text.font())))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
-from hexmend_app.features.cut.clip_panel import ClipPanel
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.cut.cut_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.scene.frame import Frame
-from hexmend_app.state.choices import CutChoices
-from hexmend_app.state.clip import CutLeft
+from hexmend_app.picture.cut_planes import CutLeft
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.state.view.panel_settings import CutPanelSettings
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -25,14 +25,14 @@ class FeatureCut(Feature):
         super().__init__(host)
         view = self._view = self.session.view
         view.left = self._left
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         self.panel = ClipPanel()
         self.panel.clip_changed.connect(view.set_clip)
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
-        self._proposed: CutChoices | None = None  # by a session: after the mesh, for which cuts are proposed anew
-        self.session.choices.offer("cut", self.panel.choices, self._propose)
+        self._proposed: CutPanelSettings | None = None  # by a session: after the mesh, for which cuts are proposed anew
+        self.session.panel_settings.register("cut", self.panel.choices, self._propose)
         self.inside = InsidePanel()
         self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
         self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
@@ -40,7 +40,7 @@ class FeatureCut(Feature):
         self.inside.rings_changed.connect(view.set_rings)
         self.inside.all_requested.connect(view.end_isolation)
         self.inside.undo_requested.connect(view.undig_last)
-        self.inside.put_back_requested.connect(view.undig_all)
+        self.inside.restore_requested.connect(view.undig_all)
 
     def actions(self) -> Sequence[Action]:
         """Cut, isolate, dig."""
@@ -101,7 +101,7 @@ class FeatureCut(Feature):
                 id="cut",
                 title="Cut",
                 widget=self.panel,
-                place=Place.TOOLS,
+                place=PanelPlace.TOOLS,
                 tab="Cut",
                 order=30,
                 help="Planes or a box that cut the mesh open.",
@@ -110,7 +110,7 @@ class FeatureCut(Feature):
                 id="inside",
                 title="Inside",
                 widget=self.inside,
-                place=Place.TOOLS,
+                place=PanelPlace.TOOLS,
                 tab="Cut",
                 order=31,
                 help="Layers peeled off, hexes shrunk, isolated or dug away.",
@@ -131,11 +131,11 @@ class FeatureCut(Feature):
         if not document.is_open:
             return
         # Before the bounds: what is not cut is proposed anew in another mesh.
-        seen = not self._seen.another("clip", document.start, view.look.clip, view.plane_at, view.handles)
+        seen = not self._seen.changed("cut", document.start, view.look.clip, view.plane_at, view.handles)
         if not seen or self.panel.clip() != view.look.clip:  # switched off and on again between two looks
             self.panel.set_clip(view.look.clip, view.plane_at)
             self.panel.set_handles(view.handles)
-        if self._seen.another("mesh", document.start):
+        if self._seen.changed("mesh", document.start):
             mesh = document.now.mesh
             self.inside.set_layers(int(mesh.topology.layers.max()))
             points = mesh.points[mesh.topology.used]
@@ -148,15 +148,19 @@ class FeatureCut(Feature):
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
     def _left(self) -> CutLeft | None:
-        """What the cut has left of the mesh as it is now, where one made now would leave others."""
+        """Return the hexes left by the cut if cutting the current mesh again would leave other hexes."""
         document, look = self.session.document, self._view.look
         filters = None if self.canvas is None else self.canvas.viewport.filters
         if filters is None or not document.is_open or not filters.suit(document.now.mesh):
             return look.left
         return filters.cut_left(Frame(document.now.mesh, document.now.figures, look=look))
 
-    def _propose(self, choices: CutChoices) -> None:
+    def _propose(self, choices: CutPanelSettings) -> None:
         self._proposed = choices
 
     def _switch(self, on: bool) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
 
-from hexmend_app.scene.skin import WHOLE
-from hexmend_app.state.look import Look
-from hexmend_app.widgets.slider_box import SliderBox
-from hexmend_app.widgets.style import explain, icon, note, tabular
+from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.geometry.skin import WHOLE
+from hexmend_app.theme.style import icon, note, set_help, tabular
+from hexmend_app.widgets.inputs.slider_box import SliderBox
 from hexmend_app.widgets.wording import counted
 
 _MOST_SHRUNK = 60  # per cent
@@ -20,18 +20,18 @@ _PEEL = (
 )
 _NO_LAYERS = "Nothing to peel: every hex has a face on the boundary."
 _SHRINK = (
-    "Draw each hex smaller, about its centre, to see its shape and what lies behind it. Of more than "
+    "Draw each hex smaller, about its centre, to see its shape and the hexes behind it. Of more than "
     f"{WHOLE:,} hexes only those with a face in sight are drawn, and their sides when the view rests."
 )
 _CUT_SMOOTHLY = "Hexes that are cut through cannot be shrunk: choose <i>Whole hexes</i> for the cut."
 _RINGS = (
-    "How much stands as ghosts around the hexes that are isolated: ring 1 are those that share a node with them, "
+    "Number of rings of hexes shown as ghosts around the isolated hexes: ring 1 are those that share a node with them, "
     "ring 2 those that share one with ring 1, and so on."
 )
 
 
 class InsidePanel(QWidget):
-    """Hides elements to show those behind them.
+    """Hides hexes to show the hexes behind them.
 
     Attributes
     ----------
@@ -43,9 +43,9 @@ class InsidePanel(QWidget):
     peel_changed(int), shrink_changed(float), rings_changed(int), outline_changed(bool)
         The user chose; shrink is a share.
     all_requested
-        Isolate no more.
+        End the isolation.
     undo_requested, put_back_requested
-        Bring back the hex that was dug away last, or all.
+        Restore the hex that was dug away last, or all.
     """
 
     peel_changed = Signal(int)
@@ -54,7 +54,7 @@ class InsidePanel(QWidget):
     outline_changed = Signal(bool)
     all_requested = Signal()
     undo_requested = Signal()
-    put_back_requested = Signal()
+    restore_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -67,20 +67,20 @@ class InsidePanel(QWidget):
         self._rings.setRange(0, _MOST_RINGS)
         self._rings.setFont(tabular(self._rings.font()))
         self._rings.setFixedWidth(width)
-        explain(self._rings, "Rings around what is isolated", _RINGS)
+        set_help(self._rings, "Rings around what is isolated", _RINGS)
         self.isolated = QLabel()
         self._all = QPushButton("All")
         self._all.setFixedWidth(44)  # the style's 80 pixels are more than the column has
-        explain(self._all, "Show all", "End the isolation: show again what is around.")
+        set_help(self._all, "Show all", "End the isolation and show all hexes.")
         self.dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
-        explain(self._undo, "Undo digging", "Bring back the hex that was dug away last.")
-        self._put_back = QPushButton(icon("restore"), "")
-        for button in (self._undo, self._put_back):
+        set_help(self._undo, "Undo digging", "Restore the hex that was dug away last.")
+        self._restore = QPushButton(icon("restore"), "")
+        for button in (self._undo, self._restore):
             button.setFixedWidth(34)
-        explain(self._put_back, "Put back", "Bring back all hexes that were dug away.")
+        set_help(self._restore, "Restore all", "Restore all hexes that were dug away.")
         self._outline = QCheckBox("Sharp edges and outline")
-        explain(
+        set_help(
             self._outline,
             "Sharp edges and outline",
             "Draw where the boundary has an edge; where a part is hidden, paler; of a round body, its shade.",
@@ -96,7 +96,7 @@ class InsidePanel(QWidget):
         self._rings.valueChanged.connect(self.rings_changed)
         self._all.clicked.connect(self.all_requested)
         self._undo.clicked.connect(self.undo_requested)
-        self._put_back.clicked.connect(self.put_back_requested)
+        self._restore.clicked.connect(self.restore_requested)
         self._outline.clicked.connect(self.outline_changed)
         self.set_layers(0)
         self.set_look(Look(), 1)
@@ -109,7 +109,7 @@ class InsidePanel(QWidget):
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
         lines = QHBoxLayout(), QHBoxLayout()
-        groups = (self.isolated, self._all), (self.dug, self._undo, self._put_back)
+        groups = (self.isolated, self._all), (self.dug, self._undo, self._restore)
         for line, parts in zip(lines, groups, strict=True):
             line.setSpacing(8)
             for part in parts:
@@ -127,7 +127,7 @@ class InsidePanel(QWidget):
         grid.addWidget(self.shown, 6, 0, 1, 2)
 
     def set_layers(self, layers: int) -> None:
-        """Take the number of layers that can be peeled before nothing is left; without a signal."""
+        """Set the number of layers that can be peeled; without a signal."""
         self._peel.set_most(layers)
         self._peel.set_help(_PEEL if layers else _NO_LAYERS)
         self._peel.setEnabled(layers > 0)
@@ -146,12 +146,12 @@ class InsidePanel(QWidget):
         self.isolated.setText(f"{counted(isolated, 'hex')} isolated" if isolated else "Nothing isolated")
         self._all.setEnabled(look.isolation is not None)
         self.dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "Nothing dug away")
-        for button in (self._undo, self._put_back):
+        for button in (self._undo, self._restore):
             button.setEnabled(bool(look.dug))
         self._outline.setChecked(look.outline)
 
     def set_shown(self, shown: int, total: int) -> None:
-        """Say how many elements of how many are shown, whole or in part; 0 of 0 without a mesh."""
+        """Show how many hexes of the total are shown, whole or in part; 0 of 0 without a mesh."""
         if shown == 0 < total:
             self.shown.setText(f"None of {counted(total, 'hex')} is left to show.")
             return

@@ -1,4 +1,4 @@
-"""Where one clipping plane stands."""
+"""Page that edits one clipping plane."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QSlider, QWidget
 
-from hexmend_app.state.clip import ClipPlane
-from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import explain, icon, tabular
+from hexmend_app.picture.cut_planes import ClipPlane
+from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import position
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -18,7 +18,7 @@ _TICKS = 1000
 
 
 class PlanePage(QWidget):
-    """Sets a plane straight, moves it and exchanges its sides.
+    """Aligns a plane with an axis, moves it and flips it.
 
     The slider walks along the plane's axis through the mesh's bounds, in the direction of the axis also where the plane
     is flipped.
@@ -37,33 +37,33 @@ class PlanePage(QWidget):
         self._plane = ClipPlane()
         self._axis = Segmented(
             "Axis",
-            [(key, key.upper(), f"A plane across the {key.upper()} axis.") for key in _AXES]
-            + [("free", "Free", "For a plane that has been turned in the view; choose X, Y or Z to set it straight.")],
+            [(key, key.upper(), f"A plane normal to the {key.upper()} axis.") for key in _AXES]
+            + [("free", "Free", "A plane rotated in the view; choose X, Y or Z to align it with an axis.")],
         )
         self._flip = QPushButton(icon("swap-horizontal"), "")
         self._flip.setFixedWidth(34)
-        explain(self._flip, "Flip", "Hide the other side of the plane.")
+        set_help(self._flip, "Flip", "Hide the other side of the plane.")
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
         self._slider.setPageStep(_TICKS // 20)
-        explain(self._slider, "Position", "Where the plane stands; arrow keys move it by a thousandth of the mesh.")
+        set_help(self._slider, "Position", "Position of the plane; arrow keys move it by a thousandth of the mesh.")
         self._value = QLabel()
         self._value.setFont(tabular(self._value.font()))
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
-        explain(self._value, "Position in mesh units", "Position along the plane's axis in the mesh's unit of length.")
+        set_help(self._value, "Position in mesh units", "Position along the plane's axis in the mesh's unit of length.")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
         grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
-        for row, (text, widget, beside) in enumerate(
+        for row, (text, widget, neighbour) in enumerate(
             (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
         ):
             label = QLabel(text)
             label.setBuddy(widget)
-            for column, part in enumerate((label, widget, beside)):
+            for column, part in enumerate((label, widget, neighbour)):
                 grid.addWidget(part, row, column)
 
         self._axis.chosen.connect(self._on_axis)
@@ -87,7 +87,7 @@ class PlanePage(QWidget):
         return normal if normal[np.argmax(np.abs(normal).round(9))] > 0 else -normal
 
     def _span(self) -> tuple[float, float]:
-        """Lowest and highest place of the mesh's bounds along the slider's axis."""
+        """Return the lowest and highest position of the mesh's bounds along the slider's axis."""
         direction = self._direction()
         ends = self._bounds * direction
         return float(ends.min(axis=0).sum()), float(ends.max(axis=0).sum())

@@ -1,22 +1,22 @@
-"""Which of several clipping planes is the one that is moved."""
+"""Row that selects, adds and removes clipping planes."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
 
-from hexmend_app.widgets.style import explain, icon
+from hexmend_app.theme.style import icon, set_help
 
-_SNAP = "A plane that is turned in the view is set straight where it comes near to an axis."
+_SNAP = "Align a plane with an axis when it is rotated close to the axis."
 
 
 class PlaneRow(QWidget):
-    """Numbers the planes; adds one and takes one away.
+    """Lists the planes by number; adds and removes planes.
 
     Parameters
     ----------
     most : int
-        So many planes there can be.
+        Largest number of planes.
 
     Signals
     -------
@@ -38,15 +38,15 @@ class PlaneRow(QWidget):
         self._tabs.setExpanding(False)
         self._tabs.setUsesScrollButtons(True)
         self._tabs.setMinimumWidth(64)  # or it asks for twice as much where there is one plane
-        explain(self._tabs, "Plane", "The plane that is moved here and in the view.")
+        set_help(self._tabs, "Plane", "The plane that is edited here and in the view.")
         self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
         for button in (self._add, self._remove):
             button.setFixedWidth(30)
-        explain(self._add, "Add a plane", "Cut along one more plane.")
-        explain(self._remove, "Remove the plane", "Cut along this plane no more.")
+        set_help(self._add, "Add a plane", "Add a cutting plane.")
+        set_help(self._remove, "Remove the plane", "Remove this plane.")
         self._snap = QCheckBox("Snap")
         self._snap.setChecked(True)
-        explain(self._snap, "Snap to the axes", _SNAP)
+        set_help(self._snap, "Snap to the axes", _SNAP)
         label = QLabel("Plane")
         label.setBuddy(self._tabs)
         row = QHBoxLayout(self)
@@ -62,7 +62,7 @@ class PlaneRow(QWidget):
         self.set_planes(1, 0)
 
     def set_planes(self, count: int, at: int) -> None:
-        """Show so many planes, of which one is chosen; without a signal."""
+        """Show `count` planes and select plane `at`; without a signal."""
         with QSignalBlocker(self._tabs):
             while self._tabs.count() < count:
                 self._tabs.addTab(str(self._tabs.count() + 1))

@@ -1,4 +1,4 @@
-"""What is wrong with the mesh besides its shape: a row for each finding, with what shows it and what mends it."""
+"""Panel of mesh problems: one row for each finding, with buttons to show and repair it."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.doctor import PROBLEMS, Finding
+from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import explain, icon, note
 
-_LOOKING = "The mesh is being examined."
-_HEALTHY = "Nothing is wrong with the mesh but, perhaps, the shape of its hexes."
+_LOOKING = "Checking the mesh…"
+_HEALTHY = "No problems found. The doctor does not check the quality of the hexes."
 
 
 class DoctorPanel(QWidget):
@@ -29,9 +29,9 @@ class DoctorPanel(QWidget):
     Signals
     -------
     show_requested(int)
-        The user wants to see where this finding is, counted from 0.
+        The user wants to see this finding, counted from 0.
     mend_requested(list)
-        The user wants these kinds of trouble mended; all that can be if it is empty.
+        The user wants these kinds of problem repaired; an empty list means all.
     """
 
     show_requested = Signal(int)
@@ -40,8 +40,10 @@ class DoctorPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._head = note(_LOOKING)
-        self._all = QPushButton(icon("bandage"), "Mend all")
-        explain(self._all, "Mend all", "Mend whatever can be mended, in the right order; Undo takes it back.")
+        self._all = QPushButton(icon("bandage"), "Repair all")
+        set_help(
+            self._all, "Repair all", "Repair all problems that can be repaired, in the right order; Undo reverts it."
+        )
         self._all.clicked.connect(lambda: self.mend_requested.emit([]))
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
@@ -62,7 +64,7 @@ class DoctorPanel(QWidget):
         self.show_findings(None)
 
     def show_findings(self, findings: Sequence[Finding] | None, problem: str = "") -> None:
-        """List these; None while the mesh is being examined, or why it could not be."""
+        """List the findings; None while the mesh is being checked, with `problem` if the check failed."""
         while (item := self._rows.takeAt(0)) is not None:
             item.widget().hide()
             item.widget().deleteLater()
@@ -71,13 +73,13 @@ class DoctorPanel(QWidget):
             self._head.setText(problem or _LOOKING)
         else:
             count = len(findings)
-            self._head.setText(f"{count} thing{'s' * (count != 1)} to know of this mesh:" if count else _HEALTHY)
+            self._head.setText(f"{count} finding{'s' * (count != 1)}:" if count else _HEALTHY)
         for row, one in enumerate(findings or ()):
             self._add(row, one)
         self._all.setVisible(len(self._mends) > 1)
 
     def set_busy(self, busy: bool) -> None:
-        """Say whether the mesh may be changed by hand now."""
+        """Disable the repair buttons while the mesh cannot be edited."""
         for button in (self._all, *self._mends):
             button.setEnabled(not busy)
 
@@ -93,13 +95,13 @@ class DoctorPanel(QWidget):
         title = PROBLEMS[one.kind].title
         if one.location_text():
             show = QPushButton(icon("eye-outline"), "Show")
-            explain(show, f"Show: {title}", "Show nothing but these hexes and their neighbours; Esc brings all back.")
+            set_help(show, f"Show: {title}", "Show only these hexes and their neighbours; Esc shows all.")
             show.clicked.connect(lambda _=False, row=row: self.show_requested.emit(row))
             self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)
         if one.mendable:
-            mend = QPushButton(icon("bandage"), "Mend")
+            mend = QPushButton(icon("bandage"), "Repair")
             action = PROBLEMS[one.kind].action
-            explain(mend, f"Mend: {title}", f"{action[:1].upper()}{action[1:]}. Undo takes it back.")
+            set_help(mend, f"Repair: {title}", f"{action[:1].upper()}{action[1:]}. Undo reverts it.")
             mend.clicked.connect(lambda _=False, kind=one.kind: self.mend_requested.emit([kind]))
             self._rows.addWidget(mend, row, 2, Qt.AlignmentFlag.AlignTop)
             self._mends.append(mend)

@@ -1,4 +1,4 @@
-"""The import doctor: what is wrong with the mesh besides its shape, where, and what mends it."""
+"""Import doctor: finds problems of the mesh other than its quality, and repairs them."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import numpy as np
 
 from hexmend.doctor import Finding
 from hexmend.errors import HexmendError
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
 
 
 class FeatureDoctor(Feature):
-    """Examines the mesh where somebody looks at that, shows where its troubles are, and mends them."""
+    """Checks the mesh while the panel is visible, shows the problems, and repairs them."""
 
     order = 54
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         self._listed: tuple[Finding, ...] = ()
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
@@ -31,7 +31,7 @@ class FeatureDoctor(Feature):
         repairer.cancelled.connect(self._on_cancelled)
 
     def actions(self) -> Sequence[Action]:
-        """The panel, and mending at once."""
+        """Return the actions that open the panel and repair all problems."""
         return (
             Action(
                 id="doctor",
@@ -39,16 +39,16 @@ class FeatureDoctor(Feature):
                 menu="Edit",
                 part=1,
                 icon="stethoscope",
-                help="Find what is wrong with the mesh besides its shape: numbering, unmerged blocks, duplicates.",
+                help="Find problems of the mesh other than quality: numbering, unmerged blocks, duplicates.",
                 handle=lambda: self.host.show_panel("doctor"),
             ),
             Action(
                 id="repair",
-                text="&Mend what the doctor finds",
+                text="&Repair what the doctor finds",
                 menu="Edit",
                 part=1,
                 icon="bandage",
-                help="Mend numbering, unmerged blocks, duplicates and unused nodes; Undo takes it back.",
+                help="Repair numbering, unmerged blocks, duplicates and unused nodes; Undo reverts it.",
                 handle=lambda: self._mend([]),
                 enabled=lambda: self.session.editable,
             ),
@@ -61,24 +61,24 @@ class FeatureDoctor(Feature):
                 id="doctor",
                 title="Doctor",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=60,
-                help="What is wrong with the mesh besides its shape, where, and what mends it.",
+                help="Problems of the mesh other than quality, their location, and their repair.",
             ),
         )
 
     def refresh(self) -> None:
-        """List what is found in the mesh as it is, where somebody looks."""
+        """List the findings of the current mesh if the panel is visible."""
         session = self.session
         self.panel.set_busy(not session.editable)
-        if not session.document.is_open or not self.panel.isVisible() or session.smoothing.busy:
+        if not session.document.is_open or not self.panel.isVisible() or session.run.busy:
             return
         mesh = session.document.now.mesh
-        session.examiner.ask(mesh)
-        findings, error = session.examiner.of(mesh), session.examiner.error
-        if self._seen.another("findings", findings, error, mesh):
+        session.mesh_checker.ask(mesh)
+        findings, error = session.mesh_checker.of(mesh), session.mesh_checker.error
+        if self._seen.changed("findings", findings, error, mesh):
             self._listed = findings or ()
-            self.panel.show_findings(findings, f"It could not be examined: {error}" if error else "")
+            self.panel.show_findings(findings, f"The mesh could not be checked: {error}" if error else "")
             self.panel.set_busy(not session.editable)
 
     def _show(self, row: int) -> None:
@@ -96,15 +96,15 @@ class FeatureDoctor(Feature):
         self.session.commands.repair(kinds)
 
     def _on_began(self) -> None:
-        help = "Leave the mesh as it is."
+        help = "Cancel the repair; the mesh stays unchanged."
         self.host.busy.show_work("repair", "Repairing the mesh…", "Cancel", help, self.session.repairer.cancel)
         self.host.refresh_soon()
 
     def _on_ended(self, mended: tuple[Finding, ...]) -> None:
         self.host.busy.done("repair")
         messages = " ".join(finding.message for finding in mended)
-        nothing = "The doctor finds nothing that it can mend."
-        self.host.messages.show_info(f"Mended: {messages}" if mended else nothing)
+        nothing = "The doctor found nothing to repair."
+        self.host.messages.show_info(f"Repaired: {messages}" if mended else nothing)
         self.host.refresh_soon()
 
     def _on_failed(self, error: Exception) -> None:

@@ -45,7 +45,7 @@ class FeatureEdit(Feature):
     @property
     def _undo(self) -> str | None:
         document = self.session.document
-        return self.session.stepping.title or (document.undo_title if document.is_open else None)
+        return self.session.node_sweep.title or (document.undo_title if document.is_open else None)
 
     @property
     def _redo(self) -> str | None:

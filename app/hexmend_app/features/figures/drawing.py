@@ -13,18 +13,18 @@ from hexmend.report.charts import check_matplotlib
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import write_recipe
 from hexmend.study.table_row import Row
-from hexmend_app.report.captions import write_captions
+from hexmend_app.picture import Scene, write_scene
 from hexmend_app.report.case import Case, Version, command_line
+from hexmend_app.report.figure_captions import write_captions
 from hexmend_app.report.figure_set import Figure, Style, write_figures
-from hexmend_app.scene.graphics import prepare_off_screen
-from hexmend_app.state.record import Record
-from hexmend_app.state.scene import Scene, write_scene
+from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend_app.state.mesh.run_record import RunRecord
 
 #: Kinds of file that every figure is written as.
 _FORMATS = ("png", "pdf", "svg")
 
 #: A version of the mesh: its name, and the mesh, what a comparison knows of it, or an iteration of a run.
-Shown = tuple[str, Mesh] | tuple[str, Row] | tuple[str, Record, int, Mesh]
+Shown = tuple[str, Mesh] | tuple[str, Row] | tuple[str, RunRecord, int, Mesh]
 
 
 def write_set(
@@ -41,11 +41,11 @@ def write_set(
     Parameters
     ----------
     folder : path-like
-        It is made.
+        Created if missing.
     title : str
-        Above the captions.
+        Title above the captions.
     mesh : str
-        What captions call the mesh.
+        Name of the mesh in the captions.
     scene : Scene
         Camera, cut and colours.
     shown : sequence
@@ -54,12 +54,12 @@ def write_set(
     recipes : mapping
         What makes these from the first, by the names of the files that they go to.
     file : str
-        The mesh's, in the commands that draw a figure again.
+        Name of the mesh file in the commands that draw a figure again.
 
     Raises
     ------
     HexmendError
-        Where nothing can be drawn here, or a file cannot be written.
+        If drawing off screen is impossible or a file cannot be written.
     """
     prepare_off_screen()
     prepare(Path(folder), scene, recipes)
@@ -97,24 +97,24 @@ def draw(
 
 
 def case(mesh: str, shown: Sequence[Shown]) -> Case:
-    """What a set tells of."""
+    """Return the case that a figure set describes."""
     return Case(mesh, None, tuple(map(_version, shown)))
 
 
 def _version(one: Shown) -> Version:
-    name, what, *moment = one
-    if isinstance(what, Mesh):
-        return Version.of(name, what)
-    if isinstance(what, Row):
-        return Version.of(name, what.mesh, what)
+    name, subject, *moment = one
+    if isinstance(subject, Mesh):
+        return Version.of(name, subject)
+    if isinstance(subject, Row):
+        return Version.of(name, subject.mesh, subject)
     number, mesh = moment
-    rows = what.rows[: number + 1]
-    version = Version.of(name, mesh, _row(what, number, mesh))
-    return replace(version, history=rows, advice=what.advice)
+    rows = subject.rows[: number + 1]
+    version = Version.of(name, mesh, _row(subject, number, mesh))
+    return replace(version, history=rows, advice=subject.advice)
 
 
-def _row(record: Record, number: int, mesh: Mesh) -> Row:
-    """An iteration, as a comparison has its methods."""
+def _row(record: RunRecord, number: int, mesh: Mesh) -> Row:
+    """Return an iteration of a run as a row of a comparison."""
     seconds = float(record.rows[number]["seconds"])
     ended = "" if number == record.result else "stopped"
     summary = summarise(mesh, measure(mesh.points, mesh.hexes))

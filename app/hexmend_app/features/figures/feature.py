@@ -1,4 +1,4 @@
-"""The figure set, drawn figure by figure while the window goes on."""
+"""Export of the figure set, figure by figure in the background."""
 
 from __future__ import annotations
 
@@ -7,22 +7,24 @@ from pathlib import Path
 
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.state.deeds import Wrote
-from hexmend_app.state.scene import Page
-from hexmend_app.widgets.pieces import Pieces
-from hexmend_app.widgets.questions import ask_figures
+from hexmend_app.picture import Page
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.widgets.dialogs.questions import ask_figures
+from hexmend_app.widgets.incremental_task import IncrementalTask
 
 
 class FeatureFigures(Feature):
-    """Writes pictures before and after as they are looked at, plots and the table into a folder."""
+    """Writes pictures before and after, plots and the table into a folder."""
 
     order = 13
 
     def __init__(self, host: Host):
         super().__init__(host)
         self._folder = Path()
-        self._deed: Wrote | None = None
-        self._drawing = Pieces(host.busy, "figures", "Give the rest up; what is written stays.", self)
+        self._event: FileExported | None = None
+        self._drawing = IncrementalTask(
+            host.busy, "figures", "Cancel the export; files already written are kept.", self
+        )
         self._drawing.finished.connect(self._on_drawn)
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
@@ -38,7 +40,7 @@ class FeatureFigures(Feature):
                 icon="image-multiple-outline",
                 help="Save before and after, distributions, convergence and the table, with captions and commands.",
                 handle=self.ask,
-                enabled=lambda: self.canvas is not None and not self.session.smoothing.busy and not self.going_on,
+                enabled=lambda: self.canvas is not None and not self.session.run.busy and not self.going_on,
             ),
         )
 
@@ -48,7 +50,7 @@ class FeatureFigures(Feature):
 
     @property
     def going_on(self) -> bool:
-        """Whether figures are being drawn."""
+        """True while figures are being drawn."""
         return self._drawing.going_on
 
     def ask(self) -> None:
@@ -76,25 +78,25 @@ class FeatureFigures(Feature):
 
         document = self.session.document
         page = Page(pixels=(self.canvas.width(), self.canvas.height()))
-        scene = stationary(self.canvas.scene(page, self.session.cameras.all))
+        scene = stationary(self.canvas.scene(page, self.session.saved_cameras.all))
         recipes, shown = recipes_of(self.session), shown_in(self.session)
         prepare(folder, scene, recipes)
         values = folder, self.host.stem, document.now.mesh.name, scene, shown, recipes
         file = () if document.path is None else (str(document.path),)
         self._folder = folder
-        self._deed = Wrote("figure set", write_set, (*values, *file))
-        self._drawing.begin(draw(*self._deed.given), _said)
+        self._event = FileExported("figure set", write_set, (*values, *file))
+        self._drawing.begin(draw(*self._event.given), _text)
 
     def _on_failed(self, error: Exception) -> None:
         self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
 
     def _on_drawn(self) -> None:
         self.host.messages.show_info(f"Figure set saved to {self._folder}")
-        self.session.commands.done.emit(self._deed)
+        self.session.commands.done.emit(self._event)
 
 
-def _said(drawn: int) -> str:
-    """What is being done once so many figures are drawn."""
+def _text(drawn: int) -> str:
+    """Describe the progress after a number of figures."""
     from hexmend_app.report.figure_set import PARTS
 
     at = min(drawn, len(PARTS) - 1)

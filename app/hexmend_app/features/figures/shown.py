@@ -1,4 +1,4 @@
-"""What a window's figure set shows: the mesh as it was opened, as it is now, and as compared methods left it."""
+"""Versions of the mesh in a figure set: as opened, current, and the results of compared methods."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from hexmend.parameters import from_values
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.report.case import INITIAL
-from hexmend_app.state.document import State
-from hexmend_app.state.session import Session
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.session.session import Session
 
 #: Meshes beside one another in a figure at most.
 _MOST = 12
 
 
 def shown_in(session: Session) -> list[tuple]:
-    """What is shown, as deeds take it: states stand for their meshes; of what is the same mesh, the first alone."""
+    """Return the versions shown, as events record them: states in place of meshes, without duplicates."""
     document = session.document
     found = [(document.start, (INITIAL, document.start)), (document.now, _now(session))]
     for one in session.comparison.results:
@@ -25,20 +25,20 @@ def shown_in(session: Session) -> list[tuple]:
             title = METHODS[one.row.method].title if one.row.method in METHODS else one.row.method
             found.append((one.state, (title, one.row)))
     shown: list[tuple[State, tuple]] = []
-    for state, told in found:
+    for state, text in found:
         if all(state.mesh.points is not other.mesh.points for other, _ in shown):
-            shown.append((state, told))
+            shown.append((state, text))
     names: set[str] = set()
     versions = []
-    for place, (_, (name, *what)) in enumerate(shown[:_MOST]):
+    for place, (_, (name, *subject)) in enumerate(shown[:_MOST]):
         own = f"{name} ({place})" if name in names else name  # a method may have been run and compared
         names.add(own)
-        versions.append((own, *what))
+        versions.append((own, *subject))
     return versions
 
 
 def recipes_of(session: Session) -> dict[str, Recipe]:
-    """What makes the meshes of the case again from the mesh as it was opened, by the names of files.
+    """Return the recipes that reproduce the meshes from the opened mesh, by file name.
 
     Left out is what is not known: how the mesh came to be from which methods were compared, or the one that is shown.
     """
@@ -54,7 +54,7 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
         before = run.stages
     else:
         return found
-    stop = comparison.given().stop
+    stop = comparison.to_data().stop
     for row in (one.row for one in comparison.results if one.row.method in METHODS):
         method = METHODS[row.method]
         stage = Stage(from_values(method, row.parameters, owner=row.method), stop)
@@ -64,8 +64,8 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
 
 
 def _run(session: Session) -> Recipe | None:
-    """What was run last, where the mesh is its result."""
-    work, document = session.smoothing.work, session.document
+    """Return the last run if the current mesh is its result."""
+    work, document = session.run.work, session.document
     moment = session.history.moment_of(document.now)
     if work is None or moment is None or moment.number != moment.record.result:
         return None
@@ -73,7 +73,7 @@ def _run(session: Session) -> Recipe | None:
         return None
     if isinstance(work, Recipe):
         return work
-    stage = session.order.begun or Stage(work)
+    stage = session.run_setup.begun or Stage(work)
     # It may have been ended by hand.
     stop = replace(stage.stop, max_iterations=moment.record.newest)
     return Recipe.of(replace(stage, stop=stop), title=work.title)

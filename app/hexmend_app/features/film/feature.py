@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.film.film_dialog import FilmChoice, FilmDialog
-from hexmend_app.scene.export.shots import chosen, shots
-from hexmend_app.state.deeds import Iterations, Wrote, moved_since
-from hexmend_app.state.record import Moment, Record
-from hexmend_app.state.scene import Page
-from hexmend_app.widgets.pieces import Pieces
-from hexmend_app.widgets.questions import ask_film
+from hexmend_app.picture import Page
+from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
+from hexmend_app.state.session.user_events import FileExported, IterationsExported, displacement_since
+from hexmend_app.widgets.dialogs.questions import ask_film
+from hexmend_app.widgets.incremental_task import IncrementalTask
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -31,9 +31,9 @@ class FeatureFilm(Feature):
         self._path = Path()
         self._choice: FilmChoice | None = None  # what the user wanted last
         self._rate = 0
-        self._record: Record | None = None
-        self._deed: Wrote | None = None
-        self._drawing = Pieces(host.busy, "film", "Give the film up; no file is written.", self)
+        self._record: RunRecord | None = None
+        self._event: FileExported | None = None
+        self._drawing = IncrementalTask(host.busy, "film", "Give the film up; no file is written.", self)
         self._drawing.finished.connect(self._write)
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
@@ -59,7 +59,7 @@ class FeatureFilm(Feature):
 
     @property
     def going_on(self) -> bool:
-        """Whether a film is being made."""
+        """True while a film is being written."""
         return self._drawing.going_on
 
     def ask(self) -> None:
@@ -79,8 +79,8 @@ class FeatureFilm(Feature):
 
     def film(self, path: Path, choice: FilmChoice) -> None:
         """Make a film of the run that is gone through; it is written when its last frame is drawn."""
-        from hexmend_app.scene.export.film import format_of, pictures
-        from hexmend_app.scene.export.run_film import write_run_film
+        from hexmend_app.scene.film.film import format_of, pictures
+        from hexmend_app.scene.film.run_film import write_run_film
 
         self.cancel()
         record, history = self.session.timeline.record, self.session.history
@@ -89,20 +89,22 @@ class FeatureFilm(Feature):
         except HexmendError as error:
             self.host.messages.show_error("The film was not made", str(error))
             return
-        numbers = chosen(history, record, choice.frames)
+        numbers = chosen_iterations(history, record, choice.frames)
         view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
         now, start = self.session.document.now, self.session.document.start
-        taken = shots(record, numbers, lambda number: history.state(Moment(record, number), now.mesh))
+        taken = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
         options = {"size": size, "rate": choice.rate, "histogram": choice.histogram}
-        options |= moved_since(view.frame.movement, start)
+        options |= displacement_since(view.frame.movement, start)
         scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
-        self._deed = Wrote("film", write_run_film, (path, scene, Iterations(record, numbers), now, numbers), options)
+        self._event = FileExported(
+            "film", write_run_film, (path, scene, IterationsExported(record, numbers), now, numbers), options
+        )
         self._path, self._record, self._rate = path, record, choice.rate
         frames = pictures(
             taken, scene.look(now.mesh), size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
         )
-        self._drawing.begin(frames, lambda drawn: _said(drawn, len(numbers), path))
+        self._drawing.begin(frames, lambda drawn: _text(drawn, len(numbers), path))
 
     def cancel(self) -> None:
         """Give up the film that is being made; nothing is written."""
@@ -118,17 +120,17 @@ class FeatureFilm(Feature):
         self.host.messages.show_error("The film was not made", f"A frame could not be drawn: {error}.")
 
     def _write(self, frames: list[Image.Image]) -> None:
-        from hexmend_app.scene.export.film import write_film
+        from hexmend_app.scene.film.film import write_film
 
-        written = self.host.said(
+        written = self.host.try_and_report(
             "The film was not saved",
             lambda: write_film(self._path, frames, self._rate),
             f"Film of {len(frames)} frames saved to {self._path}",
         )
         if written:
-            self.session.commands.done.emit(self._deed)
+            self.session.commands.done.emit(self._event)
 
 
-def _said(drawn: int, count: int, path: Path) -> str:
-    """What is being done once so many frames are drawn."""
+def _text(drawn: int, count: int, path: Path) -> str:
+    """Describe the progress after a number of frames."""
     return f"Drawing frame {drawn + 1} of {count}…" if drawn < count else f"Writing {path.name}…"

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import explain, note
+from hexmend_app.theme.style import note, set_help
 
 #: Widths on offer, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
@@ -26,7 +26,7 @@ FRAMES = 60
 
 @dataclass(frozen=True)
 class FilmChoice:
-    """What a film is to be like.
+    """Options of a film.
 
     Parameters
     ----------
@@ -74,18 +74,18 @@ class FilmDialog(QDialog):
         for width in WIDTHS:
             self._size.addItem("{} × {} pixels".format(*FilmChoice(width).size(view)), width)
         self._size.setCurrentIndex(max(0, self._size.findData(choice.width)))
-        explain(self._size, "Size", "Width and height of the film, caption and colour bar included.")
+        set_help(self._size, "Size", "Width and height of the film, caption and colour bar included.")
         self._rate.setRange(1, 50)
         self._rate.setSuffix(" frames a second")
         self._rate.setValue(choice.rate)
-        explain(self._rate, "Rate", "How many iterations are shown in a second.")
+        set_help(self._rate, "Rate", "How many iterations are shown in a second.")
         self._frames.setRange(2, 1000)
         self._frames.setSuffix(" frames")
         self._frames.setValue(choice.frames)
-        explain(self._frames, "Frames", "The most: of more iterations, some are left out evenly.")
-        self._histogram = QCheckBox("Histogram beside the mesh")
+        set_help(self._frames, "Frames", "The most: of more iterations, some are left out evenly.")
+        self._histogram = QCheckBox("Histogram next to the mesh")
         self._histogram.setChecked(choice.histogram)
-        explain(self._histogram, "Histogram", "How many hexes have what value, frame by frame.")
+        set_help(self._histogram, "Histogram", "How many hexes have what value, frame by frame.")
         form = QFormLayout()
         form.addRow("Size", self._size)
         form.addRow("Rate", self._rate)
@@ -101,7 +101,7 @@ class FilmDialog(QDialog):
         column.addWidget(buttons)
 
     def choice(self) -> FilmChoice:
-        """What the user wants."""
+        """Return the options that the user chose."""
         return FilmChoice(
             self._size.currentData(), self._rate.value(), self._frames.value(), self._histogram.isChecked()
         )

@@ -1,4 +1,4 @@
-"""What Hexmend is; the pages of keys and commands, which know every feature, are the window's."""
+"""About dialog; the pages of keys and commands, which know every feature, belong to the window."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend import __version__
 from hexmend_app.feature import Action, Feature
-from hexmend_app.widgets.questions import show_about
+from hexmend_app.widgets.dialogs.questions import show_about
 
 
 class FeatureHelp(Feature):

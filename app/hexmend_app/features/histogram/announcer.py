@@ -1,4 +1,4 @@
-"""What the user chooses by dragging, told to others now and then."""
+"""Rate-limited signal for a choice that the user makes by dragging."""
 
 from __future__ import annotations
 

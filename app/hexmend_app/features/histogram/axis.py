@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.quality import METRICS
-from hexmend_app.scene.colours import range_label
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.scene.colour.colouring import range_label
 
 #: Where on the plot the bins lie: from 0 to 1, whatever the metric.
 _INVERTED = (-0.30, -0.18)
@@ -72,7 +72,7 @@ class Axis:
     # Between values and places on the plot
 
     def place(self, value: float) -> float:
-        """Where a value lies on the plot; beyond the ends, the outer side of what is counted there."""
+        """Return a value's position on the plot; beyond the ends, the outer side of the end bar."""
         if value < self.low:
             return (self.below or (0.0, 0.0))[0]
         if value > self.high:
@@ -114,7 +114,7 @@ class Axis:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """How far a range can be brushed: over all that counts."""
+        """Return the limits of a brushed range: everything that is counted."""
         return self.inverted[0], (self.above or (1.0, 1.0))[1]
 
     @property

@@ -10,8 +10,8 @@ import numpy as np
 from hexmend.quality.binning import bin_counts
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.cells import Cells
-from hexmend_app.scene.values import within
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.scene.colour.value_range import within
 
 #: Bins at first, and how few and how many there can be.
 BINS, FEWEST, MOST = 50, 10, 200
@@ -19,7 +19,7 @@ BINS, FEWEST, MOST = 50, 10, 200
 
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """How the values of elements are distributed.
+    """Distribution of the elements' values.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class Distribution:
         return Distribution(self.values, self.is_inverted, self.axis, counts, self.inverted, below, self.total)
 
     def within(self, chosen: ValueRange) -> int:
-        """How many elements a range of the axis' metric shows."""
+        """Return the number of elements that a range of the axis' metric shows."""
         return int(np.count_nonzero(within(self.values, self.is_inverted, chosen)))
 
 

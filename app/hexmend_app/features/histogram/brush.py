@@ -19,7 +19,7 @@ _SHAPES = {
 class BrushView(pg.ViewBox):
     """Drags select a range of places: on open ground a new one, on an edge that edge, inside the range all of it.
 
-    The view is told which range is shown; it never sets it.
+    Its owner sets the range that is shown; the view never does.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class BrushView(pg.ViewBox):
         self.setAcceptHoverEvents(True)
 
     def _mode_at(self, x: float) -> str:
-        """What a drag from x would do: "low", "high", "move" or "new"."""
+        """Return the effect of a drag from x: "low", "high", "move" or "new"."""
         if self.range is None:
             return "new"
         low, high = self.range

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Cells:
         return first, last
 
     def range(self, first: int, last: int) -> ValueRange | None:
-        """What shows the elements that the cells from `first` to `last` count, and no others; None where that is all.
+        """Return the range that shows only the elements counted in cells `first` to `last`; None if that is all.
 
         >>> Cells(Axis("q"), 50).range(1, 25)
         ValueRange(metric='q', low=0.0, high=0.49999999999999994, inverted=False)

@@ -9,8 +9,8 @@ import numpy as np
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import BINS, Distribution, distribute
 from hexmend_app.features.histogram.outline import Series
-from hexmend_app.scene.palette import KEPT
-from hexmend_app.widgets.style import BLUE, GREY
+from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.style import BLUE, GREY
 
 
 class Distributions:
@@ -67,7 +67,7 @@ class Distributions:
             self.kept.append((slot, name, part))
 
     def series(self) -> list[Series]:
-        """What is drawn, in the order of the legend."""
+        """Return the distributions drawn, in the order of the legend."""
         drawn = []
         if self._initial is not None:
             drawn.append(Series("start", "at the start", GREY, self._initial, filled=True))

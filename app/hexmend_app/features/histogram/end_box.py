@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QSizePolicy
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.widgets.style import tabular
+from hexmend_app.theme.style import tabular
 
 #: Stands for infinity in a spin box, which has no other number for it.
 _HUGE = 1e300
@@ -73,7 +73,7 @@ class EndBox(QDoubleSpinBox):
         return QValidator.State.Acceptable, text, position
 
     def fixup(self, text: str) -> str:
-        """What was not finished is given up."""
+        """Replace an unfinished entry by the current value."""
         return self.textFromValue(self.value())
 
     def stepBy(self, steps: int) -> None:

@@ -1,4 +1,4 @@
-"""How quality is distributed: the lines between the mesh, what is kept of it, and the histogram that counts."""
+"""Histogram feature: connects the mesh and its snapshots to the histogram."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ import numpy as np
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import measure
 from hexmend.report.charts import ChartStyle
-from hexmend_app.feature import Feature, Host, Panel, Place, Seen
-from hexmend_app.features.histogram.file import figure, write_histogram
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.histogram.histogram_file import figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
-from hexmend_app.scene.palette import BLUE, GREY, KEPT
-from hexmend_app.state.deeds import Wrote
-from hexmend_app.state.document import State
-from hexmend_app.state.kept import Kept
-from hexmend_app.state.kinds import of_kind
-from hexmend_app.state.measured import values
-from hexmend_app.widgets.export_dialog import ChartDialog, answer
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.hex_groups import hexes_of_group
+from hexmend_app.state.mesh.metric_cache import metric_values
+from hexmend_app.state.mesh.snapshots import Snapshot
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.theme.palette import BLUE, GREY, KEPT
+from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
 
@@ -36,8 +36,8 @@ class FeatureHistogram(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self._document, self._kept = self.session.document, self.session.kept
-        self._seen = Seen()
+        self._document, self._kept = self.session.document, self.session.snapshots
+        self._seen = ChangeTracker()
         self._style = ChartStyle()  # what the last figure was like
         self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
@@ -48,7 +48,7 @@ class FeatureHistogram(Feature):
         panel.removed.connect(self._kept.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
-        self.session.choices.offer("histogram", panel.head.choices, panel.head.set_choices)
+        self.session.panel_settings.register("histogram", panel.head.choices, panel.head.set_choices)
 
     def panels(self) -> Sequence[Panel]:
         """The histogram."""
@@ -57,7 +57,7 @@ class FeatureHistogram(Feature):
                 id="histogram",
                 title="Histogram",
                 widget=self.panel,
-                place=Place.FACTS,
+                place=PanelPlace.FACTS,
                 order=10,
                 help="How many hexes have which quality; drag over it to show those alone.",
             ),
@@ -65,7 +65,7 @@ class FeatureHistogram(Feature):
 
     @property
     def metric(self) -> str:
-        """What is counted; q where the colours show a movement, which is none of one moment."""
+        """Return the metric counted; q if the colours show a displacement, which needs two meshes."""
         shown = self._view.look.scale.metric
         return self._view.counted or ("q" if shown in DISPLACEMENT_QUANTITIES else shown)
 
@@ -79,24 +79,28 @@ class FeatureHistogram(Feature):
             and look.quality_range.metric != look.scale.metric
         ):
             self._view.counted = look.quality_range.metric
-        self.session.smoothing.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
+        self.session.run.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
         self.panel.set_range(look.quality_range)
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
     def _count(self) -> None:
         start, now = self._document.start, self._document.now
-        if self._seen.another("start", self.metric, start):
+        if self._seen.changed("start", self.metric, start):
             self.panel.set_initial(self._values(start), start.figures.inverted)
-            self._seen.another("now")
-        if self._seen.another("kept", self.metric, self._kept.all, start):
+            self._seen.changed("now")
+        if self._seen.changed("kept", self.metric, self._kept.all, start):
             self._show_kept()
-        if self._seen.another("now", self.metric, now):
+        if self._seen.changed("now", self.metric, now):
             self.panel.set_current(self._values(now), now.figures.inverted)
 
     def _values(self, state: State) -> np.ndarray:
-        return values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
+        return metric_values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -107,7 +111,7 @@ class FeatureHistogram(Feature):
 
     def _isolate_inverted(self) -> None:
         now = self._document.now
-        self._view.isolate(of_kind("inverted", now.mesh, now.figures))
+        self._view.isolate(hexes_of_group("inverted", now.mesh, now.figures))
 
     # What is kept
 
@@ -121,13 +125,13 @@ class FeatureHistogram(Feature):
         self._kept_values = {one.slot: self._values_of(one) for one in kept}
         self.panel.set_kept([(one.slot, one.name, self._kept_values[one.slot][2], one.inverted) for one in kept])
 
-    def _values_of(self, one: Kept) -> tuple[str, np.ndarray, np.ndarray]:
+    def _values_of(self, one: Snapshot) -> tuple[str, np.ndarray, np.ndarray]:
         """The metric, the points and the values of what is kept: worked out when one of the first two is another."""
         known = self._kept_values.get(one.slot)
         if known is not None and known[0] == self.metric and known[1] is one.points:
             return known
         hexes = self._document.now.mesh.hexes
-        found = values(self.metric, one.points, hexes, measure(one.points, hexes))
+        found = metric_values(self.metric, one.points, hexes, measure(one.points, hexes))
         return self.metric, one.points, found
 
     # Files
@@ -140,19 +144,19 @@ class FeatureHistogram(Feature):
 
     def dialog(self) -> ChartDialog:
         """The dialog that asks: sizes and names are as they were last."""
-        deed = self._told(Path())
-        chart, proposed = figure(*deed.given[1:], **deed.options), f"{self.host.stem}-histogram.svg"
+        event = self._report(Path())
+        chart, proposed = figure(*event.given[1:], **event.options), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""
-        return self.host.said(
+        return self.host.try_and_report(
             "The histogram was not saved",
-            lambda: self.session.commands.carry_out(self._told(Path(path), style)),
+            lambda: self.session.commands.export(self._report(Path(path), style)),
             f"Histogram saved to {path}",
         )
 
-    def _told(self, path: Path, style: ChartStyle | None = None) -> Wrote:
+    def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         """The call that writes it."""
         panel, document = self.panel, self._document
         drawn = [("at the start", GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
@@ -163,4 +167,4 @@ class FeatureHistogram(Feature):
         options = {"bins": panel.head.bins.value(), "log": panel.log, "cumulative": panel.cumulative}
         if style is not None:
             options["style"] = style
-        return Wrote("histogram", write_histogram, (path, document.name, self.metric, drawn), options)
+        return FileExported("histogram", write_histogram, (path, document.name, self.metric, drawn), options)

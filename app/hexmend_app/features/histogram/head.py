@@ -8,18 +8,18 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QTo
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.bins import BINS, FEWEST, MOST
-from hexmend_app.state.choices import HistogramChoices
-from hexmend_app.widgets.combo import let_shrink
-from hexmend_app.widgets.menu_button import MenuButton
-from hexmend_app.widgets.metrics import described, metrics_offered
-from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import explain, icon, smaller, tabular
+from hexmend_app.state.view.panel_settings import HistogramSettings
+from hexmend_app.theme.style import icon, set_help, smaller, tabular
+from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.menu_button import MenuButton
+from hexmend_app.widgets.inputs.segmented import Segmented
+from hexmend_app.widgets.metric_texts import described, metrics_offered
 
 _CUMULATIVE = "Heights are the share of hexes with a value up to x, inverted ones first."
-_KEEP = "Keep the distribution of this moment beside those that follow, to compare methods."
+_KEEP = "Keep the present distribution for comparison with later ones, to compare methods."
 _SAVE = "Save the histogram as it is drawn, as SVG, PDF or PNG, or its counts as CSV."
-_FULL = "Six are kept: remove one to keep another."
-_BINS = "How many bins the axis is divided into."
+_FULL = "At most six are kept: remove one first."
+_BINS = "Number of bins."
 
 
 class HistogramHead(QWidget):
@@ -57,7 +57,7 @@ class HistogramHead(QWidget):
             "Scale of the counts",
             [
                 ("linear", "Linear", "Heights in proportion to the number of hexes."),
-                ("log", "Log", "Heights by powers of ten, so that a few bad hexes show beside many good ones."),
+                ("log", "Log", "Logarithmic heights, so that a few bad hexes are visible among many good ones."),
             ],
         )
         self.scale.setFont(smaller(self.font()))
@@ -88,7 +88,7 @@ class HistogramHead(QWidget):
         self.bins.setFont(tabular(smaller(self.font())))
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        explain(self.bins, "Bins", _BINS)
+        set_help(self.bins, "Bins", _BINS)
         self.bins.valueChanged.connect(self._on_bins)
         self._numbers = QActionGroup(self)
         for number in (FEWEST, 20, BINS, 100, MOST):
@@ -124,14 +124,14 @@ class HistogramHead(QWidget):
 
     @property
     def log(self) -> bool:
-        """Whether heights go by powers of ten."""
+        """Return True if heights are logarithmic."""
         return self.scale.value() == "log"
 
-    def choices(self) -> HistogramChoices:
-        """What is set besides the metric."""
-        return HistogramChoices(self.log, self.cumulative.isChecked(), self.bins.value())
+    def choices(self) -> HistogramSettings:
+        """Return the settings except the metric."""
+        return HistogramSettings(self.log, self.cumulative.isChecked(), self.bins.value())
 
-    def set_choices(self, choices: HistogramChoices) -> None:
+    def set_choices(self, choices: HistogramSettings) -> None:
         """Set all of it, and say so."""
         self.scale.set_value("log" if choices.log else "linear")
         self.cumulative.setChecked(choices.cumulative)
@@ -147,7 +147,7 @@ class HistogramHead(QWidget):
             self.metric_box.setItemText(0, "As colours")
         self.metric_box.setItemData(0, "Show whatever metric the colours show.", Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
-        explain(self.metric_box, "Metric of the histogram", described(metric))
+        set_help(self.metric_box, "Metric of the histogram", described(metric))
         self.metric_box.setToolTip(described(metric))
 
     def set_offered(self, known: bool, full: bool) -> None:
@@ -166,10 +166,10 @@ class HistogramHead(QWidget):
         """Show what there is room for."""
         super().resizeEvent(event)
         gap = self.layout().spacing()
-        room = self.width() - self.minimumSizeHint().width() - 50  # so that the metric's name is whole
+        space = self.width() - self.minimumSizeHint().width() - 50  # so that the metric's name is whole
         for part in reversed(self._spare):
-            room -= part.sizeHint().width() + gap
-            part.setVisible(room >= 0)
+            space -= part.sizeHint().width() + gap
+            part.setVisible(space >= 0)
 
     def _on_bins(self) -> None:
         with QSignalBlocker(self._numbers):

@@ -9,9 +9,9 @@ from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QWidget
 from superqt import QFlowLayout
 
-from hexmend_app.scene.palette import HOVER, KEPT
+from hexmend_app.theme.palette import HOVER, KEPT
+from hexmend_app.theme.style import BLUE, FIELD, GREY, LINE, MUTED, icon, note, on_theme_change, set_help, smaller
 from hexmend_app.widgets.legend import Swatch, legend_entry
-from hexmend_app.widgets.style import BLUE, FIELD, GREY, LINE, MUTED, dress, explain, icon, note, smaller
 
 _WIDEST, _HEIGHT = 150, 18
 
@@ -45,18 +45,18 @@ class HistogramLegend(QWidget):
         self._flow.setContentsMargins(0, 0, 0, 0)
         self._flow.setHorizontalSpacing(2)
         self._flow.setVerticalSpacing(1)
-        dress(self, lambda: self.setStyleSheet(_sheet()))
+        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
         self.entries: dict[int, KeptEntry] = {}
         self._title = note()
         self._title.setWordWrap(False)
         self._title.setSizePolicy(self.sizePolicy())
         self._title.setMinimumHeight(_HEIGHT)
         self._title.setContentsMargins(0, 0, 6, 0)
-        explain(self._title, "Axis of values", help)
+        set_help(self._title, "Axis of values", help)
         self._flow.addWidget(self._title)
         for text, colour in (("at the start", GREY), ("now", BLUE)):
             entry = legend_entry(text, colour)
-            explain(entry, text, help)
+            set_help(entry, text, help)
             entry.setMinimumHeight(_HEIGHT)  # or a row of both kinds does not line up
             self._flow.addWidget(entry)
 
@@ -65,7 +65,7 @@ class HistogramLegend(QWidget):
         self._title.setText(title)
 
     def size_within(self, width: int) -> QSize:
-        """What it takes of a width: one row as long as it has to be, or more rows."""
+        """Return the size for a width: one row if it fits, or more rows."""
         parts = [self._flow.itemAt(at).sizeHint().width() for at in range(self._flow.count())]
         width = min(sum(parts) + (len(parts) - 1) * self._flow.horizontalSpacing() + 1, max(width, 1))
         return QSize(width, self._flow.heightForWidth(width))
@@ -84,7 +84,7 @@ class HistogramLegend(QWidget):
                 entry.cross.clicked.connect(lambda _=False, slot=slot: self.removed.emit(slot))
                 self._flow.addWidget(entry)
             self.entries[slot].name.show_name(name)
-            explain(self.entries[slot].cross, f"Remove {name}", f"Keep {name} no longer.")
+            set_help(self.entries[slot].cross, f"Remove {name}", f"Keep {name} no longer.")
         self.updateGeometry()
 
 
@@ -126,7 +126,7 @@ class _Name(QLineEdit):
         self._name = name
         self.setText(name)
         self.setCursorPosition(0)
-        explain(self, f"Name of {name}", f"{name}, as it was kept. Click on the name to change it.")
+        set_help(self, f"Name of {name}", f"{name}, as it was kept. Click on the name to change it.")
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Take what was typed; nothing is no name."""

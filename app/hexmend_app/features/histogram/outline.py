@@ -11,8 +11,8 @@ from PySide6.QtGui import QPainterPath, QPolygonF
 from PySide6.QtWidgets import QGraphicsPathItem
 
 from hexmend_app.features.histogram.bins import Distribution
-from hexmend_app.scene.palette import Role
-from hexmend_app.widgets.style import INVERTED
+from hexmend_app.theme.palette import Role
+from hexmend_app.theme.style import INVERTED
 
 #: Of the height of the axis: where a broken bar ends, where its gap is, how wide that is, and how tall its teeth.
 BROKEN, _GAP_AT, _GAP, _TOOTH = 1.08, 0.88, 0.05, 0.03
@@ -33,7 +33,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Heights:
-    """Where counts lie on the axis of counts, or of shares in percent.
+    """Return the positions of counts on the axis of counts, or of shares in percent.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class Heights:
         return self.floor + share * (self.top - self.floor)
 
     def bar(self, part: Distribution, count: int) -> tuple[float, bool]:
-        """Where a bar beside the bins ends, and whether it is broken: its count is beyond the axis."""
+        """Return the height of an end bar, and True if it is broken because its count exceeds the axis."""
         height = float(self.of(part, count))
         broken = height > self.top * (1 + 1e-9)
         return (self.share(BROKEN) if broken else height), broken

@@ -12,18 +12,18 @@ from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.announcer import Announcer
 from hexmend_app.features.histogram.axis import Axis
+from hexmend_app.features.histogram.bin_texts import describe, sentence
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.features.histogram.distributions import Distributions
 from hexmend_app.features.histogram.head import HistogramHead
+from hexmend_app.features.histogram.histogram_plot import HistogramPlot
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import Series
-from hexmend_app.features.histogram.plot import HistogramPlot
 from hexmend_app.features.histogram.range import RangeRow
-from hexmend_app.features.histogram.words import describe, sentence
-from hexmend_app.scene.palette import KEPT
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.theme.palette import KEPT
+from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.widgets.eliding_label import ElidingLabel
-from hexmend_app.widgets.style import MUTED, smaller, tabular, tint
 
 #: Pixels that the words below the plot need beside the numbers.
 _WORDS = 210
@@ -111,10 +111,10 @@ class QualityHistogram(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put the words below the numbers where there is no room beside them."""
         super().resizeEvent(event)
-        beside = self.width() >= self.ends.minimumSizeHint().width() + _WORDS
-        ways, sides = QBoxLayout.Direction, Qt.AlignmentFlag
-        self._below.setDirection(ways.LeftToRight if beside else ways.TopToBottom)
-        self.words.setAlignment((sides.AlignRight if beside else sides.AlignLeft) | sides.AlignVCenter)
+        neighbour = self.width() >= self.ends.minimumSizeHint().width() + _WORDS
+        displacements, sides = QBoxLayout.Direction, Qt.AlignmentFlag
+        self._below.setDirection(displacements.LeftToRight if neighbour else displacements.TopToBottom)
+        self.words.setAlignment((sides.AlignRight if neighbour else sides.AlignLeft) | sides.AlignVCenter)
 
     # What is drawn
 
@@ -161,22 +161,22 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def series(self) -> list[Series]:
-        """What is drawn, in the order of the legend."""
+        """Return the distributions drawn, in the order of the legend."""
         return self._distributions.series()
 
     @property
     def log(self) -> bool:
-        """Whether heights go by powers of ten."""
+        """Return True if heights are logarithmic."""
         return self.plot.log
 
     @property
     def cumulative(self) -> bool:
-        """Whether heights are shares of elements up to a value."""
+        """Return True if heights are cumulative shares of elements."""
         return self.plot.cumulative
 
     @property
     def axis(self) -> Axis:
-        """Which values the bins span."""
+        """Return the range of values that the bins span."""
         return self._distributions.axis
 
     # The range

@@ -9,12 +9,12 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QToolButton, QWi
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
-from hexmend_app.state.look import ValueRange
-from hexmend_app.widgets.metrics import in_sentence
-from hexmend_app.widgets.style import INVERTED, explain
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.theme.style import INVERTED, set_help
+from hexmend_app.widgets.metric_texts import in_sentence
 
 _SPACING, _SWATCH = 4, 12
-_INVERTED = "Show inverted hexes too, whatever their value; they have a bar of their own beside the bins."
+_INVERTED = "Show inverted hexes too, whatever their value; they have a separate bar next to the bins."
 
 
 class RangeRow(QWidget):
@@ -38,7 +38,7 @@ class RangeRow(QWidget):
         # A brushed end has more digits than its box.
         self._ends: dict[EndBox, float] = {}
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("All")
-        explain(self.all, "Show all", "Show the hexes of every value again (or double-click on the plot).")
+        set_help(self.all, "Show all", "Show the hexes of every value again (or double-click on the plot).")
         self.all.setFixedWidth(44)  # less than the style's 80 pixels, which the row has no room for
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
@@ -46,7 +46,7 @@ class RangeRow(QWidget):
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.inverted.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         self.inverted.setIconSize(QSize(_SWATCH, _SWATCH))
-        explain(self.inverted, "Inverted hexes too", _INVERTED)
+        set_help(self.inverted, "Inverted hexes too", _INVERTED)
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel("Show"), QLabel("to")
@@ -71,7 +71,7 @@ class RangeRow(QWidget):
                 box.set_axis(axis)
             box.updateGeometry()
             name = f"{which} {words} shown"
-            explain(box, name, f"{name}: hexes beyond it are hidden. Dragging over the plot sets the same range.")
+            set_help(box, name, f"{name}: hexes beyond it are hidden. Dragging over the plot sets the same range.")
 
     def show_range(self, chosen: ValueRange | None) -> None:
         """Show a range, or that all are shown; without a signal."""

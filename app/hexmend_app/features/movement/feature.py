@@ -1,17 +1,17 @@
-"""How the mesh has moved: the moments that are compared, the look, and the panel that counts."""
+"""Displacement of the mesh since a reference: colours, arrows and counts."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
-from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
-from hexmend_app.state.kinds import of_kind
+from hexmend_app.state.mesh.hex_groups import hexes_of_group
 
 
 class FeatureMovement(Feature):
-    """Shows what has moved, and since when."""
+    """Shows which nodes have moved since a reference state."""
 
     order = 57
 
@@ -20,28 +20,28 @@ class FeatureMovement(Feature):
         self._document, view = self.session.document, self.session.view
         self._view = view
         self._metric = view.look.scale.metric  # that was shown before a movement
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(traces=traces))
         panel.colours_chosen.connect(lambda name: view.colour_by(name or self._metric))
         panel.newly_inverted_requested.connect(self._show_newly_inverted)
 
     def panels(self) -> Sequence[Panel]:
-        """How far what has moved."""
+        """Return the movement panel."""
         return (
             Panel(
                 id="movement",
                 title="Movement",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=30,
-                help="How far nodes have moved, and what that changed, since a moment of your choice.",
+                help="Displacement of the nodes and change of quality since a chosen state.",
                 scrolls=True,
             ),
         )
 
     def refresh(self) -> None:
-        """Say how far the mesh has moved."""
+        """Update the counts of moved nodes."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
         movement = look.scale.metric in DISPLACEMENT_QUANTITIES
@@ -52,16 +52,20 @@ class FeatureMovement(Feature):
         if not (self.panel.isVisible() and self._document.is_open):
             return
         moved = self._movement
-        if self._seen.another("counts", moved):
+        if self._seen.changed("counts", moved):
             self.panel.set_counts(moved.counts, moved.before.name, self._document.now.summary.free_nodes)
         if self.canvas is not None:
             layer = self.canvas.viewport.extras.arrows
             self.panel.set_arrows(layer.drawn, layer.moved)
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
     @property
     def _movement(self) -> Displacement:
-        return self.session.references.movement(self._view.look.traces.since)
+        return self.session.comparison_bases.movement(self._view.look.traces.since)
 
     def _show_newly_inverted(self) -> None:
         now = self._document.now
-        self._view.isolate(of_kind("newly inverted", now.mesh, now.figures, self._movement))
+        self._view.isolate(hexes_of_group("newly inverted", now.mesh, now.figures, self._movement))

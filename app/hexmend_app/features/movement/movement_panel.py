@@ -1,4 +1,4 @@
-"""How the mesh has moved: compared with when, shown by what, and in figures."""
+"""Panel of the displacement: reference state, colours, arrows and counts."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
+from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.scene.layers.arrows import MOST
-from hexmend_app.state.look import Arrows, Since, Traces
-from hexmend_app.widgets.segmented import Segmented
-from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted, figure, short_number
 
 _SINCE = [
@@ -24,11 +24,11 @@ _SINCE = [
     ),
 ]
 _COLOURS = [
-    ("", "Quality", "Colour by the metric that the panel of colours names."),
+    ("", "Quality", "Colour by the metric chosen in the Look panel."),
     (
         "moved-most",
         DISPLACEMENT_QUANTITIES["moved-most"].label,
-        "Colour each hex by the longest way that one of its nodes has gone.",
+        "Colour each hex by the largest displacement of its nodes.",
     ),
     (
         "q-change",
@@ -53,17 +53,17 @@ _ARROWS = [
     (Arrows.ALL.value, "All shown", "Arrows of all hexes that are shown, through whatever is before them."),
 ]
 _FIGURES = {
-    "Nodes": "Nodes that are elsewhere than they were.",
+    "Nodes": "Number of nodes that have moved.",
     "Distance": "How far these are from where they were, in mean edge lengths of the mesh as it was opened.",
     "Hexes": "Hexes whose q(H) is higher or lower than it was.",
     "Inverted": "Hexes that were not inverted and are, and that were and no longer are.",
 }
-_DRAWN = "How many arrows there are, and how long they are."
-_FACTOR = "How many times as long as the way of their nodes arrows are drawn."
+_DRAWN = "Number and length of the arrows."
+_FACTOR = "Scale factor of the arrows relative to the displacement."
 
 
 class MovementPanel(QWidget):
-    """Chooses what is shown of a movement, and says how large it is.
+    """Selects how a displacement is shown, and shows its size.
 
     Signals
     -------
@@ -91,10 +91,10 @@ class MovementPanel(QWidget):
         self.factor.setPrefix("× ")
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
-        explain(self.factor, "Length of arrows", _FACTOR)
+        set_help(self.factor, "Length of arrows", _FACTOR)
         self.show_newly = QPushButton("Show new")
         self._drawn = note()
-        explain(self._drawn, "Arrows that are drawn", _DRAWN)
+        set_help(self._drawn, "Arrows that are drawn", _DRAWN)
         self._figures = {name: _figure() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
@@ -129,7 +129,7 @@ class MovementPanel(QWidget):
         last.addWidget(self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(text), row, 0)
-            explain(label, text, _FIGURES[text])
+            set_help(label, text, _FIGURES[text])
             if text == "Inverted":
                 grid.addLayout(last, row, 1)
             else:
@@ -153,14 +153,16 @@ class MovementPanel(QWidget):
         self.colours.set_value("moved-most" if name == "moved-mean" else name)
 
     def set_arrows(self, drawn: int, moved: int) -> None:
-        """Say how many arrows are drawn, and how many nodes could have one."""
+        """Show how many arrows are drawn of how many moved nodes."""
         self._drawn.setText(arrows_in_words(self._traces, drawn, moved))
 
     def set_counts(self, counts: DisplacementCounts | None, name: str, free: int) -> None:
-        """Say how large the movement since `name` is, of a mesh with so many free nodes; None for none."""
+        """Show the size of the displacement since `name`; `free` is the number of free nodes, None means no mesh."""
         self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
-        why = "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
-        explain(self.show_newly, "Show newly inverted", f"Hexes that were not inverted then and are now. {why}")
+        reason = (
+            "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
+        )
+        set_help(self.show_newly, "Show newly inverted", f"Hexes that were not inverted then and are now. {reason}")
         texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
@@ -173,7 +175,7 @@ class MovementPanel(QWidget):
 
 
 def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
-    """What arrows there are and how long they are.
+    """Describe the number and length of the arrows.
 
     >>> arrows_in_words(Traces(arrows=Arrows.ALL, factor=10), 5000, 28899)
     'The 5,000 longest of 28,899 arrows, 10 times true length.'
@@ -191,11 +193,11 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
 
 
 def _texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
-    way = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
+    path = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
     slid = f", {counts.slid:,} of the boundary slid" if counts.slid else ""
     return (
         f"{counts.moved - counts.slid:,} of {free:,} free moved since {name}{slid}",
-        way,
+        path,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",
     )

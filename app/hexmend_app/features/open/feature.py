@@ -1,4 +1,4 @@
-"""Opening meshes: asked for, dropped, named before or shown as a demo; what is being read, and how it ended."""
+"""Opening meshes from a dialog, by drag and drop, from recent files or the demo; progress and result."""
 
 from __future__ import annotations
 
@@ -9,27 +9,27 @@ from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtGui import QDropEvent
 
 from hexmend.errors import FileError
-from hexmend_app.feature import Action, Feature, Host, Panel, Place
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.open.opening_texts import lost, of_picture, stage_text
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
-from hexmend_app.features.open.words import lost, of_picture, said
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state.opener import Doing, Progress
-from hexmend_app.state.recent import Recent
-from hexmend_app.state.restoring import Restored, Wanting
-from hexmend_app.widgets.questions import ask_mesh, remember_folder
+from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture
+from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
+from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
 
 
 class FeatureOpen(Feature):
-    """Opens meshes, tells of what the opener does, and remembers what was opened."""
+    """Opens meshes, shows the progress, and stores the recent files."""
 
     order = 10
 
     def __init__(self, host: Host):
         super().__init__(host)
         self._document, self._opener = host.session.document, host.session.opener
-        self._restored: Restored | None = None
-        self.recent = Recent(self)
+        self._restored: RestoredPicture | None = None
+        self.recent = RecentFiles(self)
         self._menu = RecentMenu(self.recent, host.dialog_parent)
         self._menu.chosen.connect(self.open)
         self.welcome = Welcome(self.recent)
@@ -37,8 +37,8 @@ class FeatureOpen(Feature):
         self.welcome.demo_requested.connect(self.open_demo)
         self.welcome.recent_requested.connect(self.open)
         opener = self._opener
-        opener.began.connect(lambda path: self._tell(Progress(Doing.READING, path)))
-        opener.told.connect(self._tell)
+        opener.began.connect(lambda path: self._tell(LoadProgress(LoadStage.READING, path)))
+        opener.progressed.connect(self._tell)
         opener.restored.connect(self._on_restored)
         opener.wanting.connect(self._on_wanting)
         opener.ended.connect(self._on_ended)
@@ -48,7 +48,7 @@ class FeatureOpen(Feature):
         host.dialog_parent.installEventFilter(self)
 
     def actions(self) -> Sequence[Action]:
-        """Open, the demo, and what was opened before."""
+        """Return the actions that open a mesh or the demo."""
         return (
             Action(
                 id="open",
@@ -66,33 +66,33 @@ class FeatureOpen(Feature):
                 id="open_demo",
                 text="Open the &demo mesh",
                 menu="File",
-                help="Open the mesh that comes with Hexmend.",
+                help="Open the demo mesh included with Hexmend.",
                 needs_mesh=False,
                 handle=self.open_demo,
             ),
         )
 
     def panels(self) -> Sequence[Panel]:
-        """What stands in the view's place while no mesh is open."""
-        return (Panel(id="welcome", title="Welcome", widget=self.welcome, place=Place.EMPTY),)
+        """Return the welcome page, shown while no mesh is open."""
+        return (Panel(id="welcome", title="Welcome", widget=self.welcome, place=PanelPlace.EMPTY),)
 
     def refresh(self) -> None:
-        """Leave the view's place to the mesh that is open, or about to be."""
+        """Show the welcome page only while no mesh is open or opening."""
         self.welcome.setVisible(not (self._document.is_open or self._opener.busy))
 
     def open(self, path: str | Path) -> None:
-        """Open a mesh, after what is unsaved was kept or given up."""
+        """Open a mesh, after asking about unsaved changes."""
         if self.host.may_leave():
             self.session.commands.open(path)
 
     def ask(self) -> None:
-        """Ask which mesh, and open it."""
+        """Ask for a mesh file and open it."""
         path = ask_mesh(self.host.dialog_parent)
         if path:
             self.open(path)
 
     def open_demo(self) -> None:
-        """Open the mesh that comes with Hexmend."""
+        """Open the demo mesh included with Hexmend."""
         self.open(demo_mesh())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
@@ -107,10 +107,10 @@ class FeatureOpen(Feature):
             return True
         return super().eventFilter(watched, event)
 
-    def _tell(self, progress: Progress) -> None:
+    def _tell(self, progress: LoadProgress) -> None:
         if self._opener.busy:
-            help = "Do not open this mesh (Esc)."
-            self.host.busy.show_work("open", said(progress), "Cancel", help, self._opener.cancel)
+            help = "Cancel opening this mesh (Esc)."
+            self.host.busy.show_work("open", stage_text(progress), "Cancel", help, self._opener.cancel)
 
     def _on_ended(self, path: Path) -> None:
         self.host.busy.done("open")
@@ -125,36 +125,36 @@ class FeatureOpen(Feature):
             remember_folder(path)
             self.recent.add(path)
 
-    def _on_restored(self, restored: Restored) -> None:
+    def _on_restored(self, restored: RestoredPicture) -> None:
         self._restored = restored
 
-    def _on_wanting(self, wanting: Wanting) -> None:
+    def _on_wanting(self, wanting: MissingMesh) -> None:
         self.host.busy.done("open")
         self.host.messages.show_offer(
-            *lost(wanting), (("Choose the mesh…", lambda: self._find(wanting)), ("Leave it", lambda: None))
+            *lost(wanting), (("Choose the mesh…", lambda: self._find(wanting)), ("Dismiss", lambda: None))
         )
         self.host.refresh_soon()
 
-    def _find(self, wanting: Wanting) -> None:
-        """Ask where the mesh of a picture is, and open it as the picture shows it."""
+    def _find(self, wanting: MissingMesh) -> None:
+        """Ask for the mesh file of a picture and open it as the picture shows it."""
         path = ask_mesh(self.host.dialog_parent)
         if path and self.host.may_leave():
             self._opener.open(path, wanting=wanting)
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")
-        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._what_stays()}")
+        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._unaffected()}")
 
     def _on_failed(self, path: Path, error: Exception) -> None:
         self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._what_stays()}")
+        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._unaffected()}")
 
-    def _what_stays(self) -> str:
+    def _unaffected(self) -> str:
         return f" {self._document.name} stays open." if self._document.is_open else ""
 
 
 def _dropped(event: QDropEvent) -> str:
-    """The one local file of a drag, or ""."""
+    """Return the local file of a drag of exactly one file, or ""."""
     urls = event.mimeData().urls()
     return urls[0].toLocalFile() if len(urls) == 1 else ""

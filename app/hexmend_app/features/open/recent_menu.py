@@ -1,16 +1,16 @@
-"""The menu of the files that were opened last."""
+"""Menu of recent files."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
-from hexmend_app.state.recent import Recent
+from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.widgets.wording import short_folder
 
 
 class RecentMenu(QMenu):
-    """Offers the files that are remembered; those that are gone are there to be seen, not to be chosen.
+    """Lists the recent files; missing files are disabled.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class RecentMenu(QMenu):
 
     chosen = Signal(object)
 
-    def __init__(self, recent: Recent, parent: QWidget | None = None):
+    def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
         super().__init__("Open &recent", parent)
         self._recent = recent
         self.setToolTipsVisible(True)

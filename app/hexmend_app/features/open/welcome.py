@@ -1,4 +1,4 @@
-"""What the window shows while no mesh is open."""
+"""Welcome page, shown while no mesh is open."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from html import escape
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.state.recent import Recent
-from hexmend_app.widgets.style import BLUE, MUTED, dress, explain, icon, tint
+from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, tint
 from hexmend_app.widgets.wording import short_folder
 
 
@@ -29,7 +29,7 @@ class Welcome(QWidget):
     demo_requested = Signal()
     recent_requested = Signal(object)
 
-    def __init__(self, recent: Recent, parent: QWidget | None = None):
+    def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
         super().__init__(parent)
         self._recent = recent
         self._title = QLabel("Open a hexahedral mesh")
@@ -70,8 +70,8 @@ class Welcome(QWidget):
                 link = QPushButton(f"{path.name}  ({short_folder(path)})".replace("&", "&&"))
                 link.setFlat(True)
                 link.setCursor(Qt.CursorShape.PointingHandCursor)
-                explain(link, f"Open {path.name}", escape(str(path)))
-                dress(link, lambda link=link: link.setStyleSheet(_link()))
+                set_help(link, f"Open {path.name}", escape(str(path)))
+                on_theme_change(link, lambda link=link: link.setStyleSheet(_link()))
                 link.clicked.connect(lambda _=False, path=path: self.recent_requested.emit(path))
                 self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from hexmend.advice import Advice, Suggestion
 from hexmend.run.recipe import Stage
-from hexmend_app.feature import Action, Feature, Host, Panel, Place
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
-from hexmend_app.state.history import Record
+from hexmend_app.state.mesh.history import RunRecord
 
 _RUNNING = "A run is under way. When it ends, you will see here why it stopped and what to try next."
 
@@ -22,14 +22,14 @@ class FeatureOutcome(Feature):
         super().__init__(host)
         session = self.session
         #: Of a run without an iteration, which has no record: the one before it, its name, and what there is to say.
-        self._idle: tuple[Record | None, str, Advice] | None = None
+        self._idle: tuple[RunRecord | None, str, Advice] | None = None
         self._shown: Advice | None = None
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
         panel.show_requested.connect(self._show_elements)
         panel.visit_requested.connect(self._visit_elements)
         panel.suggestion_chosen.connect(lambda at: self._choose(self._shown.suggestions[at]))
-        session.smoothing.ended.connect(lambda _: self._on_ended())
+        session.run.ended.connect(lambda _: self._on_ended())
         session.document.mesh_replaced.connect(self._on_another)
 
     def actions(self) -> Sequence[Action]:
@@ -37,12 +37,12 @@ class FeatureOutcome(Feature):
         return (
             Action(
                 id="why",
-                text="&Why it stopped",
+                text="Run summar&y",
                 menu="Smooth",
                 part=1,
                 keys="Y",
                 icon="help-circle-outline",
-                help="Say why the run stopped, what it left inverted, and what to try next.",
+                help="Show why the run stopped, the remaining inverted hexes and what to try next.",
                 handle=lambda: self.host.show_panel("outcome"),
                 enabled=lambda: self._shown is not None,
             ),
@@ -55,7 +55,7 @@ class FeatureOutcome(Feature):
                 id="outcome",
                 title="Outcome",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=50,
                 help="Why the run stopped, and what to try next.",
             ),
@@ -66,7 +66,7 @@ class FeatureOutcome(Feature):
         name, advice = self._explained()
         if advice is not None and advice is not self._shown:
             self.panel.show_advice(f"Why {name} stopped", advice)
-        elif advice is None and self.session.smoothing.busy:
+        elif advice is None and self.session.run.busy:
             self.panel.show_none(_RUNNING)
         elif advice is None:
             self.panel.show_none()
@@ -75,7 +75,7 @@ class FeatureOutcome(Feature):
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self) -> None:
-        record, advice = self.session.smoothing.record, self.session.smoothing.advice
+        record, advice = self.session.run.record, self.session.run.advice
         if record not in self.session.history.records:
             self._idle = (self.session.timeline.record, record.name, advice)
 
@@ -85,14 +85,14 @@ class FeatureOutcome(Feature):
     def _explained(self) -> tuple[str, Advice | None]:
         """The run that is gone through: its name, and what there is to say of its end."""
         record = self.session.timeline.record
-        if self._idle is not None and (self.session.smoothing.busy or record is not self._idle[0]):
+        if self._idle is not None and (self.session.run.busy or record is not self._idle[0]):
             self._idle = None
         if self._idle is not None:
             return self._idle[1:]
         return ("", None) if record is None else (record.name, record.advice)
 
     def _where(self) -> str:
-        """What the view shows, where that is not what the run that is explained has left."""
+        """Return the text for the mesh in the view if it is not the result of the explained run."""
         timeline = self.session.timeline
         record, moment = timeline.record, timeline.moment
         if self._idle is not None or record is None or record.result is None:
@@ -125,4 +125,4 @@ class FeatureOutcome(Feature):
         if suggestion.unpin.size:
             self.session.commands.pin(suggestion.unpin, False)
         stage = Stage(suggestion.smoother, suggestion.stop)
-        self.session.order.choose(stage, f"Chosen: {suggestion.title}. Run starts it.")
+        self.session.run_setup.choose(stage, f"Chosen: {suggestion.title}. Run starts it.")

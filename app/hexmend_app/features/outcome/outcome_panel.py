@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
+from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, on_theme_change, set_help, tint
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import AMBER, INVERTED_TEXT, TEXT, WORSE, dress, explain, icon, note, tint
 from hexmend_app.widgets.wording import counted
 
 _HINT = "No run has ended yet. Here you will see why it stopped, which hexes are still inverted, and what to try next."
@@ -54,7 +54,7 @@ class OutcomePanel(QWidget):
         self._hint = note(_HINT)
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
-        self._title, self._why, self._left, self._worse = QLabel(), *(self._text() for _ in range(3))
+        self._title, self._reason, self._left, self._worse = QLabel(), *(self._text() for _ in range(3))
         font = QFont(self._title.font())
         font.setBold(True)
         self._title.setFont(font)
@@ -65,14 +65,14 @@ class OutcomePanel(QWidget):
             "Limiting",
             "whose corners let the least scaled Jacobian rise no further, whatever moves, in one place or in several",
         )
-        self._held = _Elements(
+        self._locked_below = _Elements(
             "Locked lower",
             "with a corner of fixed nodes alone that is lower than any that can be moved",
             "the hexes that are locked lower",
         )
-        for elements in (self._locked, self._loose, self._limiting, self._held):
+        for elements in (self._locked, self._loose, self._limiting, self._locked_below):
             elements.chosen.connect(self.chosen)
-        for elements in (self._locked, self._loose, self._held):
+        for elements in (self._locked, self._loose, self._locked_below):
             elements.show_requested.connect(self.show_requested)
         self._limiting.show_requested.connect(self.visit_requested)
         self._next = QLabel("What to try next")
@@ -99,8 +99,8 @@ class OutcomePanel(QWidget):
         column = QVBoxLayout(inside)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
-        heads = (self._title, self._where, self._why, self._left, self._worse)
-        elements = (self._locked, self._loose, self._limiting, self._held)
+        heads = (self._title, self._where, self._reason, self._left, self._worse)
+        elements = (self._locked, self._loose, self._limiting, self._locked_below)
         parts = (*heads, *elements, self._surface, self._next, self._nothing)
         for part in parts:
             column.addWidget(part)
@@ -121,16 +121,16 @@ class OutcomePanel(QWidget):
     def show_advice(self, title: str, advice: Advice) -> None:
         """Explain the end of a run."""
         self._title.setText(title)
-        self._why.setText(advice.reason)
-        self._left.setText(advice.left)
+        self._reason.setText(advice.reason)
+        self._left.setText(advice.state)
         tint(self._left, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
-        self._worse.setText(advice.worse)
-        self._worse.setVisible(bool(advice.worse))
+        self._worse.setText(advice.regressions)
+        self._worse.setVisible(bool(advice.regressions))
         tint(self._worse, WORSE)
         self._locked.show_elements(advice.locked)
         self._loose.show_elements(advice.unlocked)
         self._limiting.show_elements(advice.limiting)
-        self._held.show_elements(advice.locked_below)
+        self._locked_below.show_elements(advice.locked_below)
         self._surface.setText(advice.surface)
         self._surface.setVisible(bool(advice.surface))
         self._nothing.setText(advice.no_suggestion)
@@ -150,13 +150,13 @@ class OutcomePanel(QWidget):
         self._buttons = []
         self._next.setVisible(bool(suggestions or self._nothing.text()))
         self._nothing.setVisible(not suggestions and bool(self._nothing.text()))
-        before: QWidget = self._held.button
+        before: QWidget = self._locked_below.button
         for at, one in enumerate(suggestions):
             text = self._text()
             text.setTextFormat(Qt.TextFormat.RichText)
             text.setText(f"<b>{escape(one.title)}.</b> {escape(one.text)}")
             button = QPushButton("Choose")
-            explain(button, f"Choose: {one.title}", _what_choosing_does(one))
+            set_help(button, f"Choose: {one.title}", _help_of_choice(one))
             button.clicked.connect(lambda _=False, at=at: self.suggestion_chosen.emit(at))
             self._rows.addWidget(text, at, 0)
             self._rows.addWidget(button, at, 1, Qt.AlignmentFlag.AlignTop)
@@ -184,10 +184,10 @@ class _Elements(QWidget):
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
         self._numbers.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
-        explain(self._numbers, f"{title} hexes", f"Hexes {which}; a click goes there.")
+        set_help(self._numbers, f"{title} hexes", f"Hexes {which}; a click goes there.")
         self.button = QPushButton(icon("eye-outline"), "Show them")
         self.button.clicked.connect(lambda: self.show_requested.emit(self._elements))
-        explain(
+        set_help(
             self.button,
             f"Show {called}",
             f"Show nothing but the hexes {which}, and their neighbours; Esc brings back the rest.",
@@ -196,7 +196,7 @@ class _Elements(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self._numbers, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
-        dress(self, self._write)
+        on_theme_change(self, self._write)
 
     def show_elements(self, elements: np.ndarray) -> None:
         """Show these; without a signal."""
@@ -213,7 +213,7 @@ class _Elements(QWidget):
         self._numbers.setText(f"{self._name}: {links}{rest}")
 
 
-def _what_choosing_does(one: Suggestion) -> str:
+def _help_of_choice(one: Suggestion) -> str:
     first = []
     if one.undo:
         first.append("goes back to before the run")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexmend_app.feature import Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.quality.statistics import StatisticsTable
-from hexmend_app.state.kinds import of_kind
+from hexmend_app.state.mesh.hex_groups import hexes_of_group
 
 
 class FeatureQuality(Feature):
@@ -16,7 +16,7 @@ class FeatureQuality(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         self.panel = StatisticsTable()
         self.panel.isolate_requested.connect(self._isolate)
 
@@ -27,7 +27,7 @@ class FeatureQuality(Feature):
                 id="quality",
                 title="Quality",
                 widget=self.panel,
-                place=Place.FACTS,
+                place=PanelPlace.FACTS,
                 order=20,
                 help="The mesh's quality in figures, now and as it was opened.",
             ),
@@ -36,9 +36,13 @@ class FeatureQuality(Feature):
     def refresh(self) -> None:
         """Show the figures as they are now."""
         document = self.session.document
-        if document.is_open and self._seen.another("figures", document.start, document.now):
+        if document.is_open and self._seen.changed("figures", document.start, document.now):
             self.panel.set_summaries(document.start.summary, document.now.summary)
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
-        self.session.view.isolate(of_kind(kind, now.mesh, now.figures))
+        self.session.view.isolate(hexes_of_group(kind, now.mesh, now.figures))

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
 
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
-from hexmend_app.widgets.link_table import LinkTable
-from hexmend_app.widgets.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, dress, icon, smaller, tabular
+from hexmend_app.theme.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, icon, on_theme_change, smaller, tabular
+from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
 #: What has a row: all but the quality of the best element, which says nothing.
@@ -101,7 +101,7 @@ class StatisticsTable(QWidget):
         table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
         self._fill()
         self._shape_columns()
-        dress(self, self._paint)
+        on_theme_change(self, self._paint)
         self._copy = QAction(icon("content-copy"), "Copy table", self)
         self._copy.setShortcut(QKeySequence.StandardKey.Copy)
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)

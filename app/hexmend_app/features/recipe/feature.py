@@ -9,12 +9,12 @@ from hexmend.errors import HexmendError
 from hexmend.parameters import Parametrised, declared
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe, write_recipe
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
-from hexmend_app.state.deeds import Wrote
-from hexmend_app.state.run import Phase
-from hexmend_app.widgets.questions import ask_recipe, ask_recipe_target
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
 
 _LIMITS = {
@@ -32,9 +32,9 @@ class FeatureRecipe(Feature):
 
     def __init__(self, host: Host):
         super().__init__(host)
-        chain, order = self.session.chain, self.session.order
-        self._chain, self._smoothing = chain, self.session.smoothing
-        self._seen = Seen()
+        chain, order = self.session.recipe_draft, self.session.run_setup
+        self._chain, self._smoothing = chain, self.session.run
+        self._seen = ChangeTracker()
         panel = self.panel = RecipePanel()
         panel.add_requested.connect(lambda: order.use(self._add))
         panel.replace_requested.connect(lambda at: order.use(lambda stage: chain.replace(at, stage)))
@@ -89,7 +89,7 @@ class FeatureRecipe(Feature):
                 id="recipe",
                 title="Recipe",
                 widget=self.panel,
-                place=Place.TOOLS,
+                place=PanelPlace.TOOLS,
                 tab="Run",
                 order=11,
                 help="Methods that are run one after another, as one run.",
@@ -99,18 +99,22 @@ class FeatureRecipe(Feature):
     def refresh(self) -> None:
         """Show the stages, and which of them is at work."""
         chain, smoothing = self._chain, self._smoothing
-        if self._seen.another("stages", chain.stages, chain.title):
+        if self._seen.changed("stages", chain.stages, chain.title):
             usual = Recipe.of(*chain.stages).title if chain.stages else ""
-            self.panel.set_stages([_said(stage) for stage in chain.stages], chain.title, usual)
+            self.panel.set_stages([_text(stage) for stage in chain.stages], chain.title, usual)
         self.panel.set_editable(self.session.editable)
         going = smoothing.busy and isinstance(smoothing.work, Recipe)
         at = smoothing.record.rows[-1].get("stage") if going and smoothing.record.rows else None
-        if self._seen.another("at work", at):
+        if self._seen.changed("at work", at):
             self.panel.set_at_work(at)
         # It may have gone on and paused again since it was last shown.
-        held = (smoothing.record, smoothing.record.newest) if at and smoothing.phase is Phase.PAUSED else None
-        if self._seen.another("held", held) and held is not None:
-            self.session.order.show_at_work(smoothing.work.stages[at - 1])
+        paused_at = (smoothing.record, smoothing.record.newest) if at and smoothing.phase is Phase.PAUSED else None
+        if self._seen.changed("held", paused_at) and paused_at is not None:
+            self.session.run_setup.show_at_work(smoothing.work.stages[at - 1])
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
 
     def _some(self) -> bool:
         return bool(self._chain.stages)
@@ -146,7 +150,7 @@ class FeatureRecipe(Feature):
     def save(self, path: str | Path) -> None:
         """Write the recipe."""
         try:
-            self.session.commands.carry_out(Wrote("recipe", write_recipe, (Path(path), self._chain.recipe)))
+            self.session.commands.export(FileExported("recipe", write_recipe, (Path(path), self._chain.recipe)))
         except HexmendError as error:
             self.host.messages.show_error("The recipe was not saved", str(error))
         else:
@@ -166,10 +170,10 @@ class FeatureRecipe(Feature):
 
     def _show_above(self, at: int) -> None:
         if self.session.editable:
-            self.session.order.choose(self._chain.stages[at])
+            self.session.run_setup.choose(self._chain.stages[at])
 
 
-def _said(stage: Stage) -> tuple[str, str]:
+def _text(stage: Stage) -> tuple[str, str]:
     """A stage in words, and what it does."""
     own = [*_own(stage.smoother), *_own(stage.stop, _LIMITS)]
     words = f"{stage.smoother.title} ({', '.join(own)})" if own else stage.smoother.title

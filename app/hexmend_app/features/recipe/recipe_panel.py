@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.style import explain, icon, note
+from hexmend_app.theme.style import icon, note, set_help
 
 _EMPTY = (
     "No stage yet. Choose a method above and add it: each stage begins where the one before it was best. "
@@ -61,12 +61,12 @@ class RecipePanel(QWidget):
         super().__init__(parent)
         self._editable = True
         self._title = QLineEdit()
-        explain(self._title, "Title of the recipe", "What the recipe is called in tables; saved with it.")
+        set_help(self._title, "Title of the recipe", "What the recipe is called in tables; saved with it.")
         self._title.editingFinished.connect(self._on_title)
         self._shown_title = ""
         self._list = QListWidget()
         self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        explain(self._list, "Stages", "In the order in which they are run; Enter or a double-click shows one above.")
+        set_help(self._list, "Stages", "In the order in which they are run; Enter or a double-click shows one above.")
         self._list.itemActivated.connect(lambda item: self.shown_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
         self._empty = note(_EMPTY)
@@ -100,7 +100,7 @@ class RecipePanel(QWidget):
         button = QPushButton(icon(picture), text)
         if not text:
             button.setFixedWidth(34)
-        explain(button, name or text, help)
+        set_help(button, name or text, help)
         return button
 
     def _lay_out(self) -> None:

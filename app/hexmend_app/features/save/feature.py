@@ -1,4 +1,4 @@
-"""Saving the mesh and the view: asked where, written, and said so, or said why not."""
+"""Saving the mesh and pictures of the view."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from hexmend.io.formats.session import SUFFIX
 from hexmend.run.recipe import Recipe
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.state.deeds import Wrote, moved_since
-from hexmend_app.state.document import State
-from hexmend_app.state.mesh_saver import Saving
-from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Page, Scene, write_scene
-from hexmend_app.state.scene.carried import Pictured, carrying
-from hexmend_app.widgets.questions import Answer, ask_session, ask_target, ask_unsaved
+from hexmend_app.picture import Page, Scene, write_scene
+from hexmend_app.picture.picture_metadata import PicturedMesh, with_metadata
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.user_events import FileExported, displacement_since
+from hexmend_app.state.tasks.mesh_saver import SaveTask
+from hexmend_app.widgets.dialogs.questions import Answer, ask_session, ask_target, ask_unsaved
 
 
 class FeatureSave(Feature):
-    """Writes the mesh and pictures of it, and asks before what is unsaved is lost."""
+    """Writes the mesh and pictures of it, and asks before unsaved changes are lost."""
 
     order = 11
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._last: Scene | None = None  # what the last picture was like
+        self._last: Scene | None = None  # scene of the last picture
         saver = self.session.saver
         saver.began.connect(self._on_began)
         saver.ended.connect(self._on_ended)
@@ -47,7 +47,7 @@ class FeatureSave(Feature):
                 help="Save the mesh as it is now.",
                 tool="Save",
                 handle=self.ask_mesh,
-                enabled=lambda: self.session.smoothing.phase is not Phase.RUNNING,
+                enabled=lambda: self.session.run.phase is not Phase.RUNNING,
             ),
             Action(
                 id="screenshot",
@@ -56,7 +56,7 @@ class FeatureSave(Feature):
                 part=1,
                 keys="Ctrl+P",
                 icon="camera-outline",
-                help="Save the view as a picture, at any size.",
+                help="Save a picture of the view at any size.",
                 tool="Picture",
                 handle=self.ask_picture,
                 enabled=lambda: self.canvas is not None,
@@ -65,122 +65,124 @@ class FeatureSave(Feature):
         )
 
     def may_leave(self) -> bool:
-        """Whether what is unsaved was saved or may be lost; what is being saved is waited for."""
+        """Wait for a save in progress and ask about unsaved changes; return True if leaving is allowed."""
         session = self.session
-        session.stepping.leave()
+        session.node_sweep.leave()
         if session.saver.busy and not self._wait_for_saving():
             return False
-        if not session.modified and not session.smoothing.busy:
+        if not session.modified and not session.run.busy:
             return True
-        of_mesh = session.document.modified or session.smoothing.busy
+        of_mesh = session.document.modified or session.run.busy
         answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
         if answer is Answer.SAVE:
-            session.smoothing.stop()
-            over = "The run ends after this iteration."
-            return self.host.wait_until(over, lambda: not session.smoothing.busy) and self._ask_before_leaving()
+            session.run.stop()
+            over = "The run stops after this iteration."
+            return self.host.wait_until(over, lambda: not session.run.busy) and self._ask_before_leaving()
         return answer is Answer.DISCARD
 
     def _wait_for_saving(self) -> bool:
         saver = self.session.saver
-        text = f"{saver.path.name} is being saved. If it is not waited for, it may not be written."
-        return self.host.wait_until(text, lambda: not saver.busy, "Do not wait")
+        text = f"{saver.path.name} is being saved. Leaving now may lose the file."
+        return self.host.wait_until(text, lambda: not saver.busy, "Leave now")
 
     def ask_mesh(self) -> None:
-        """Ask where the mesh goes, and begin to write it."""
+        """Ask for a path and save the mesh in the background."""
         path = ask_target(self.host.dialog_parent, self.host.stem)
         if path:
             self.session.commands.save_in_background(path)
 
     def _ask_before_leaving(self) -> bool:
-        """Ask where the mesh goes, or the session where one is open, and write it; whether it was."""
+        """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
         opened = self.session.document.path
         ask = ask_session if opened is not None and opened.suffix.lower() == SUFFIX else ask_target
         path = ask(self.host.dialog_parent, self.host.stem)
         return bool(path) and self.save_and_wait(path)
 
-    def _on_began(self, saving: Saving) -> None:
+    def _on_began(self, saving: SaveTask) -> None:
         self.host.busy.show_work("save", f"Saving {saving.path.name}…")
 
-    def _on_ended(self, saving: Saving) -> None:
+    def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         self.host.messages.show_info(f"{'Saved' if saving.data is None else 'Session saved'} to {saving.path}")
         if saving.omitted:
             self.host.messages.show_warning(
-                "Not all is in it",
+                "Some data was not saved",
                 f"A {saving.path.suffix} file cannot hold {', '.join(saving.omitted)}. Save as .vtu to keep more.",
             )
 
-    def _on_failed(self, saving: Saving) -> None:
+    def _on_failed(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         if not isinstance(saving.error, HexmendError):
             raise saving.error
-        what = "mesh" if saving.data is None else "session"
-        self.host.messages.show_error(f"The {what} was not saved", str(saving.error))
+        subject = "mesh" if saving.data is None else "session"
+        self.host.messages.show_error(f"The {subject} was not saved", str(saving.error))
 
     def ask_picture(self) -> None:
-        """Ask what the picture is to be like and where it goes, and write it."""
+        """Ask for the options and path of a picture, and write it."""
         dialog = self.picture_dialog()
         if dialog.exec():
             self._last = dialog.scene()
-            self.session.cameras.take_in(self._last.cameras)
+            self.session.saved_cameras.take_in(self._last.cameras)
             self.write_picture(dialog.target.path(), self._last)
         dialog.deleteLater()
 
     def picture_dialog(self) -> PictureDialog:
-        """The dialog that edits the scene of what is seen: page, lines, bar and axes are as they were last."""
+        """Return the dialog for a picture of the view, with the page, lines, bar and axes used last."""
         canvas, last = self.canvas, self._last
         size = canvas.size() * self.host.dialog_parent.devicePixelRatioF()
         page = Page(pixels=(size.width(), size.height())) if last is None else last.page
-        scene = canvas.scene(page, self.session.cameras.all)
+        scene = canvas.scene(page, self.session.saved_cameras.all)
         if last is not None:
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
         dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
-        dialog.scene_kept.connect(lambda *kept: self.session.commands.done.emit(Wrote("scene", write_scene, kept)))
+        dialog.scene_kept.connect(
+            lambda *kept: self.session.commands.done.emit(FileExported("scene", write_scene, kept))
+        )
         return dialog
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
-        """Write the view as a picture of `size` pixels; whether it was."""
+        """Write the view as a picture of `size` pixels; return True if it was written."""
         page = Page(pixels=size, background="transparent" if transparent else "white")
-        return self.write_picture(Path(path), self.canvas.scene(page, self.session.cameras.all))
+        return self.write_picture(Path(path), self.canvas.scene(page, self.session.saved_cameras.all))
 
     def _recipe(self) -> Recipe | None:
-        """What ran on the mesh that is shown."""
+        """Return the recipe that ran on the shown mesh, or None."""
         session = self.session
-        work = session.smoothing.work
+        work = session.run.work
         if work is None or session.document.now is session.document.start:
             return None
-        begun = session.order.begun
+        begun = session.run_setup.begun
         return work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:
-        """Write a scene of what is seen; whether it was."""
+        """Write a scene of the view; return True if it was written."""
         width, height = scene.page.size
-        written = self.host.said(
+        written = self.host.try_and_report(
             "The picture was not saved",
-            lambda: self.canvas.sheet(scene).write(path, self._carried(path, scene)),
+            lambda: self.canvas.sheet(scene).write(path, self._metadata(path, scene)),
             f"Picture of {width} × {height} pixels saved to {path}",
         )
         if written:
-            self.session.commands.done.emit(self._told(path, scene))
+            self.session.commands.done.emit(self._report(path, scene))
         return written
 
-    def _carried(self, path: Path, scene: Scene) -> dict[str, str]:
-        """What a picture carries: the scene, which meshes it shows, and what ran on the first of them."""
+    def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
+        """Return the metadata of a picture: the scene, its meshes, and the recipe of the first mesh."""
         document = self.session.document
         opened = document.start.mesh
-        meshes = [Pictured.of(opened, one.mesh, document.path, path) for one in self._shown]
-        return carrying(scene, meshes, self._recipe())
+        meshes = [PicturedMesh.of(opened, one.mesh, document.path, path) for one in self._shown]
+        return with_metadata(scene, meshes, self._recipe())
 
     @property
     def _shown(self) -> list[State]:
-        """What the views show, that of the mesh as it is now first."""
-        return [self.session.document.now, *(one.state for one in self.session.views.all)]
+        """States shown by the views, the current mesh first."""
+        return [self.session.document.now, *(one.state for one in self.session.side_views.all)]
 
-    def _told(self, path: Path, scene: Scene) -> Wrote:
-        """The call that draws the same."""
-        from hexmend_app.scene.export.still import write_picture
+    def _report(self, path: Path, scene: Scene) -> FileExported:
+        """Return the event that records the call to draw the same picture."""
+        from hexmend_app.scene.page.still_picture import write_picture
 
         document, recipe = self.session.document, self._recipe()
         options: dict[str, Any] = {"opened": document.start}
@@ -188,6 +190,6 @@ class FeatureSave(Feature):
             options["files"] = [document.path] * len(self._shown)
         if recipe is not None:
             options["recipe"] = recipe
-        options |= moved_since(self.canvas.viewport.frame.movement, document.start)
-        names = self.canvas.names if self.session.views.all else [""]
-        return Wrote("picture", write_picture, (path, scene, self._shown, names), options)
+        options |= displacement_since(self.canvas.viewport.frame.movement, document.start)
+        names = self.canvas.names if self.session.side_views.all else [""]
+        return FileExported("picture", write_picture, (path, scene, self._shown, names), options)

@@ -1,4 +1,4 @@
-"""Asks what a picture of the view is to be like and where it goes, and shows it before."""
+"""Dialog for the options and path of a picture, with a preview."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from PySide6.QtWidgets import (
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.features.save.preview import Preview
 from hexmend_app.features.save.size_form import SizeForm
-from hexmend_app.state.scene import Camera, Panel, Scene, Table, read_scene, write_scene
-from hexmend_app.state.scene.camera import DIRECTIONS
-from hexmend_app.state.scene.kept_cameras import joined
-from hexmend_app.widgets.key_form import KeyForm
-from hexmend_app.widgets.questions import ask_scene, ask_scene_target
-from hexmend_app.widgets.save_dialog import SaveDialog
+from hexmend_app.picture import Camera, ConfigTable, PicturePanel, Scene, read_scene, write_scene
+from hexmend_app.picture.camera import DIRECTIONS
+from hexmend_app.picture.named_cameras import merged
+from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
+from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
+from hexmend_app.widgets.inputs.key_form import KeyForm
 from hexmend_app.widgets.scrolled import scrolled
-from hexmend_app.widgets.style import explain
 
 if TYPE_CHECKING:
-    from hexmend_app.scene.export.sheet import Sheet
+    from hexmend_app.scene.page.page_renderer import PageRenderer
 
 _KINDS = "PNG picture (*.png);;PDF (*.pdf);;SVG (*.svg);;TIFF picture (*.tif)"
 
@@ -59,7 +59,7 @@ class PictureDialog(SaveDialog):
     Signals
     -------
     scene_kept(Path, Scene)
-        The scene was written to a file of its own.
+        The scene was saved to a separate file.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class PictureDialog(SaveDialog):
     def __init__(
         self,
         scene: Scene,
-        draw: Callable[[Scene], Sheet],
+        draw: Callable[[Scene], PageRenderer],
         view: QSize,
         name: str,
         views: Sequence[str] = (),
@@ -92,14 +92,16 @@ class PictureDialog(SaveDialog):
         self._about = QLabel()
         self.size_form = SizeForm(view, scene.page)
         self.camera = QComboBox()
-        explain(self.camera, "Camera", "From where the mesh is seen: as in the view, or from a side, all of it.")
+        set_help(
+            self.camera, "Camera", "View of the mesh: as in the window, or the whole mesh from a standard direction."
+        )
         self.captions = [QLineEdit(panel.caption) for panel in scene.panels_of(max(1, len(views)))]
         several = len(self.captions) > 1
         self.forms = [
             (table, KeyForm(getattr(scene, table), [name for name in names if several or name not in _OF_SEVERAL]))
             for _, table, names in _GROUPS
         ]
-        self._wrong = False  # whether what is typed cannot be used
+        self._wrong = False  # an input is invalid
         self._lay_out()
         self._offer_cameras()
         self.preview.drawn.connect(self._on_drawn)
@@ -119,7 +121,7 @@ class PictureDialog(SaveDialog):
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
             title = f"Caption {number}" if len(self.captions) > 1 else "Caption"
-            explain(line, title, "What stands above the picture.")
+            set_help(line, title, "Text above the picture.")
             rows.addRow(title, line)
         groups = [("Size", self.size_form), ("Camera", self.camera)]
         groups += [(title, form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
@@ -130,7 +132,7 @@ class PictureDialog(SaveDialog):
                 column.addWidget(texts)
         column.addStretch()
         labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
-        for label in labels:  # fields of all groups begin at one place
+        for label in labels:  # align the fields of all groups
             label.setMinimumWidth(max(one.sizeHint().width() for one in labels))
         left = QVBoxLayout()
         left.addWidget(self.preview, 1)
@@ -141,13 +143,13 @@ class PictureDialog(SaveDialog):
         area.setMinimumWidth(settings.sizeHint().width() + 28)
         both.addWidget(area)
         load, keep = QPushButton("Load scene…"), QPushButton("Save scene…")
-        explain(load, "Load scene…", "Take all of this from a scene file.")
-        explain(keep, "Save scene…", "Write all of this as a file, for hexmend render --scene.")
+        set_help(load, "Load scene…", "Load these settings from a scene file.")
+        set_help(keep, "Save scene…", "Save these settings as a scene file, for hexmend render --scene.")
         load.clicked.connect(self._ask_scene)
         keep.clicked.connect(self._ask_target)
         self.lay_out_below(both, load, keep)
-        room = self.screen().availableSize() * _SHARE
-        self.resize(room.expandedTo(QSize(1000, 640)))
+        space = self.screen().availableSize() * _SHARE
+        self.resize(space.expandedTo(QSize(1000, 640)))
 
     def scene(self) -> Scene:
         """The scene as it is chosen.
@@ -155,22 +157,22 @@ class PictureDialog(SaveDialog):
         Raises
         ------
         ParameterError
-            Where a value cannot be used.
+            If a value is invalid.
         """
-        tables: dict[str, Table] = {"page": self.size_form.page(self._base.page)}
+        tables: dict[str, ConfigTable] = {"page": self.size_form.page(self._base.page)}
         for name, form in self.forms:
             tables[name] = form.table(tables.get(name, getattr(self._base, name)))
         captions = [line.text() for line in self.captions]
         panels = self._base.panels
         if panels or any(captions):
-            panels = panels or (Panel(),)
+            panels = panels or (PicturePanel(),)
             panels = tuple(replace(panel, caption=text) for panel, text in zip(panels, captions, strict=True))
         camera = self.camera.currentData()
         return replace(self._base, panels=panels, camera=camera or self._seen.camera, **tables)
 
     def show_scene(self, scene: Scene) -> None:
         """Show another scene of what is seen, with its cameras too; its panels are as the views are."""
-        cameras = joined(self._seen.cameras, scene.cameras)
+        cameras = merged(self._seen.cameras, scene.cameras)
         self._base = replace(scene, panels=self._seen.panels, cameras=cameras)
         self.size_form.show_page(scene.page)
         for name, form in self.forms:
@@ -180,7 +182,7 @@ class PictureDialog(SaveDialog):
 
     def check(self) -> None:
         """Raise `FileError` or `ParameterError` where what is chosen cannot be written to the path."""
-        from hexmend_app.scene.export.sheet import format_of
+        from hexmend_app.scene.page.page_renderer import format_of
 
         format_of(self.target.path())
         self.scene()
@@ -203,7 +205,7 @@ class PictureDialog(SaveDialog):
             self.scene_kept.emit(Path(path), scene)
 
     def _offer_cameras(self) -> None:
-        """As the view, those of the scene by name, and the directions."""
+        """List the cameras: that of the view, those of the scene by name, and the directions."""
         self.camera.clear()
         self.camera.addItem("As the view", None)
         if self._base.camera not in (Camera(), self._seen.camera):

@@ -11,13 +11,13 @@ from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from hexmend.errors import HexmendError
-from hexmend_app.scene.palette import FIELD, LINE
-from hexmend_app.state.scene import Scene
-from hexmend_app.state.scene.page import PT_PER_INCH
-from hexmend_app.widgets.style import explain
+from hexmend_app.picture import Scene
+from hexmend_app.picture.page import PT_PER_INCH
+from hexmend_app.theme.palette import FIELD, LINE
+from hexmend_app.theme.style import set_help
 
 if TYPE_CHECKING:
-    from hexmend_app.scene.export.sheet import Sheet
+    from hexmend_app.scene.page.page_renderer import PageRenderer
 
 #: Milliseconds after the last change until it is drawn anew.
 _PAUSE = 150
@@ -42,13 +42,13 @@ class Preview(QWidget):
 
     drawn = Signal(str)
 
-    def __init__(self, draw: Callable[[Scene], Sheet], parent: QWidget | None = None):
+    def __init__(self, draw: Callable[[Scene], PageRenderer], parent: QWidget | None = None):
         super().__init__(parent)
         self._draw, self._scene = draw, Scene()
         self.picture = QPixmap()
         self.setMinimumSize(360, 280)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        explain(self, "Preview", "The picture as it will be, small and without shading.")
+        set_help(self, "Preview", "The picture as it will be, small and without shading.")
         self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
         self._soon.timeout.connect(self._redraw)
 

@@ -1,4 +1,4 @@
-"""How large a page is: one of the usual sizes, or any, in millimetres or in pixels."""
+"""Form for the size of a page: a preset, or a custom size in millimetres or pixels."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import replace
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QWidget
 
-from hexmend_app.state.scene import Page
-from hexmend_app.widgets.style import explain
+from hexmend_app.picture import Page
+from hexmend_app.theme.style import set_help
 
 #: Title, pixels or millimetres.
 _PRESETS = (
@@ -50,13 +50,13 @@ class SizeForm(QWidget):
         for title, pixels, mm in _PRESETS:
             self.preset.addItem(title, (pixels, mm))
         self.preset.addItem("Other", None)
-        explain(self.preset, "Usual size", "A size that is often wanted.")
+        set_help(self.preset, "Usual size", "A size that is often wanted.")
         self.unit.addItems([_MM, _PIXELS])
-        explain(self.unit, "Unit of the size", "Millimetres on paper, or pixels.")
+        set_help(self.unit, "Unit of the size", "Millimetres on paper, or pixels.")
         self.width_box, self.height_box, self.dpi = QDoubleSpinBox(), QDoubleSpinBox(), QDoubleSpinBox()
-        explain(self.width_box, "Width", "Width of the picture.")
-        explain(self.height_box, "Height", "Height of the picture.")
-        explain(self.dpi, "Resolution", "Pixels per inch of paper: 300 to 600 for print.")
+        set_help(self.width_box, "Width", "Width of the picture.")
+        set_help(self.height_box, "Height", "Height of the picture.")
+        set_help(self.dpi, "Resolution", "Pixels per inch of paper: 300 to 600 for print.")
         self.dpi.setRange(5, 4800)
         self.dpi.setDecimals(0)
         self.dpi.setSuffix(" dpi")

@@ -1,4 +1,4 @@
-"""What a script calls comparisons of methods and their rows; one that has no name yet is told how it came about."""
+"""Names of comparisons and their rows in a script; a new comparison gets the lines that create it."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from hexmend.quality import summarise
 from hexmend.smoothers import METHODS
 from hexmend.study import compare
 from hexmend.study.table_row import Row
-from hexmend_app.features.script.lines import Lines, call
+from hexmend_app.features.script.lines import ScriptLines, call
+from hexmend_app.features.script.source_code import made
 from hexmend_app.features.script.stored import Stored
-from hexmend_app.features.script.words import made
-from hexmend_app.state.comparison import ComparisonData
-from hexmend_app.state.document import State
-from hexmend_app.state.session import Session
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.comparison import ComparisonData
+from hexmend_app.state.session.session import Session
 
 #: Outcomes of a run that hang on when it was ended, not on what it found.
 _BY_CLOCK = (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key)
@@ -28,14 +28,14 @@ class Comparisons:
     ----------
     session : Session
     lines : Lines
-        Where it is told.
+        The script.
     mesh : callable
         What the script calls the mesh of a state.
     stored : Stored
         Knows what a session holds.
     """
 
-    def __init__(self, session: Session, lines: Lines, mesh: Callable[[State], str], stored: Stored):
+    def __init__(self, session: Session, lines: ScriptLines, mesh: Callable[[State], str], stored: Stored):
         self._now, self._lines, self._mesh, self._stored = session.comparison, lines, mesh, stored
         self.clear()
 
@@ -45,18 +45,18 @@ class Comparisons:
         self._count = 0
 
     def name(self) -> str:
-        """What the script calls the comparison that was made last."""
+        """Return the name of the last comparison in the script."""
         results = self._now.results
         if self._last[0] is not results:
-            source = self._stored.comparison(results) or self._compare(self._now.given())
+            source = self._stored.comparison(results) or self._compare(self._now.to_data())
             self._last = results, f"comparison_{self._count}"
             self._count += 1
             self._lines.put("Comparison", f"{self._last[1]} = {source}")
         return self._last[1]
 
     def row(self, row: Row) -> str:
-        """What the script calls a row of it."""
-        rows = self._now.given().rows
+        """Return the script's expression for a row of the last comparison."""
+        rows = self._now.to_data().rows
         return f"{self.name()}.rows[{next(k for k, one in enumerate(rows) if one is row)}]"
 
     def row_of(self, state: State) -> Row | None:
@@ -64,7 +64,7 @@ class Comparisons:
         return next((one.row for one in self._now.results if one.state is state), None)
 
     def _compare(self, data: ComparisonData) -> str:
-        """What compares the methods again, each as far as it came where the clock or the user ended it."""
+        """Return the source that repeats the comparison; interrupted methods are limited to their iterations."""
         base, stop = self._mesh(data.initial), replace(data.stop, max_seconds=0.0)
         function = self._lines.use(compare.compare)
         methods = [made(METHODS[row.method](**row.parameters)) for row in data.rows]

@@ -1,4 +1,4 @@
-"""The script of what was done in the window: seen as it grows, copied, and saved."""
+"""Script of the actions in the window: shown, copied and saved."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from pathlib import Path
 from PySide6.QtWidgets import QApplication
 from superqt.utils import QSignalThrottler
 
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.script.script import Script
 from hexmend_app.features.script.script_panel import ScriptPanel
-from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Page, Scene
-from hexmend_app.widgets.questions import ask_script
+from hexmend_app.picture import Page, Scene
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.widgets.dialogs.questions import ask_script
 
 #: Milliseconds between two looks while a run goes on.
 _PERIOD = 300
 
 
 class FeatureScript(Feature):
-    """Shows what was done as Python, and gives it away."""
+    """Shows the actions in the window as a Python script."""
 
     order = 58
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         self.script = Script(self.session, self)
         self.script.scene = self._scene
         self.panel = ScriptPanel()
@@ -47,7 +47,7 @@ class FeatureScript(Feature):
                 menu="File",
                 part=1,
                 icon="script-text-outline",
-                help="Save what was done in this window as a Python file that does it again.",
+                help="Save the actions in this window as a Python script that repeats them.",
                 handle=self.ask,
                 enabled=lambda: self.session.document.is_open or bool(self.script.entries),
                 needs_mesh=False,
@@ -55,39 +55,43 @@ class FeatureScript(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """What was done."""
+        """Return the script panel."""
         return (
             Panel(
                 id="script",
                 title="Script",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=70,
-                help="What was done in this window, as Python that does it again.",
+                help="The actions in this window as a Python script that repeats them.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show what has been done since and what is seen, where somebody looks: while a run goes on, now and then."""
+        """Update the script if the panel is visible; throttled during a run."""
         if not self.panel.isVisible():
             return
-        if self.session.smoothing.phase is Phase.RUNNING:
+        if self.session.run.phase is Phase.RUNNING:
             self._soon.throttle()
         else:
             self._soon.cancel()
             self._show()
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
     def _show(self) -> None:
         text = self.script.text
-        if self._seen.another("script", text):
+        if self._seen.changed("script", text):
             self.panel.show_text(text)
 
     def _scene(self) -> Scene | None:
-        """What is seen; None before anything is drawn."""
+        """Return the scene of the view; None before the first picture."""
         canvas = self.canvas
         if canvas is None or canvas.viewport.frame is None:
             return None
-        return canvas.scene(Page(), self.session.cameras.all)
+        return canvas.scene(Page(), self.session.saved_cameras.all)
 
     def copy(self) -> None:
         """Copy the script."""
@@ -95,11 +99,13 @@ class FeatureScript(Feature):
         self.host.messages.show_info("The script was copied.")
 
     def ask(self) -> None:
-        """Ask where the script goes and write it."""
+        """Ask for a path and save the script."""
         path = ask_script(self.host.dialog_parent, self.host.stem)
         if path:
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
-        """Write the script; whether it was."""
-        return self.host.said("The script was not saved", lambda: self.script.write(path), f"Script saved to {path}")
+        """Write the script; return True if it was written."""
+        return self.host.try_and_report(
+            "The script was not saved", lambda: self.script.write(path), f"Script saved to {path}"
+        )

@@ -13,15 +13,15 @@ from hexmend import __version__
 from hexmend.parameters import Parametrised
 from hexmend.report.charts import ChartStyle
 from hexmend.run.recipe import Recipe, Stage
-from hexmend_app.features.script.words import WIDTH, comment_of, lines_of, made, numbers
-from hexmend_app.state.scene import Scene, from_toml, to_toml
+from hexmend_app.features.script.source_code import WIDTH, comment_of, lines_of, made, numbers
+from hexmend_app.picture import Scene, from_toml, to_toml
 
 #: Said of what reads a file that was written to since.
 _OVERWRITTEN = ": the file was overwritten since, put it back as it was first"
 
 
-class Lines:
-    """What was done, each a comment and Python source.
+class ScriptLines:
+    """Entries of the script, each a comment with Python source.
 
     Attributes
     ----------
@@ -33,8 +33,8 @@ class Lines:
         Called as there is another entry.
     """
 
-    def __init__(self, told: Callable[[], None]):
-        self._told = told
+    def __init__(self, reported: Callable[[], None]):
+        self._report = reported
         self.entries: list[str] = []
         self._imports: dict[str, set[str]] = {}  # names by the module that has them
 
@@ -43,7 +43,7 @@ class Lines:
         words = comment_of(title)
         comment = f"# {words[:1].upper()}{words[1:]}"
         self.entries.append(f"{comment}\n{source}" if source else comment)
-        self._told()
+        self._report()
 
     def change(self, old: str, new: str) -> bool:
         """Let a line be another; whether it was there."""
@@ -66,20 +66,20 @@ class Lines:
         """Forget all."""
         self.entries.clear()
         self._imports.clear()
-        self._told()
+        self._report()
 
-    def use(self, what: Callable[..., Any]) -> str:
-        """What a function or a class is called in the script, which imports it."""
-        name, parts = what.__name__, what.__module__.split(".")
-        if getattr(hexmend, name, None) is what:
+    def use(self, subject: Callable[..., Any]) -> str:
+        """Import a function or class in the script and return its name."""
+        name, parts = subject.__name__, subject.__module__.split(".")
+        if getattr(hexmend, name, None) is subject:
             return f"hx.{name}"
         homes = (".".join(parts[:count]) for count in range(2, len(parts) + 1))
-        home = next(one for one in homes if getattr(sys.modules[one], name, None) is what)
+        home = next(one for one in homes if getattr(sys.modules[one], name, None) is subject)
         self._imports.setdefault(home, set()).add(name)
         return name
 
     def source(self, value: Any) -> str:
-        """What makes a value that is no mesh and no run."""
+        """Return the source of a value that is neither a mesh nor a run."""
         if isinstance(value, Path):
             return repr(str(value.absolute()))
         if isinstance(value, Scene):

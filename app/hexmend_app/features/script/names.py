@@ -1,4 +1,4 @@
-"""What a script calls meshes and runs; whatever has no name yet is told how it came about."""
+"""Names of meshes and runs in a script; a new object gets the lines that create it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import numpy as np
 
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.features.script.comparisons import Comparisons
-from hexmend_app.features.script.lines import Lines, call
-from hexmend_app.features.script.runs import Told
+from hexmend_app.features.script.lines import ScriptLines, call
+from hexmend_app.features.script.runs import RunLines
+from hexmend_app.features.script.source_code import made
 from hexmend_app.features.script.stored import Stored
-from hexmend_app.features.script.words import made
-from hexmend_app.state.document import State
-from hexmend_app.state.record import Moment, Record
-from hexmend_app.state.rerun import rerun
-from hexmend_app.state.session import Session
-from hexmend_app.state.session_data import SessionData
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
+from hexmend_app.state.run.rerun import rerun
+from hexmend_app.state.session.session import Session
+from hexmend_app.state.session.session_data import SessionData
 
 
 class Names:
@@ -33,14 +33,14 @@ class Names:
     ----------
     session : Session
     lines : Lines
-        Where it is told how something came about.
+        The script, which is given the sources of what is named.
     """
 
-    def __init__(self, session: Session, lines: Lines):
+    def __init__(self, session: Session, lines: ScriptLines):
         self._session, self._lines = session, lines
         self._paths: WeakKeyDictionary[State, Path] = WeakKeyDictionary()
-        self._told: WeakKeyDictionary[Record, Told] = WeakKeyDictionary()
-        self._kept: list[tuple[np.ndarray, Moment]] = []
+        self._run_lines: WeakKeyDictionary[RunRecord, RunLines] = WeakKeyDictionary()
+        self._kept: list[tuple[np.ndarray, RecordedIteration]] = []
         self._stored = Stored(session, lines)
         self.comparisons = Comparisons(session, lines, self.mesh, self._stored)
         self.clear()
@@ -48,7 +48,7 @@ class Names:
     def clear(self) -> None:
         """Forget all names."""
         self._states: WeakKeyDictionary[State, str] = WeakKeyDictionary()
-        self._runs: WeakKeyDictionary[Record, tuple[str, frozenset[int]]] = WeakKeyDictionary()
+        self._runs: WeakKeyDictionary[RunRecord, tuple[str, frozenset[int]]] = WeakKeyDictionary()
         self._counts = {"mesh": 0, "run": 0}
         self._stored.clear()
         self.comparisons.clear()
@@ -79,21 +79,21 @@ class Names:
     def keep(self) -> None:
         """Know of which iterations the places are that the window keeps, before the iterations themselves are gone."""
         session, known = self._session, {id(points): moment for points, moment in self._kept}
-        now, kept = session.document.now, [one.points for one in session.kept.all]
+        now, kept = session.document.now, [one.points for one in session.snapshots.all]
         if now is not None and (moment := session.history.moment_of(now)) is not None:
             known.setdefault(id(now.mesh.points), moment)
         self._kept = [(points, known[id(points)]) for points in kept if id(points) in known]
 
-    def ended(self, record: Record, told: Told) -> None:
+    def ended(self, record: RunRecord, run_lines: RunLines) -> None:
         """All is known of a run."""
-        self._told[record] = told
+        self._run_lines[record] = run_lines
 
     def add(self, title: str, state: State, source: str) -> None:
         """Tell what makes a state."""
         self._lines.put(title, f"{self.new(state)} = {source}")
 
     def new(self, state: State) -> str:
-        """A name for a state, whose source is about to be told."""
+        """A name for a state, whose source follows."""
         self._states[state] = self._next("mesh")
         return self._states[state]
 
@@ -105,11 +105,11 @@ class Names:
     # Meshes
 
     def known(self, state: State) -> str | None:
-        """What the script calls a state already."""
+        """Return the existing name of a state in the script, or None."""
         return self._states.get(state)
 
     def mesh(self, state: State) -> str:
-        """What the script calls the mesh of a state; where it has no name yet, it is told how it came about."""
+        """Return the name of a state's mesh; write the lines that create it if it has none."""
         if state in self._states:
             return self._states[state]
         moment = self._made_by(state)
@@ -141,7 +141,7 @@ class Names:
             self._session.history.note(state, moment)
         return self.mesh(state)
 
-    def _made_by(self, state: State) -> Moment | None:
+    def _made_by(self, state: State) -> RecordedIteration | None:
         """The iteration that a state is of; of a state where runs begin, that of the run before them."""
         moment = self._session.history.moment_of(state)
         while moment is not None and state is moment.record.start:
@@ -149,7 +149,7 @@ class Names:
         return moment
 
     def _reaches(self, state: State) -> bool:
-        """Whether the script can make a state from what is named, or in files."""
+        """Return True if the script can create a state from named objects or files."""
         while not (state in self._states or state in self._paths or self._stored.mesh(state) is not None):
             moment = self._made_by(state)
             if moment is None or not self.repeats(moment.record):
@@ -157,25 +157,25 @@ class Names:
             state = moment.record.start
         return True
 
-    def _add_iteration(self, state: State, moment: Moment) -> None:
+    def _add_iteration(self, state: State, moment: RecordedIteration) -> None:
         record, number = moment.record, moment.number
         same = record.start, record.end
         at = next((one for one in same if one is not None and one.mesh.points is state.mesh.points), None)
-        told = self.told(record)
-        if at is state and told is not None and told.stages:
+        run_lines = self.run_lines(record)
+        if at is state and run_lines is not None and run_lines.stages:
             start, name = self.mesh(record.start), self.new(state)
-            self._lines.put(moment.name, told.smoothed(start, name))
+            self._lines.put(moment.name, run_lines.smoothed(start, name))
             return
         base = self.mesh(self._like(state, record.start))
         if at is not None and at is not state:
             self.add(moment.name, state, f"{base}.with_points({self.mesh(at)}.points)")
             return
-        if told is None:
+        if run_lines is None:
             points = f"{self.run(record)}.points({number})"
             self.add(moment.name, state, f"{base}.with_points({points})")
             return
         start = self.mesh(record.start)
-        loop = told.until(start, number)
+        loop = run_lines.until(start, number)
         name = self.new(state)
         points, note = "it.points", ""
         if at is None and self._is_rounded(state, moment):
@@ -183,11 +183,11 @@ class Names:
             note = "# The window keeps ways from the start in single precision.\n"
         self._lines.put(moment.name, f"{loop}\n{note}{name} = {base}.with_points({points})")
 
-    def _is_rounded(self, state: State, moment: Moment) -> bool:
+    def _is_rounded(self, state: State, moment: RecordedIteration) -> bool:
         try:
             return np.array_equal(moment.record.points(moment.number), state.mesh.points)
         except KeyError:  # it was thinned out since: only what comes from there is shown while no run goes on
-            return not self._session.smoothing.busy
+            return not self._session.run.busy
 
     def _like(self, state: State, other: State) -> State:
         """A named state whose mesh carries what that of another does."""
@@ -200,35 +200,35 @@ class Names:
 
     # Runs
 
-    def repeats(self, record: Record) -> bool:
-        """Whether the script can make a run again, or find it in a session."""
-        return self.told(record) is not None or self._stored.run(record) is not None
+    def repeats(self, record: RunRecord) -> bool:
+        """Return True if the script can repeat a run or read it from a session."""
+        return self.run_lines(record) is not None or self._stored.run(record) is not None
 
-    def told(self, record: Record) -> Told | None:
-        """What is known of a run that has ended, or goes on; None of a session's."""
-        if record in self._told or record.work is None:
-            return self._told.get(record)
-        return Told(record.work, record.stop, tuple(record.changes))
+    def run_lines(self, record: RunRecord) -> RunLines | None:
+        """Return the data of a finished or current run; None for a run from a session."""
+        if record in self._run_lines or record.work is None:
+            return self._run_lines.get(record)
+        return RunLines(record.work, record.stop, tuple(record.changes))
 
-    def run(self, record: Record, keep: Collection[int] = ()) -> str:
-        """What the script calls a run with all that is known of it, and where its nodes were at some iterations."""
+    def run(self, record: RunRecord, keep: Collection[int] = ()) -> str:
+        """Return the name of a run in the script, with its history and some iterations."""
         name, kept = self._runs.get(record, ("", frozenset()))
-        told = self.told(record)
-        needed = frozenset(number for number in keep if number not in (0, record.result)) if told else frozenset()
+        run_lines = self.run_lines(record)
+        needed = frozenset(number for number in keep if number not in (0, record.result)) if run_lines else frozenset()
         if name and needed <= kept:
             return name
-        arguments = self._stored.run(record) if told is None else self._rerun(record, told, needed)
+        arguments = self._stored.run(record) if run_lines is None else self._rerun(record, run_lines, needed)
         name = self._next("run")
         self._runs[record] = name, needed
         self._lines.put(f"{record.name}, with all that is known of it", f"{name} = {arguments}")
         return name
 
-    def _rerun(self, record: Record, told: Told, keep: Collection[int]) -> str:
-        words = [repr(record.name), self.mesh(record.start), *told.arguments]
-        until = told.stopped if told.stages or record.result is not None else record.newest
-        if record.result is not None and not told.stages:
+    def _rerun(self, record: RunRecord, run_lines: RunLines, keep: Collection[int]) -> str:
+        words = [repr(record.name), self.mesh(record.start), *run_lines.arguments]
+        until = run_lines.stopped if run_lines.stages or record.result is not None else record.newest
+        if record.result is not None and not run_lines.stages:
             until = record.result  # it has failed later
-        changes = ", ".join(f"({number}, {made(stage)})" for number, stage in told.changes)
+        changes = ", ".join(f"({number}, {made(stage)})" for number, stage in run_lines.changes)
         words += [] if until is None else [f"until={until}"]
         words += [f"changes=[{changes}]"] if changes else []
         words += [f"keep={sorted(keep)}"] if keep else []

@@ -9,12 +9,12 @@ from hexmend.iteration import Outcome, Result, StageResult
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
-from hexmend_app.features.script.words import made, with_limits
+from hexmend_app.features.script.source_code import made, with_limits
 
 
 @dataclass(frozen=True)
-class Told:
-    """What is known of a run.
+class RunLines:
+    """Data of a run that a script needs to repeat it.
 
     Parameters
     ----------
@@ -38,14 +38,14 @@ class Told:
     @classmethod
     def of(
         cls, work: Smoother | Recipe, stop: StoppingCriteria | None, changes: Sequence[tuple[int, Stage]], end: Result
-    ) -> Told:
+    ) -> RunLines:
         """A run that has ended."""
         stopped = end.iterations if end.outcome is Outcome.STOPPED else None
         return cls(work, stop, tuple(changes), end.stages, stopped)._counted()
 
     @property
     def arguments(self) -> list[str]:
-        """What it does, and its limits, as source."""
+        """Return the method and its limits as source."""
         return [with_limits(self.work, self.stop)]
 
     def smoothed(self, mesh: str, name: str) -> str:
@@ -73,34 +73,34 @@ class Told:
             lines += [f"    if it.number == {end}:", f"        {at_the_end}"]
         return "\n".join(lines if len(lines) > 2 or "for" not in lines[-1] else [*lines, "    pass"])
 
-    def _counted(self) -> Told:
+    def _counted(self) -> RunLines:
         """The same with iterations for a limit where it was seconds that ended a stage: other machines differ."""
-        told = _without_clock(self)
-        for number in {leg.stage for leg in self.stages}:
-            legs = [leg for leg in self.stages if leg.stage == number]
-            if legs[-1].outcome is Outcome.MAX_SECONDS:
-                told = told._limited(legs[-1], sum(leg.iterations for leg in legs))
-        return told
+        repeatable = _without_clock(self)
+        for number in {run.stage for run in self.stages}:
+            stage_runs = [run for run in self.stages if run.stage == number]
+            if stage_runs[-1].outcome is Outcome.MAX_SECONDS:
+                repeatable = repeatable._limited(stage_runs[-1], sum(run.iterations for run in stage_runs))
+        return repeatable
 
-    def _limited(self, leg: StageResult, most: int) -> Told:
-        """The same with a limit of iterations for the stage that a leg is the end of."""
+    def _limited(self, stage_run: StageResult, most: int) -> RunLines:
+        """The same with a limit of iterations for the stage that ends with a run of it."""
         for at, (number, stage) in reversed(list(enumerate(self.changes))):
-            if stage.smoother.name == leg.method and number < leg.first + leg.iterations + 1:
+            if stage.smoother.name == stage_run.method and number < stage_run.first + stage_run.iterations + 1:
                 change = number, replace(stage, stop=replace(stage.stop, max_iterations=most))
                 return replace(self, changes=(*self.changes[:at], change, *self.changes[at + 1 :]))
         if isinstance(self.work, Recipe):
-            at, stages = leg.stage - 1, self.work.stages
+            at, stages = stage_run.stage - 1, self.work.stages
             limited = replace(stages[at], stop=replace(stages[at].stop, max_iterations=most))
             return replace(self, work=replace(self.work, stages=(*stages[:at], limited, *stages[at + 1 :])))
         return replace(self, stop=replace(self.stop or StoppingCriteria(), max_iterations=most))
 
 
-def _without_clock(told: Told) -> Told:
-    """No stage ends by the clock."""
-    work = told.work.limited(max_seconds=0.0) if isinstance(told.work, Recipe) else told.work
-    stop = told.stop and replace(told.stop, max_seconds=0.0)
-    changes = [(number, replace(stage, stop=replace(stage.stop, max_seconds=0.0))) for number, stage in told.changes]
-    return replace(told, work=work, stop=stop, changes=tuple(changes))
+def _without_clock(lines: RunLines) -> RunLines:
+    """Return a copy in which no stage has a limit of seconds."""
+    work = lines.work.limited(max_seconds=0.0) if isinstance(lines.work, Recipe) else lines.work
+    stop = lines.stop and replace(lines.stop, max_seconds=0.0)
+    changes = [(number, replace(stage, stop=replace(stage.stop, max_seconds=0.0))) for number, stage in lines.changes]
+    return replace(lines, work=work, stop=stop, changes=tuple(changes))
 
 
 def _both(stage: Stage) -> str:

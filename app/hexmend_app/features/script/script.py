@@ -14,19 +14,28 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.node_step import Sweep
 from hexmend.report import write_comparison
 from hexmend.study.table_row import Row
-from hexmend_app.features.script.lines import Lines, call
+from hexmend_app.features.script.lines import ScriptLines, call
 from hexmend_app.features.script.names import Names, read_from
-from hexmend_app.features.script.runs import Told
-from hexmend_app.features.script.seen import Seen
-from hexmend_app.features.script.words import called, made
-from hexmend_app.state.deeds import Changed, Deed, Iterations, Moved, Saved, Tabled, WentBack, Wrote
-from hexmend_app.state.document import State
-from hexmend_app.state.record import Record
-from hexmend_app.state.restoring import Restored
-from hexmend_app.state.scene import Scene
-from hexmend_app.state.session import Session
-from hexmend_app.state.session_data import SessionData
-from hexmend_app.state.stepping import Swept
+from hexmend_app.features.script.runs import RunLines
+from hexmend_app.features.script.seen import ViewLines
+from hexmend_app.features.script.source_code import called, made
+from hexmend_app.picture import Scene
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.state.run.node_sweep import SweepResult
+from hexmend_app.state.session.restored_picture import RestoredPicture
+from hexmend_app.state.session.session import Session
+from hexmend_app.state.session.session_data import SessionData
+from hexmend_app.state.session.user_events import (
+    FileExported,
+    IterationsExported,
+    MeshEdited,
+    MeshSaved,
+    NodesMoved,
+    TableExported,
+    UndoOrRedo,
+    UserEvent,
+)
 
 
 class Script(QObject):
@@ -50,18 +59,18 @@ class Script(QObject):
     def __init__(self, session: Session, parent: QObject | None = None):
         super().__init__(parent)
         self._session, self._document = session, session.document
-        self._lines = Lines(self.changed.emit)
+        self._lines = ScriptLines(self.changed.emit)
         self._names = Names(session, self._lines)
         self.scene: Callable[[], Scene | None] = lambda: None
         session.opener.loaded.connect(self._on_session)
         session.opener.ended.connect(self._on_opened)
         session.opener.restored.connect(self._on_restored)
         session.commands.done.connect(self._on_done)
-        session.stepping.recorded.connect(self._on_swept)
+        session.node_sweep.recorded.connect(self._on_swept)
         session.comparison.changed.connect(self._on_compared)
-        session.kept.changed.connect(self._names.keep)
-        session.smoothing.ended.connect(self._on_ended)
-        session.smoothing.failed.connect(self._on_failed)
+        session.snapshots.changed.connect(self._names.keep)
+        session.run.ended.connect(self._on_ended)
+        session.run.failed.connect(self._on_failed)
 
     @property
     def entries(self) -> list[str]:
@@ -75,15 +84,15 @@ class Script(QObject):
         return self._lines.text(seen.source if seen is not None else "")
 
     @property
-    def _seen(self) -> Seen | None:
+    def _seen(self) -> ViewLines | None:
         if not self._document.is_open or (scene := self.scene()) is None:
             return None
         now = self._document.now
         moment, known = self._session.history.moment_of(now), self._names.known(now)
         name = self._document.name if moment is None else moment.name
-        if (sweep := self._session.stepping.sweep) is not None:
+        if (sweep := self._session.node_sweep.sweep) is not None:
             name = f"{sweep.done} of {sweep.nodes.size} nodes of a sweep"
-        return Seen(scene, f"{name}, {known}" if known else name)
+        return ViewLines(scene, f"{name}, {known}" if known else name)
 
     def begin_anew(self) -> None:
         """Forget what was done; what comes next goes on from the mesh as it is then."""
@@ -103,7 +112,7 @@ class Script(QObject):
             self._names.read(path, state)
             self._names.add(f"Open {path.name}", state, read_from(path))
 
-    def _on_restored(self, restored: Restored) -> None:
+    def _on_restored(self, restored: RestoredPicture) -> None:
         """Know from where the meshes are that a picture shows beside the first."""
         for one in restored.others:
             if one.state is not None:
@@ -115,56 +124,57 @@ class Script(QObject):
             self._names.restored(data, path)
         self._names.mesh(self._document.now)
 
-    def _on_done(self, deed: Deed) -> None:
+    def _on_done(self, event: UserEvent) -> None:
         names, put = self._names, self._lines.put
-        match deed:
-            case Changed(after=after, before=before):
+        match event:
+            case MeshEdited(after=after, before=before):
                 if after not in names:
-                    self._lines.use(deed.change)
-                    names.add(deed.title, after, called(names.mesh(before), deed.change, deed.values))
-            case Moved(after=after, before=before):
+                    self._lines.use(event.change)
+                    names.add(event.title, after, called(names.mesh(before), event.change, event.values))
+            case NodesMoved(after=after, before=before):
                 if after not in names:
-                    places, mesh = names.mesh(deed.places), names.mesh(before)
-                    names.add(deed.title, after, f"{mesh}.with_points({places}.points)")
-            case WentBack():
-                put(f"{'undo' if deed.undone else 'redo'} {deed.title}: on with {names.mesh(deed.now)}")
-            case Saved(data=SessionData()):
-                names.session_saved(deed.path, deed.data)
-                put(f"the session was saved as {deed.path}")
-            case Saved():
-                source = f"hx.write({str(deed.path.absolute())!r}, {names.mesh(deed.now)})"
-                self._lines.overwritten(deed.path)
+                    places, mesh = names.mesh(event.places), names.mesh(before)
+                    names.add(event.title, after, f"{mesh}.with_points({places}.points)")
+            case UndoOrRedo():
+                put(f"{'undo' if event.undone else 'redo'} {event.title}: on with {names.mesh(event.now)}")
+            case MeshSaved(data=SessionData()):
+                names.session_saved(event.path, event.data)
+                put(f"the session was saved as {event.path}")
+            case MeshSaved():
+                source = f"hx.write({str(event.path.absolute())!r}, {names.mesh(event.now)})"
+                self._lines.overwritten(event.path)
                 put("save", source)
-                names.written(deed.path, deed.now)
-            case Tabled():
-                words = [self._told(deed.path), f"{names.comparisons.name()}.record()"]
-                if deed.names or deed.title is not None:
-                    words += [repr(dict(deed.names or {})), repr(deed.title)]
+                names.written(event.path, event.now)
+            case TableExported():
+                words = [self._source_of(event.path), f"{names.comparisons.name()}.record()"]
+                if event.names or event.title is not None:
+                    words += [repr(dict(event.names or {})), repr(event.title)]
                 put("table", call(self._lines.use(write_comparison), words))
-            case Wrote():
-                arguments = [self._told(one) for one in deed.values]
-                arguments += [f"{name}={self._told(one)}" for name, one in deed.options.items()]
-                put(deed.title, call(self._lines.use(deed.function), arguments))
+            case FileExported():
+                arguments = [self._source_of(one) for one in event.values]
+                arguments += [f"{name}={self._source_of(one)}" for name, one in event.options.items()]
+                put(event.title, call(self._lines.use(event.function), arguments))
 
-    def _told(self, value: Any) -> str:
-        """A value of a deed as source."""
+    def _source_of(self, value: Any) -> str:
+        """Return the source of a value of an event."""
         match value:
             case State():
                 return self._names.mesh(value)
             case Mesh():
                 return self._names.places(value)
-            case Iterations():
+            case IterationsExported():
                 return self._names.run(value.record, value.numbers)
-            case Record():
+            case RunRecord():
                 return self._names.run(value)
             case Row():
                 return self._names.comparisons.row(value)
             case list():
-                return f"[{', '.join(map(self._told, value))}]"
+                return f"[{', '.join(map(self._source_of, value))}]"
             case tuple():
-                return f"({', '.join(map(self._told, value))}{',' * (len(value) == 1)})"
+                return f"({', '.join(map(self._source_of, value))}{',' * (len(value) == 1)})"
             case dict():
-                return f"{{{', '.join(f'{self._told(key)}: {self._told(one)}' for key, one in value.items())}}}"
+                entries = (f"{self._source_of(key)}: {self._source_of(one)}" for key, one in value.items())
+                return f"{{{', '.join(entries)}}}"
         return self._lines.source(value)
 
     def _on_compared(self) -> None:
@@ -175,25 +185,25 @@ class Script(QObject):
     # Runs
 
     def _on_ended(self, result: Result) -> None:
-        record = self._session.smoothing.record
+        record = self._session.run.record
         if record is None or record.work is None:
             return
-        told = Told.of(record.work, record.stop, record.changes, result)
-        self._names.ended(record, told)
+        run_lines = RunLines.of(record.work, record.stop, record.changes, result)
+        self._names.ended(record, run_lines)
         if record.end is not None and record.end not in self._names:
             base, name = self._names.mesh(record.start), self._names.new(record.end)
-            self._lines.put(f"{told.work.title}: {result.outcome.value}", told.smoothed(base, name))
+            self._lines.put(f"{run_lines.work.title}: {result.outcome.value}", run_lines.smoothed(base, name))
 
     def _on_failed(self, error: Exception) -> None:
-        record = self._session.smoothing.record
-        told = self._names.told(record)
-        if told is not None and record.end is not None:
+        record = self._session.run.record
+        run_lines = self._names.run_lines(record)
+        if run_lines is not None and record.end is not None:
             base = self._names.mesh(record.start)
-            loop, name = told.until(base, record.result), self._names.new(record.end)
+            loop, name = run_lines.until(base, record.result), self._names.new(record.end)
             source = f"{loop}\n{name} = {base}.with_points(it.points)"
             self._lines.put(f"{record.title}, which failed later: {error}", source)
 
-    def _on_swept(self, swept: Swept) -> None:
+    def _on_swept(self, swept: SweepResult) -> None:
         base = self._names.mesh(swept.before)
         lines = [f"sweep = {self._lines.use(Sweep)}({base}, {made(swept.smoother)})"]
         if swept.steps:

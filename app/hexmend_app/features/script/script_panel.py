@@ -1,4 +1,4 @@
-"""The script as it grows, with what copies and saves it."""
+"""Panel of the script, with buttons to copy and save it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from hexmend_app.features.script.seen import SEEN
-from hexmend_app.widgets.style import BLUE, LINE, dress, explain, icon, note
+from hexmend_app.theme.style import BLUE, LINE, icon, note, on_theme_change, set_help
 
-_WORDS = "What is done here as Python that does it again, to the bit, and what is seen."
+_WORDS = "Your actions as a Python script that repeats them bit for bit, and the current view."
 
 
 class ScriptPanel(QWidget):
@@ -36,19 +36,19 @@ class ScriptPanel(QWidget):
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName("Script")
-        dress(self._text, lambda: self._text.setStyleSheet(_sheet()))
-        anew = QPushButton(icon("restart"), "Begin anew")
-        explain(
+        on_theme_change(self._text, lambda: self._text.setStyleSheet(_sheet()))
+        anew = QPushButton(icon("restart"), "Restart")
+        set_help(
             anew,
-            "Begin the script anew",
-            "Forget what was done so far: what comes next goes on from the mesh as it is.",
+            "Restart the script",
+            "Clear the script; it continues from the current mesh.",
         )
         anew.clicked.connect(self.anew_requested)
         copy = QPushButton(icon("content-copy"), "Copy")
-        explain(copy, "Copy the script", "Copy all of it.")
+        set_help(copy, "Copy the script", "Copy the whole script to the clipboard.")
         copy.clicked.connect(self.copy_requested)
         save = QPushButton(icon("content-save-outline"), "Save as…")
-        explain(save, "Save the script", "Save it as a Python file: python FILE does it again.")
+        set_help(save, "Save the script", "Save the script as a Python file: python FILE repeats the actions.")
         save.clicked.connect(self.save_requested)
         head = QHBoxLayout()
         head.addWidget(note(_WORDS), 1)
@@ -83,16 +83,16 @@ class ScriptPanel(QWidget):
 
 
 def _alike(one: str, other: str) -> int:
-    """How many letters of two texts are the same at their beginning, in whole lines."""
+    """Return the length of the common prefix of two texts, in whole lines."""
     lines = zip(one.splitlines(keepends=True), other.splitlines(keepends=True), strict=False)
     return sum(len(line) for line, _ in takewhile(lambda both: both[0] == both[1], lines))
 
 
 def _units(text: str) -> int:
-    """Places that a text takes in a document of Qt: a letter beyond the first 65,536 takes two."""
+    """Return the length of a text in UTF-16 units, in which Qt counts."""
     return len(text.encode("utf-16-le", "surrogatepass")) // 2
 
 
 def _sheet() -> str:
-    """A frame that tells where the keyboard is."""
+    """Return a style sheet with a frame that shows the keyboard focus."""
     return f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"

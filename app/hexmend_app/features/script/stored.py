@@ -1,4 +1,4 @@
-"""What the session that was opened holds, as source that reads it from its file."""
+"""Source that reads the contents of the opened session from its file."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from hexmend.io.formats.session.session_file import read_session
-from hexmend_app.features.script.lines import Lines
-from hexmend_app.state import session_data
-from hexmend_app.state.comparison import Compared
-from hexmend_app.state.document import State
-from hexmend_app.state.record import Record
-from hexmend_app.state.rerun import recorded
-from hexmend_app.state.session import Session
-from hexmend_app.state.session_data import SessionData, numbered
+from hexmend_app.features.script.lines import ScriptLines
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.run_record import RunRecord
+from hexmend_app.state.run.comparison import MethodResult
+from hexmend_app.state.run.rerun import recorded
+from hexmend_app.state.session import session_data
+from hexmend_app.state.session.session import Session
+from hexmend_app.state.session.session_data import SessionData, numbered
 
 
 class Stored:
-    """Knows where a session's file has its states, its runs, and what it compares.
+    """Locates states, runs and the comparison in a session file.
 
     Parameters
     ----------
@@ -28,21 +28,21 @@ class Stored:
     lines : Lines
     """
 
-    def __init__(self, session: Session, lines: Lines):
+    def __init__(self, session: Session, lines: ScriptLines):
         self._session, self._lines = session, lines
         self._states: WeakKeyDictionary[State, tuple[Path, int]] = WeakKeyDictionary()
-        self._runs: WeakKeyDictionary[Record, tuple[Path, int]] = WeakKeyDictionary()
+        self._runs: WeakKeyDictionary[RunRecord, tuple[Path, int]] = WeakKeyDictionary()
         self._data: SessionData | None = None
         self._path = Path()
         self._count = 0
         self.clear()
 
     def clear(self) -> None:
-        """Read it anew where it is needed again."""
+        """Forget the names; sessions are read again when needed."""
         self._names: dict[Path, str] = {}
 
     def take(self, data: SessionData, path: Path) -> None:
-        """A session was opened."""
+        """Register the contents of an opened session."""
         self._data, self._path = data, path
         self._names.pop(path, None)
         for state, at in numbered(data).items():
@@ -51,15 +51,15 @@ class Stored:
             self._runs[record] = path, at
 
     def saved(self, path: Path, session: SessionData, known: Callable[[State], str | None]) -> None:
-        """A session was saved; what the script reads from that file is read by its new numbers.
+        """Update the indices in the script after a session file was overwritten.
 
         Parameters
         ----------
         path : Path
         session : SessionData
-            What was written.
+            Contents written to the file.
         known : callable
-            What the script calls a state already.
+            Returns the existing name of a state in the script.
         """
         if self._data is None or path not in (at[0] for at in self._states.values()):
             return
@@ -82,38 +82,38 @@ class Stored:
         lines.overwritten(path, good)
 
     def _same(self, session: SessionData) -> bool:
-        """Whether all that the script may read of a session, besides meshes, has the same numbers in another."""
+        """Return True if runs, snapshots and comparison have the same indices in another session."""
         old, records = self._data, self._session.history.records
         runs = all(at < len(records) and records[at] is one for one, (path, at) in self._runs.items()
                    if path == self._path)  # fmt: skip
-        kept = [one.points for one in old.kept]
-        places = len(session.kept) >= len(kept) and all(
-            one.points is points for one, points in zip(session.kept, kept, strict=False)
+        kept = [one.points for one in old.snapshots]
+        places = len(session.snapshots) >= len(kept) and all(
+            one.points is points for one, points in zip(session.snapshots, kept, strict=False)
         )
         return runs and places and session.comparison.results is old.comparison.results
 
     def mesh(self, state: State) -> str | None:
-        """What reads the mesh of a state."""
+        """Return the source that reads the mesh of a state, or None."""
         if state not in self._states:
             return None
         return self._reads(*self._states[state])
 
-    def run(self, record: Record) -> str | None:
-        """What reads a run."""
+    def run(self, record: RunRecord) -> str | None:
+        """Return the source that reads a run, or None."""
         if record not in self._runs:
             return None
         path, at = self._runs[record]
         return f"{self._lines.use(recorded)}({self._session_of(path)}, {at})"
 
     def points(self, points: np.ndarray) -> str | None:
-        """What reads where nodes are that the session has kept."""
-        for at, one in enumerate(() if self._data is None else self._data.kept):
+        """Return the source that reads a snapshot's points, or None."""
+        for at, one in enumerate(() if self._data is None else self._data.snapshots):
             if one.points is points:
                 return f"{self._session_of(self._path)}.kept[{at}].points"
         return None
 
-    def comparison(self, results: tuple[Compared, ...]) -> str | None:
-        """What reads the comparison with these results."""
+    def comparison(self, results: tuple[MethodResult, ...]) -> str | None:
+        """Return the source that reads the comparison with these results, or None."""
         if self._data is None or self._data.comparison.results is not results:
             return None
         return f"{self._session_of(self._path)}.comparison"
@@ -122,7 +122,7 @@ class Stored:
         if path not in self._names:
             name = self._names[path] = f"session_{self._count}"
             self._count += 1
-            self._lines.put("All that the session holds", f"{name} = {self._whole(path)}")
+            self._lines.put("Contents of the session", f"{name} = {self._whole(path)}")
         return self._names[path]
 
     def _reads(self, path: Path, at: int) -> str:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QGridLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
 from hexmend.run.breakpoints import Breakpoints
-from hexmend_app.widgets.style import explain, tabular
+from hexmend_app.theme.style import set_help, tabular
 
 _INVERTS = "Pause after an iteration in which a hex that was sound inverts, and choose it."
 _FALLS = "Pause after an iteration that lowers the least quality, and choose the hex that has it now."
@@ -43,7 +43,7 @@ class BreakpointForm(QWidget):
         self._falls = self._check(grid, 1, "q min falls", _FALLS)
         self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves", _NODE, " edge")
         self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes", _HEX, " q")
-        self._cut = self._check(grid, 6, "Line search cuts", _CUTS)
+        self._cut = self._check(grid, 6, "Line search backtracks", _CUTS)
         self._cuts = self._number(QSpinBox(), "Most cuts of the line search", _CUTS)
         self._cuts.setRange(0, 99)
         self._cuts.setValue(3)
@@ -58,7 +58,7 @@ class BreakpointForm(QWidget):
         self._enable()
 
     def breakpoints(self) -> Breakpoints:
-        """What is chosen."""
+        """Return the chosen breakpoints."""
         return Breakpoints(
             inverts=self._inverts.isChecked(),
             q_min_falls=self._falls.isChecked(),
@@ -66,7 +66,7 @@ class BreakpointForm(QWidget):
             move=self._move.value(),
             hex=self._hex_box.value() if self._hex.isChecked() else None,
             change=self._change.value(),
-            cuts=self._cuts.value() if self._cut.isChecked() else None,
+            backtracks=self._cuts.value() if self._cut.isChecked() else None,
         )
 
     def set_breakpoints(self, breakpoints: Breakpoints) -> None:
@@ -76,7 +76,7 @@ class BreakpointForm(QWidget):
             (self._falls, breakpoints.q_min_falls),
             (self._node, breakpoints.node is not None),
             (self._hex, breakpoints.hex is not None),
-            (self._cut, breakpoints.cuts is not None),
+            (self._cut, breakpoints.backtracks is not None),
         ):
             check.setChecked(on)
         for box, value in (
@@ -84,7 +84,7 @@ class BreakpointForm(QWidget):
             (self._move, breakpoints.move),
             (self._hex_box, breakpoints.hex),
             (self._change, breakpoints.change),
-            (self._cuts, breakpoints.cuts),
+            (self._cuts, breakpoints.backtracks),
         ):
             if value is not None:
                 with QSignalBlocker(box):
@@ -104,17 +104,17 @@ class BreakpointForm(QWidget):
 
     def _check(self, grid: QGridLayout, row: int, text: str, help: str, span: int = 2) -> QCheckBox:
         check = QCheckBox(text)
-        explain(check, text, help)
+        set_help(check, text, help)
         grid.addWidget(check, row, 0, 1, span)
         return check
 
     def _watch(
-        self, grid: QGridLayout, row: int, what: str, verb: str, help: str, suffix: str
+        self, grid: QGridLayout, row: int, subject: str, verb: str, help: str, suffix: str
     ) -> tuple[QCheckBox, QSpinBox, QDoubleSpinBox]:
         """Two rows: which one, and how much."""
-        check = self._check(grid, row, f"{what} {verb}", help, span=1)
-        which = self._number(QSpinBox(), f"Number of the {what.lower()}", help)
-        amount = self._number(QDoubleSpinBox(), f"How much the {what.lower()} {verb}", help)
+        check = self._check(grid, row, f"{subject} {verb}", help, span=1)
+        which = self._number(QSpinBox(), f"Number of the {subject.lower()}", help)
+        amount = self._number(QDoubleSpinBox(), f"How much the {subject.lower()} {verb}", help)
         amount.setRange(0, 10)
         amount.setDecimals(3)
         amount.setSingleStep(0.01)
@@ -136,7 +136,7 @@ class BreakpointForm(QWidget):
     @staticmethod
     def _number(box, name: str, help: str):
         box.setFont(tabular(box.font()))
-        explain(box, name, help)
+        set_help(box, name, help)
         return box
 
     def _take(self, box: QSpinBox, chosen: int | None, on: bool) -> None:

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
-from hexmend_app.state.run import Phase
-from hexmend_app.state.worker import Frame
-from hexmend_app.widgets.questions import ask_short_of_memory
-from hexmend_app.widgets.report import report_of
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.run.worker import IterationFrame
+from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
+from hexmend_app.widgets.error_report import report_of
 
 #: Actions whose keys the panel's buttons name.
 _BUTTONS = ("run", "step", "stop", "reset")
@@ -26,12 +26,12 @@ class FeatureSmooth(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        commands, smoothing = session.commands, session.smoothing
+        commands, smoothing = session.commands, session.run
         self._smoothing = smoothing
         commands.consent = self._agreed
-        self._seen = Seen()
-        self._hit: Frame | None = None  # the break-point that the run has paused at
-        panel = self.panel = SmoothingPanel(session.order)
+        self._seen = ChangeTracker()
+        self._hit: IterationFrame | None = None  # the break-point that the run has paused at
+        panel = self.panel = SmoothingPanel(session.run_setup)
         panel.run_requested.connect(commands.run)
         panel.step_requested.connect(commands.step)
         panel.change_requested.connect(smoothing.change)
@@ -40,12 +40,12 @@ class FeatureSmooth(Feature):
         panel.stop_requested.connect(smoothing.stop)
         panel.reset_requested.connect(commands.reset)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
-        session.choices.offer("steps", lambda: panel.steps, panel.set_steps)
+        session.panel_settings.register("steps", lambda: panel.steps, panel.set_steps)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
     def actions(self) -> Sequence[Action]:
-        """What the panel's buttons do."""
+        """Return the actions that control a run."""
         ready = self._ready
         return (
             Action(
@@ -97,7 +97,7 @@ class FeatureSmooth(Feature):
                 id="run",
                 title="Run",
                 widget=self.panel,
-                place=Place.TOOLS,
+                place=PanelPlace.TOOLS,
                 tab="Run",
                 order=10,
                 help="The method that smooths the mesh, its values and its limits.",
@@ -107,13 +107,13 @@ class FeatureSmooth(Feature):
     def refresh(self) -> None:
         """Say how far the run is, or what the mesh that is shown came of."""
         session, phase = self.session, self._smoothing.phase
-        if self._seen.another("actions", True):
+        if self._seen.changed("actions", True):
             self.panel.set_shortcuts({id: self.host.action(id).shortcut().toString() for id in _BUTTONS})
         self.panel.setEnabled(self._ready())
         chosen, form = session.selection, self.panel.breakpoint_form
-        if self._seen.another("chosen", chosen.hex, chosen.node):
+        if self._seen.changed("chosen", chosen.hex, chosen.node):
             form.set_chosen(chosen.hex, chosen.node)
-        if session.document.is_open and self._seen.another("mesh", session.document.start):
+        if session.document.is_open and self._seen.changed("mesh", session.document.start):
             breakpoints = self._smoothing.breakpoints
             form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
             form.set_breakpoints(breakpoints)  # which know of the mesh already
@@ -123,6 +123,10 @@ class FeatureSmooth(Feature):
         self.panel.set_state("finished" if phase is Phase.IDLE and moved else phase.value)
         self._show_busy()
         self.panel.set_status(*self._status())
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
 
     def _ready(self) -> bool:
         return self.session.document.is_open and not self.session.opener.busy
@@ -139,15 +143,15 @@ class FeatureSmooth(Feature):
         if phase in (Phase.RUNNING, Phase.PAUSED):
             row = record.rows[-1]
             return row["iteration"], row["seconds"], self._stage(row)
-        moment, why = self.session.timeline.moment, self.session.order.why
+        moment, reason = self.session.timeline.moment, self.session.run_setup.reason
         if moment is None or (not moment.number and moment.record.result != 0):
-            return None, None, why or self._said_of_none()
+            return None, None, reason or self._text_without_step()
         row = moment.record.rows[moment.number]
         ended = moment.record.message if moment.number == moment.record.result else ""
-        return row["iteration"], row["seconds"], why or ended
+        return row["iteration"], row["seconds"], reason or ended
 
-    def _said_of_none(self) -> str:
-        """How a run ended that was stopped before its first iteration, while the mesh is still as it found it."""
+    def _text_without_step(self) -> str:
+        """Return the ending of a run stopped before its first iteration, while the mesh is unchanged."""
         record = self._smoothing.record
         none = self._smoothing.phase is Phase.FINISHED and record.newest < 1
         return record.message if none and self.session.document.now is record.start else ""
@@ -162,7 +166,7 @@ class FeatureSmooth(Feature):
 
     def _show_busy(self) -> None:
         phase = self._smoothing.phase
-        if not self._seen.another("phase", phase):
+        if not self._seen.changed("phase", phase):
             return
         if phase is Phase.STOPPING:
             self.host.busy.show_work("run", "Stopping…")
@@ -177,12 +181,12 @@ class FeatureSmooth(Feature):
         return ask_short_of_memory(self.host.dialog_parent, short.problem, short.remedy(part, titled=True))
 
     def _on_failed(self, error: Exception) -> None:
-        record = self.session.smoothing.record
+        record = self.session.run.record
         kept = record is not None and record.result
         where = f"is at iteration {kept}, the last good one" if kept else "is as it was before the run"
         self.host.messages.show_error("The method failed", f"{error}. The mesh {where}.", report_of(error))
 
-    def _on_hit(self, frame: Frame) -> None:
+    def _on_hit(self, frame: IterationFrame) -> None:
         self._hit, hit = frame, frame.hit
         if hit.hexes:
             self.session.selection.choose(hit.hexes[0])

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
 
-from hexmend_app.scene.palette import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, LINE, OFF, ON_ACCENT, TEXT
-from hexmend_app.widgets.style import dress, explain, icon
+from hexmend_app.theme.palette import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, INACTIVE, LINE, ON_ACCENT, TEXT
+from hexmend_app.theme.style import icon, on_theme_change, set_help
 
 
 @dataclass(frozen=True)
 class RunState:
-    """What is offered in a state: the main button's text, icon and help, and whether each button and editing are on."""
+    """Controls in a run state: text, icon and help of the main button, and the enabled state of the others."""
 
     text: str
     icon: str
@@ -36,9 +36,9 @@ STATES = {
         "Stopping", "timer-sand", "The run ends soon.", run=False, step=False, stop=False, reset=False, edit=False
     ),
     "running": RunState(
-        "Pause", "pause", "Hold after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
+        "Pause", "pause", "Pause after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
     ),
-    "paused": RunState("Resume", "play", "Go on with the run.", run=True, step=True, stop=True, reset=True, edit=True),
+    "paused": RunState("Resume", "play", "Continue the run.", run=True, step=True, stop=True, reset=True, edit=True),
     "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
 }
 _HELP = {
@@ -69,7 +69,7 @@ class RunButtons(QWidget):
             "stop": QPushButton(icon("stop"), ""),  # no words: the column is narrow
             "reset": QPushButton(icon("restore"), ""),
         }
-        dress(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
+        on_theme_change(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(6)
@@ -77,11 +77,11 @@ class RunButtons(QWidget):
             row.setColumnStretch(column, 1 if button.text() or name == "run" else 0)
             button.clicked.connect(lambda _=False, name=name: self.pressed.emit(name))
             row.addWidget(button, 0, column)
-        self._make_room()
+        self._reserve_space()
         self.set_state("idle", True)
 
-    def _make_room(self) -> None:
-        """As much as the longest word needs, or the panel would outgrow its place as a run is paused."""
+    def _reserve_space(self) -> None:
+        """Reserve the width of the longest word, so that the panel keeps its width while a run is paused."""
         widest = 0
         for state in STATES:
             self.set_state(state, True)
@@ -116,7 +116,7 @@ class RunButtons(QWidget):
         for name, button in self._buttons.items():
             help = STATES[self._state].help if name == "run" else _HELP[name]
             keys = f" ({self._shortcuts[name]})" if name in self._shortcuts else ""
-            explain(button, button.text() or name.capitalize(), f"{help}{keys}")
+            set_help(button, button.text() or name.capitalize(), f"{help}{keys}")
 
 
 def _main_button() -> str:
@@ -127,5 +127,5 @@ QPushButton {{ background: {ACCENT}; color: {ON_ACCENT}; border: 1px solid {ACCE
 QPushButton:hover {{ background: {ACCENT_HOVER}; }}
 QPushButton:pressed {{ background: {ACCENT_PRESSED}; }}
 QPushButton:focus {{ border: 2px solid {TEXT}; padding: 3px 5px; outline: none; }}
-QPushButton:disabled {{ background: {OFF}; color: {FAINT}; border-color: {LINE}; }}
+QPushButton:disabled {{ background: {INACTIVE}; color: {FAINT}; border-color: {LINE}; }}
 """

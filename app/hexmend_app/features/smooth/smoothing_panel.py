@@ -12,11 +12,11 @@ from hexmend.run.recipe import Stage
 from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
 from hexmend_app.features.smooth.run_buttons import STATES, RunButtons
 from hexmend_app.features.smooth.stage_form import StageForm
-from hexmend_app.scene.palette import Role
-from hexmend_app.state.order import Order
+from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.theme.palette import Role
+from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
-from hexmend_app.widgets.style import MUTED, WORSE, explain, note, tabular, tint
 from hexmend_app.widgets.wording import counted
 
 # Height of a section's margins, and of names that take two lines in a narrow panel.
@@ -55,7 +55,7 @@ class SmoothingPanel(QWidget):
     stop_requested = Signal()
     reset_requested = Signal()
 
-    def __init__(self, order: Order, parent: QWidget | None = None):
+    def __init__(self, order: RunSetup, parent: QWidget | None = None):
         super().__init__(parent)
         self._order = order
         self._refused = False
@@ -81,7 +81,7 @@ class SmoothingPanel(QWidget):
         self._steps = QSpinBox()
         self._steps.setRange(1, 9999)
         self._steps.setFont(tabular(self._steps.font()))
-        explain(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
+        set_help(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
         steps = QLabel("Step by")
         steps.setBuddy(self._steps)
         self._progress = ElidingLabel()  # the more iterations, the longer: the column keeps its width
@@ -137,9 +137,9 @@ class SmoothingPanel(QWidget):
         if seconds is not None:
             digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three in all: there is room for no more
             parts.append(f"{seconds:.{digits}f} s")
-        said = " · ".join(parts)
-        self._progress.setText(said or "Not run yet")
-        self._progress.setToolTip(said)
+        text = " · ".join(parts)
+        self._progress.setText(text or "Not run yet")
+        self._progress.setToolTip(text)
         if not self._refused:
             self._tell(sentence, MUTED)
 
@@ -149,7 +149,7 @@ class SmoothingPanel(QWidget):
 
     @property
     def steps(self) -> int:
-        """How many iterations a step makes."""
+        """Return the number of iterations in a step."""
         return self._steps.value()
 
     def set_steps(self, count: int) -> None:
@@ -161,7 +161,7 @@ class SmoothingPanel(QWidget):
         self._sections[-1].expand()
 
     def run_or_pause(self) -> None:
-        """What the main button does: run, pause or resume, as the state has it."""
+        """Run, pause or resume, according to the state."""
         if self._state == "running":
             self.pause_requested.emit()
         elif self._state == "paused":
@@ -215,11 +215,11 @@ class SmoothingPanel(QWidget):
         around = self.parentWidget()
         while around is not None and not isinstance(around, QScrollArea):
             around = around.parentWidget()
-        room, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
-        room -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
+        space, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
+        space -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
         for section, form in zip(self._sections, (self.stage.parameters, self.stage.stop), strict=False):
             need = form.sizeHint().height() + _AROUND_FORM
-            if need > room:
+            if need > space:
                 break
             section.expand()
-            room -= need
+            space -= need

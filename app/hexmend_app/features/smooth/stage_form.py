@@ -1,4 +1,4 @@
-"""What is to be run, as it is set: the method, its parameters, and when it stops."""
+"""Form of a stage: the method, its parameters and its stopping criteria."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from hexmend.parameters import declared
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state.order import Order
-from hexmend_app.widgets.combo import let_shrink
-from hexmend_app.widgets.parameter_form import ParameterForm
-from hexmend_app.widgets.style import explain, note
+from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.theme.style import note, set_help
+from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
 
 class StageForm(QObject):
@@ -43,13 +43,13 @@ class StageForm(QObject):
 
     edited = Signal()
 
-    def __init__(self, order: Order, parent: QObject | None = None):
+    def __init__(self, order: RunSetup, parent: QObject | None = None):
         super().__init__(parent)
         self._order = order
         self._name = ""
         self.method = QComboBox()
         let_shrink(self.method, 14)
-        explain(self.method, "Method", "How nodes are moved; the line below says what the chosen method does.")
+        set_help(self.method, "Method", "How nodes are moved; the line below says what the chosen method does.")
         for at, method in enumerate(METHODS.values()):
             self.method.addItem(method.title, method.name)
             about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
@@ -99,7 +99,7 @@ class StageForm(QObject):
         self._order.set(self._name, self.parameters.values(), self._stage())
 
     def _stage(self) -> Stage | None:
-        """What the forms show; None while a value is wrong."""
+        """Return the stage set in the forms; None while a value is invalid."""
         if self.wrong is not None:
             return None
         try:

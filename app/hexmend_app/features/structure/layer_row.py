@@ -1,4 +1,4 @@
-"""A row of the structure's panel: a layer that is drawn or not, and what there is of it."""
+"""Row of the structure panel: one layer with its check box and legend."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 
-from hexmend_app.scene.palette import RIM, Role
-from hexmend_app.widgets.style import explain, note, tabular
+from hexmend_app.theme.palette import RIM, Role
+from hexmend_app.theme.style import note, set_help, tabular
 
 _NOT_YET = "Being counted."
 #: What is said where it could not be found out what there is.
@@ -23,18 +23,18 @@ Entry = tuple[str | Role | None, bool, str]
 
 
 class LayerRow:
-    """The check box of one layer, and beside it what its marks stand for.
+    """Check box of one layer with a legend.
 
     Parameters
     ----------
     name, help : str
-        What the box says, and its tooltip.
+        Text of the check box, and its tooltip.
     reason : str
-        The tooltip where there is nothing of it.
+        Tooltip if the layer is empty.
     at_once : bool
-        Whether it can be chosen before it is known what there is of it.
+        True if the layer can be selected before its contents are known.
     unless : bool
-        Whether it is on unless it is switched off: a mesh that has nothing of it does not offer it.
+        True if the layer is on by default; an empty layer is hidden.
 
     Attributes
     ----------
@@ -62,18 +62,18 @@ class LayerRow:
         self._enable()
 
     def set_entries(self, entries: list[Entry] | None, error: BaseException | None = None) -> None:
-        """Show what there is of it; None while that is unknown, or with the error why it stays so."""
+        """Show the legend; None while unknown, with the error if finding it failed."""
         self._known, self._error = entries, error
         while self._grid.count():
             old = self._grid.takeAt(0).widget()
             old.hide()
             old.deleteLater()
         if not entries:
-            said = _FAILED if error is not None else "counting…" if entries is None else "none"
-            self._grid.addWidget(_text(said), 0, 0, 1, _COLUMNS)
-        beside = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
+            sentence = _FAILED if error is not None else "counting…" if entries is None else "none"
+            self._grid.addWidget(_text(sentence), 0, 0, 1, _COLUMNS)
+        neighbour = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
         for at, entry in enumerate(entries or ()):
-            self._grid.addWidget(_entry(*entry), at // beside, at % beside, 1, _COLUMNS // beside)
+            self._grid.addWidget(_entry(*entry), at // neighbour, at % neighbour, 1, _COLUMNS // neighbour)
         self._enable()
 
     def _enable(self) -> None:
@@ -85,11 +85,11 @@ class LayerRow:
             self.box.setVisible(there)
             self.entries.setVisible(there)
         reason = f"This could not be worked out: {self._error}." if failed else _NOT_YET if waits else self._reason
-        explain(self.box, self._name, self._help if there else reason)
+        set_help(self.box, self._name, self._help if there else reason)
 
 
 class _Mark(QWidget):
-    """A line or a point as the view draws it: a colour with a rim."""
+    """Line or point as the view draws it: a colour with a rim."""
 
     def __init__(self, colour: str | Role, line: bool, parent: QWidget | None = None):
         super().__init__(parent)

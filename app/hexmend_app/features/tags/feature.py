@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 
 
@@ -18,7 +18,7 @@ class FeatureTags(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session, commands = self.session, self.session.commands
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         panel = self.panel = TagPanel()
         panel.toggle_requested.connect(self._toggle)
         panel.shown_requested.connect(lambda name: commands.tag(name, self._all_shown()))
@@ -27,7 +27,7 @@ class FeatureTags(Feature):
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
         panel.refused.connect(host.messages.show_info)
-        session.choices.offer("tag", lambda: panel.name, panel.set_name)
+        session.panel_settings.register("tag", lambda: panel.name, panel.set_name)
 
     def actions(self) -> Sequence[Action]:
         """Tag what is chosen."""
@@ -53,7 +53,7 @@ class FeatureTags(Feature):
                 id="tags",
                 title="Tags",
                 widget=self.panel,
-                place=Place.DRAWER,
+                place=PanelPlace.DRAWER,
                 order=60,
                 help="Named groups of hexes, saved with the mesh.",
             ),
@@ -66,7 +66,7 @@ class FeatureTags(Feature):
         if not self.session.document.is_open:
             return
         now = self.session.document.now
-        if self._seen.another("tags", now):
+        if self._seen.changed("tags", now):
             self.panel.set_tags([
                 TagRow(
                     name,
@@ -76,6 +76,10 @@ class FeatureTags(Feature):
                 )
                 for name, members in now.mesh.hex_sets.items()
             ])  # fmt: skip
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
 
     def _toggle(self, name: str) -> None:
         chosen = self.session.selection.hex

@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from hexmend_app.widgets.element_table import shape_table
-from hexmend_app.widgets.style import explain, note
+from hexmend_app.theme.style import note, set_help
+from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Tag", "Hexes", "Inverted", "q min")
@@ -75,7 +75,7 @@ class TagPanel(QWidget):
         self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list is of tags that there are
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
-        explain(self._name, "Tag as", "The name of the tag that hexes are given.")
+        set_help(self._name, "Tag as", "The name of the tag that hexes are given.")
         self._element = self._button("Hex", "Tag the chosen hex, or take the tag from it (T).")
         self._shown = self._button("Shown", "Tag all hexes that are shown in the view: what is hidden is left out.")
         self._listed = self._button("Worst", "Tag all hexes of the list of the worst.")
@@ -96,7 +96,7 @@ class TagPanel(QWidget):
 
     def _button(self, text: str, help: str) -> QPushButton:
         button = QPushButton(text)
-        explain(button, text, help)
+        set_help(button, text, help)
         return button
 
     def _make_table(self) -> QTableWidget:
@@ -137,11 +137,11 @@ class TagPanel(QWidget):
 
     @property
     def can_toggle(self) -> bool:
-        """Whether there is a hex to tag, and a name for it."""
-        return not self.why_not
+        """Return True if a hex is selected and a name is given."""
+        return not self.reason_against
 
     @property
-    def why_not(self) -> str:
+    def reason_against(self) -> str:
         """Why the chosen hex cannot be tagged, as a sentence; "" where it can."""
         if self._busy:
             return _BUSY
@@ -154,7 +154,7 @@ class TagPanel(QWidget):
         if self.can_toggle:
             self.toggle_requested.emit(self.name)
         else:
-            self.refused.emit(self.why_not)
+            self.refused.emit(self.reason_against)
 
     def set_tags(self, rows: list[TagRow]) -> None:
         """Show the tags; without a signal."""
@@ -211,5 +211,5 @@ class TagPanel(QWidget):
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
         self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
         free = _NONE_CHOSEN if self._rows else _HINT
-        why = self.why_not
-        self._hint.setText(free if why == _NONE_CHOSEN else why)
+        reason = self.reason_against
+        self._hint.setText(free if reason == _NONE_CHOSEN else reason)

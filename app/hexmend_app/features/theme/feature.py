@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from PySide6.QtGui import QGuiApplication
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.widgets import theming
-from hexmend_app.widgets.theming import Choice
+from hexmend_app.theme import theme_choice
+from hexmend_app.theme.theme_choice import ThemeChoice
 
 _WORDS = {
-    Choice.LIGHT: ("&Light", "Dark on light, as pictures for reports are in any theme."),
-    Choice.DARK: ("&Dark", "Light on dark, easier on the eyes in a dim room."),
-    Choice.DESKTOP: ("&As the desktop", "Light or dark as the desktop is, and changing with it."),
+    ThemeChoice.LIGHT: ("&Light", "Dark on light, as pictures for reports are in any theme."),
+    ThemeChoice.DARK: ("&Dark", "Light on dark, easier on the eyes in a dim room."),
+    ThemeChoice.DESKTOP: ("&As the desktop", "Light or dark as the desktop is, and changing with it."),
 }
 
 
@@ -35,17 +35,17 @@ class FeatureTheme(Feature):
                 menu="View/Theme",
                 help=help,
                 handle=lambda on, choice=choice: self._choose(choice, on),
-                checked=lambda choice=choice: theming.chosen() is choice,
+                checked=lambda choice=choice: theme_choice.chosen() is choice,
                 needs_mesh=False,
                 exclusive=True,
             )
             for choice, (text, help) in _WORDS.items()
         ]
 
-    def _choose(self, choice: Choice, on: bool) -> None:
-        if on and choice is not theming.chosen():
-            theming.choose(choice)
+    def _choose(self, choice: ThemeChoice, on: bool) -> None:
+        if on and choice is not theme_choice.chosen():
+            theme_choice.choose(choice)
             self.host.refresh_soon()
 
     def _on_desktop(self) -> None:
-        theming.wear()
+        theme_choice.apply_theme()

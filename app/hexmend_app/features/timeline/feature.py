@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from hexmend_app.feature import Action, Feature, Host, Panel, Place, Seen
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
-from hexmend_app.state import settings
-from hexmend_app.state.history import Record
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.settings import settings
 
 _STEPS = (
     ("first", "Be&fore the run", "Alt+Home", "skip-backward", "Show the mesh as it was before the run."),
     ("back", "Iteration &back", ",", "step-backward", "Show the iteration before."),
-    ("play", "&Play or hold", "K", "play", "Show the iterations one after another."),
+    ("play", "&Play/Pause", "K", "play", "Show the iterations one after another."),
     ("on", "Iteration &on", ".", "step-forward", "Show the next iteration."),
     ("newest", "&Newest iteration", "Alt+End", "skip-forward", "Show the newest iteration, and those that come."),
     (
@@ -20,7 +20,7 @@ _STEPS = (
         "&Run from here",
         "Ctrl+F5",
         "source-branch",
-        "Run the chosen method from the iteration shown, beside the run that it belongs to.",
+        "Run the chosen method from the iteration shown, in addition to the run that it belongs to.",
     ),
 )
 
@@ -33,9 +33,9 @@ class FeatureTimeline(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._smoothing = session.smoothing
+        self._smoothing = session.run
         timeline = self._timeline = session.timeline
-        self._seen = Seen()
+        self._seen = ChangeTracker()
         bar = self.panel = TimelineBar()
         bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
@@ -72,7 +72,7 @@ class FeatureTimeline(Feature):
                 id="timeline",
                 title="Timeline",
                 widget=self.panel,
-                place=Place.BELOW,
+                place=PanelPlace.BELOW,
                 help="Goes through the iterations of a run.",
             ),
         )
@@ -80,17 +80,17 @@ class FeatureTimeline(Feature):
     def refresh(self) -> None:
         """Show where one is."""
         timeline, history = self._timeline, self.session.history
-        if self._seen.another("keys", True):
+        if self._seen.changed("keys", True):
             keys = {name: self.host.action(f"iteration_{name}").shortcut().toString() for name, *_ in _STEPS}
             self.panel.set_shortcuts(keys)
         self.panel.setVisible(self.session.document.is_open)
-        if self._seen.another("runs", tuple(history.records)):
-            self.panel.set_runs([_said(record) for record in history.records])
+        if self._seen.changed("runs", tuple(history.records)):
+            self.panel.set_runs([_text(record) for record in history.records])
         record = timeline.record
         if record is not None:
             self.panel.set_run(history.records.index(record))
             going = self._smoothing.busy and record is self._smoothing.record
-            if self._seen.another("track", record, record.newest, history.bytes, going, len(record.pauses)):
+            if self._seen.changed("track", record, record.newest, history.bytes, going, len(record.pauses)):
                 self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
                 self.panel.set_forgettable(not going)
         moment = timeline.moment
@@ -98,15 +98,19 @@ class FeatureTimeline(Feature):
         self.panel.set_number(moment.number if here else None, timeline.live)
         self.panel.set_playing(timeline.playing)
 
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
     def _on_pressed(self) -> dict[str, Callable]:
         timeline = self._timeline
         return {
             "first": lambda: timeline.step(-timeline.record.newest),
             "back": lambda: timeline.step(-1),
-            "play": lambda: timeline.hold() if timeline.playing else timeline.play(),
+            "play": lambda: timeline.pause() if timeline.playing else timeline.play(),
             "on": lambda: timeline.step(1),
             "newest": timeline.go_to_newest,
-            "branch": lambda: self.session.order.use(self.session.commands.branch),
+            "branch": lambda: self.session.run_setup.use(self.session.commands.branch),
             "forget": lambda: timeline.forget(timeline.record),
         }
 
@@ -126,7 +130,7 @@ class FeatureTimeline(Feature):
         self.panel.set_settings(self.session.history.limit >> 20, self._timeline.speed)
 
 
-def _said(record: Record) -> tuple[str, str]:
+def _text(record: RunRecord) -> tuple[str, str]:
     """A run's name, and what to say of it."""
     parent = record.parent
     begun = f", begun at iteration {parent.number} of {parent.record.name}" if parent and parent.number else ""

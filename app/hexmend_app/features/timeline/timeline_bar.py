@@ -10,8 +10,8 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton, QWidget
 
 from hexmend_app.features.timeline.track_slider import TrackSlider
-from hexmend_app.widgets.combo import let_shrink
-from hexmend_app.widgets.style import explain, icon, tabular
+from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.wording import counted, size
 
 #: What the positions of iterations may take, in MB, and how many are played a second.
@@ -52,13 +52,13 @@ class TimelineBar(QWidget):
         self._runs = QComboBox()
         let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
-        explain(self._runs, "Run", "The run that is gone through; one that began at an iteration of another says so.")
+        set_help(self._runs, "Run", "The run that is gone through; one that began at an iteration of another says so.")
         self._keys: dict[str, str] = {}
         self._buttons = {name: self._tool(name, glyph, text) for name, glyph, text, _ in _STEPS}
         self._playing = False
         self._slider = TrackSlider()
         self._slider.valueChanged.connect(self.number_chosen)
-        explain(self._slider, "Iteration", "The iteration that is shown.")
+        set_help(self._slider, "Iteration", "The iteration that is shown.")
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
         self._at.setAccessibleName("Iteration shown")
@@ -69,7 +69,7 @@ class TimelineBar(QWidget):
         self._more.setAutoRaise(True)
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
-        explain(self._more, "Timeline settings", "How much memory the iterations may take, and how fast they play.")
+        set_help(self._more, "Timeline settings", "How much memory the iterations may take, and how fast they play.")
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 1, 8, 1)
         layout.setSpacing(2)
@@ -183,13 +183,13 @@ class TimelineBar(QWidget):
         return group
 
     def _explain(self) -> None:
-        said = {name: (text, help) for name, _, text, help in _STEPS}
+        message = {name: (text, help) for name, _, text, help in _STEPS}
         if self._playing:
-            said["play"] = "Hold", "Play no further."
-        said["branch"] = (
+            message["play"] = "Pause", "Pause playing."
+        message["branch"] = (
             "Run from here",
-            "Run the chosen method from the iteration shown: a branch, beside the run that this one belongs to.",
+            "Run the chosen method from the iteration shown: a branch, in addition to its run.",
         )
-        for name, (text, help) in said.items():
+        for name, (text, help) in message.items():
             keys = f" ({self._keys[name]})" if self._keys.get(name) else ""
-            explain(self.button(name), text, f"{help}{keys}")
+            set_help(self.button(name), text, f"{help}{keys}")

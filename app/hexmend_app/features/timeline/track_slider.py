@@ -9,7 +9,7 @@ from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSlider, QStyle, QStyleOptionSlider, QWidget
 
-from hexmend_app.scene.palette import BLUE, WORSE
+from hexmend_app.theme.palette import BLUE, WORSE
 
 _MARK, _STRIP = 2, 3  # pixels
 
@@ -32,7 +32,7 @@ class TrackSlider(QSlider):
         self.update()
 
     def place(self, number: float) -> int:
-        """How many pixels from the left a number stands."""
+        """Return the distance of a number from the left edge, in pixels."""
         groove, handle = self._groove(), self._handle_width()
         share = number / max(self.maximum(), 1)
         return round(groove.x() + handle / 2 + share * (groove.width() - handle))
@@ -54,9 +54,9 @@ class TrackSlider(QSlider):
         """Go where it is pressed; from there the handle is dragged."""
         if event.button() is Qt.MouseButton.LeftButton:
             groove, handle = self._groove(), self._handle_width()
-            room = groove.width() - handle
+            space = groove.width() - handle
             at = round(event.position().x()) - groove.x() - handle // 2
-            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), at, room))
+            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), at, space))
         super().mousePressEvent(event)
 
     def _stretches(self) -> Iterable[tuple[float, float]]:

@@ -1,4 +1,4 @@
-"""Where to look from, and what is up."""
+"""Directions of view, and the vertical axis."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _ALONG = 1e-6
 
 
 def direction_of(name: str | Vector, up: str) -> Vector:
-    """From where to look: a name of `VIEWS`, or a vector, which is taken as it is; `up` is a name of `UPS`."""
+    """Return the direction of a name of `VIEWS`, or the given vector; `up` is a name of `UPS`."""
     if not isinstance(name, str):
         return name
     if name == "iso":
@@ -35,7 +35,7 @@ def direction_of(name: str | Vector, up: str) -> Vector:
 
 
 def up_in(direction: Vector, up: str) -> Vector:
-    """What is up in the picture of who looks from a direction: the axis that is up, where it can be."""
+    """Return the up vector of a view from a direction: the vertical axis unless that is parallel to it."""
     axis, instead = UPS[up]
     across = np.linalg.norm(np.cross(direction, axis))
     return axis if across > _ALONG * np.linalg.norm(direction) else instead

@@ -1,4 +1,4 @@
-"""Where a camera has to stand so that something just fills the picture, and how large a length is in the picture."""
+"""Fitting a camera to points, and the size of lengths in the picture."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ _MARGIN = 0.04
 
 
 def bounds_of(places: np.ndarray) -> tuple[float, float, float, float, float, float]:
-    """x low, x high, y low, y high, z low, z high of places, (k, 3)."""
+    """Return x low, x high, y low, y high, z low, z high of points, (k, 3)."""
     low, high = places.min(axis=0), places.max(axis=0)
     return tuple(float(c) for pair in zip(low, high, strict=True) for c in pair)
 
 
 def fit(camera: vtkCamera, places: np.ndarray, aspect: float) -> None:
-    """Bring a camera so near that places just fill the picture, none of them outside.
+    """Move a camera until points just fill the picture, none of them outside.
 
     VTK itself makes room for the sphere around their box, which leaves a third of the picture empty. In perspective
     what is nearer looks larger: the camera steps aside so far that the margins are equal.
@@ -55,7 +55,7 @@ def fit(camera: vtkCamera, places: np.ndarray, aspect: float) -> None:
 
 
 def pixels(renderer: vtkRenderer, length: float, at: np.ndarray) -> float:
-    """How many pixels a length is in the picture.
+    """Return the size of a length in the picture, in pixels.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def pixels(renderer: vtkRenderer, length: float, at: np.ndarray) -> float:
     length : float
         Across the direction of the view, in the mesh's unit.
     at : (3,) float64
-        Where it is.
+        Position of the length.
     """
     camera = renderer.GetActiveCamera()
     half = camera.GetParallelScale()

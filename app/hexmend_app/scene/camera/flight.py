@@ -1,4 +1,4 @@
-"""A camera's way from one pose to another."""
+"""Smooth movement of a camera from one pose to another."""
 
 from __future__ import annotations
 
@@ -6,26 +6,27 @@ import numpy as np
 from vtkmodules.vtkCommonCore import vtkMath
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 
 #: From how far an element is looked at, in radii of the sphere around it: near enough to see it among its neighbours.
-#: And a patch of elements, of which the inside is to be seen.
+#: Distance from a patch of hexes, of which the inside must be visible.
 ELEMENT_FAR, PATCH_FAR = 9.0, 5.0
 
 
 class Flight:
-    """Leads a camera from where it is to a pose: it turns, shifts and comes nearer evenly.
+    """Interpolates a camera between its present pose and another: rotation, focal point and distance.
 
     Parameters
     ----------
     camera : vtkCamera
         Takes the pose's projection at once.
-    goal : Pose
+    goal : CameraPose
     """
 
-    def __init__(self, camera: vtkCamera, goal: Pose):
+    def __init__(self, camera: vtkCamera, goal: CameraPose):
         self._camera, self.goal = camera, goal
-        start = Pose.of(camera)
+        start = pose_of(camera)
         self._focus = np.array(start.focal), np.array(goal.focal)
         self._far = start.distance, goal.distance
         self._scale = start.scale, goal.scale
@@ -33,9 +34,9 @@ class Flight:
         self._turned = one, other if one @ other >= 0 else -other  # the shorter way round
 
     def at(self, share: float) -> None:
-        """Put the camera where it is after this share of the way, 0 to 1: it starts and ends gently."""
+        """Set the camera to the pose at a share of the movement, 0 to 1, with gentle start and end."""
         if share >= 1:
-            self.goal.give(self._camera)
+            apply_pose(self._camera, self.goal)
             return
         s = share * share * (3 - 2 * share)
         focus = (1 - s) * self._focus[0] + s * self._focus[1]
@@ -49,8 +50,8 @@ class Flight:
         camera.SetParallelScale(scale)
 
 
-def _quaternion(pose: Pose) -> np.ndarray:
-    """How a camera in a pose is turned, (4,)."""
+def _quaternion(pose: CameraPose) -> np.ndarray:
+    """Return the rotation of a camera in a pose as a quaternion, (4,)."""
     backwards = np.subtract(pose.position, pose.focal)
     backwards /= np.linalg.norm(backwards)
     right = np.cross(pose.up, backwards)
@@ -61,14 +62,14 @@ def _quaternion(pose: Pose) -> np.ndarray:
 
 
 def _axes(quaternion: np.ndarray) -> np.ndarray:
-    """What is right, up and behind to a camera that is turned so, (3, 3), one a row."""
+    """Return the right, up and backward vectors of a rotated camera, (3, 3), one a row."""
     turned = np.empty((3, 3))
     vtkMath.QuaternionToMatrix3x3(quaternion, turned)
     return turned.T
 
 
 def _between(one: np.ndarray, other: np.ndarray, share: float) -> np.ndarray:
-    """The unit quaternion that is a share of the way from one to another."""
+    """Interpolate between unit quaternions (slerp)."""
     angle = np.arccos(min(one @ other, 1.0))
     if angle < 1e-6:
         return other

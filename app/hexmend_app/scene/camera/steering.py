@@ -1,4 +1,4 @@
-"""Leading a camera by steps, as keys do."""
+"""Camera movements by steps, as keys make them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend_app.scene.camera.directions import UPS
 
 
 def turn(camera: vtkCamera, right: float, up: float, axis: str) -> None:
-    """Turn what is seen about the point that the camera looks at.
+    """Rotate the camera about its focal point.
 
     Parameters
     ----------
@@ -18,7 +18,7 @@ def turn(camera: vtkCamera, right: float, up: float, axis: str) -> None:
     right, up : float
         Degrees; to the right is about the axis that is up, so that the picture stays upright.
     axis : str
-        Which that is: x, y or z.
+        The vertical axis: x, y or z.
     """
     upright = UPS[axis][0]
     over = -1.0 if np.dot(camera.GetViewUp(), upright) < 0 else 1.0  # the picture stands on its head
@@ -33,7 +33,7 @@ def turn(camera: vtkCamera, right: float, up: float, axis: str) -> None:
 
 
 def pan(camera: vtkCamera, right: float, up: float) -> None:
-    """Shift what is seen to the right and up, by shares of the picture's height."""
+    """Pan the picture to the right and up, by shares of its height."""
     focus, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
     upwards = np.array(camera.GetViewUp())
     sidewards = np.cross(camera.GetDirectionOfProjection(), upwards)
@@ -46,6 +46,6 @@ def pan(camera: vtkCamera, right: float, up: float) -> None:
 
 
 def zoom(camera: vtkCamera, factor: float) -> None:
-    """Show what is seen larger by a factor, in either projection."""
+    """Zoom by a factor, in either projection."""
     camera.Dolly(factor)
     camera.SetParallelScale(camera.GetParallelScale() / factor)

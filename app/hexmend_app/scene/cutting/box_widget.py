@@ -1,4 +1,4 @@
-"""The clipping box whose sides are dragged in the view."""
+"""The clipping box, whose sides are dragged in the view."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 
+from hexmend_app.picture.cut_planes import BoxClip
 from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.palette import PLANE_EDGE, PLANE_HELD, rgb
-from hexmend_app.scene.pane import Pane
-from hexmend_app.state.clip import BoxClip
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import PLANE_EDGE, PLANE_HELD, rgb
 
 
 class BoxWidget(Handles):
-    """VTK's box widget, which stays along the axes.
+    """VTK's box widget without rotation.
 
     Parameters
     ----------
@@ -42,17 +42,17 @@ class BoxWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw it for the dark ground, or for the light one."""
+        """Draw for the dark theme, or for the light one."""
         self._shape.GetOutlineProperty().SetColor(rgb(PLANE_EDGE.of(dark)))
         for part in ("SelectedFace", "SelectedOutline", "Handle"):
             getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_HELD.of(dark)))
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
-        """Take the size of the mesh; the box is not dragged out of it."""
+        """Set the bounds of the mesh, which limit the box."""
         self._bounds = np.array(bounds).reshape(3, 2)
 
     def set(self, clip: BoxClip | None, shown: bool = True) -> None:
-        """Show the box where `clip` has it, or nothing."""
+        """Show the box of a clip, or hide it."""
         on = clip is not None and shown and self._bounds is not None
         if on and not self._dragging:
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])
@@ -60,7 +60,7 @@ class BoxWidget(Handles):
 
     @property
     def corners(self) -> np.ndarray:
-        """The lowest and the highest corner of the box as it is drawn, (2, 3) float64."""
+        """Lowest and highest corner of the box, (2, 3) float64."""
         data = vtkPolyData()
         self._shape.GetPolyData(data)
         return np.array(data.GetBounds()).reshape(3, 2).T

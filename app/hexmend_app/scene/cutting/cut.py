@@ -1,4 +1,4 @@
-"""The smooth cut: the sections of the elements by planes, and the skin that is left."""
+"""The smooth cut: sections of hexes by planes, and the remaining skin."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import pyvista as pv
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import vtkPlaneCutter
 
-from hexmend_app.scene import sides
+from hexmend_app.picture.cut_planes import Clip, ClipPlane
 from hexmend_app.scene.cutting.polygons import Polygons, together
+from hexmend_app.scene.geometry import plane_sides
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
-from hexmend_app.state.clip import Clip, ClipPlane
 
 #: Distance from a plane, relative to the mesh, up to which a node is on it; more than a box stands out of itself.
 _NEARLY = 1e-8
@@ -21,7 +21,7 @@ _NEARLY = 1e-8
 def sections(
     points: np.ndarray, hexes: np.ndarray, keep: np.ndarray | None, clip: Clip, colours: np.ndarray
 ) -> pv.PolyData:
-    """What is seen where planes cut through the elements: polygons in their colours.
+    """Return the sections of hexes by planes, as polygons in the colours of the hexes.
 
     The section by each plane is seen as far as the others leave it open. Only hexes that a plane crosses or touches
     there are handed to VTK, a few in a hundred. To VTK a node on the plane lies beyond it: of two hexes whose common
@@ -37,7 +37,7 @@ def sections(
     colours : (m, 3) uint8
     """
     planes = clip.planes
-    touched = sides.touched(points, hexes, *_half_spaces(planes), clip.notch)
+    touched = plane_sides.touched(points, hexes, *_half_spaces(planes), clip.notch)
     if keep is not None:
         touched &= keep[:, None]
     seen, owners = [], []
@@ -55,7 +55,7 @@ def sections(
 
 
 def left(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
-    """False for hexes that a cut takes away whole, or but for nodes on it, (m,) bool.
+    """Return False for hexes that a cut removes whole, or except for nodes on it, (m,) bool.
 
     Parameters are those of `sections`.
     """
@@ -67,7 +67,7 @@ def left(points: np.ndarray, hexes: np.ndarray, clip: Clip) -> np.ndarray:
 def _section(
     points: np.ndarray, hexes: np.ndarray, chosen: np.ndarray, plane: ClipPlane
 ) -> tuple[Polygons, np.ndarray]:
-    """Where a plane cuts through some hexes, and the hex of each polygon."""
+    """Return the section polygons of some hexes by a plane, and the hex of each."""
     nodes, cells = np.unique(hexes[chosen], return_inverse=True)
     grid = pv.UnstructuredGrid({pv.CellType.HEXAHEDRON: cells.reshape(-1, 8)}, points[nodes])
     grid.cell_data["hex"] = chosen
@@ -83,7 +83,7 @@ def _section(
 
 
 def behind(skin: pv.PolyData, clip: Clip) -> pv.PolyData:
-    """The part of a skin that is not cut away, colours carried along."""
+    """Return the part of a skin that is not cut away, with its colours."""
     if not skin.GetNumberOfCells():
         return skin
     whole, planes = Polygons.of(skin), clip.planes
@@ -99,7 +99,7 @@ def behind(skin: pv.PolyData, clip: Clip) -> pv.PolyData:
 
 
 def _half_spaces(planes: Sequence[ClipPlane], beyond: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """Normals (k, 3) and offsets (k,) of what lies before planes, or beyond them."""
+    """Return normals (k, 3) and offsets (k,) of the half-spaces before planes, or beyond them."""
     sign = -1.0 if beyond else 1.0
     normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
     return sign * normals, sign * np.array([plane.equation[1] for plane in planes])

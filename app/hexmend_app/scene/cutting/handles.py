@@ -1,14 +1,14 @@
-"""What VTK's widgets that are dragged in the view have in common."""
+"""Common part of the VTK widgets that are dragged in the view."""
 
 from __future__ import annotations
 
 from vtkmodules.vtkInteractionWidgets import vtkAbstractWidget
 
-from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.views.pane import Pane
 
 
 class Handles:
-    """Switches a widget on and off, and knows while it is dragged.
+    """Switches a widget on and off, and reports its drags.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Handles:
         widget.AddObserver("InteractionEvent", self._announce)
 
     def close(self) -> None:
-        """Let go of the interactor."""
+        """Detach the widget from the interactor."""
         self.widget.Off()
         self.widget.SetInteractor(None)
 
@@ -49,5 +49,5 @@ class Handles:
         self._dragging = on
 
     def _announce(self, *_: object) -> None:
-        """Tell where the hand has it."""
+        """Report the dragged position."""
         raise NotImplementedError

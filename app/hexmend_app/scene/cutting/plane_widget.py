@@ -1,4 +1,4 @@
-"""The clipping plane that is dragged and turned in the view."""
+"""The clipping plane, which is dragged and turned in the view."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtkImplicitPlaneWidget2
 
+from hexmend_app.picture.cut_planes import ClipPlane
 from hexmend_app.scene.cutting.handles import Handles
-from hexmend_app.scene.palette import PLANE, PLANE_EDGE, PLANE_HELD, rgb
-from hexmend_app.scene.pane import Pane
-from hexmend_app.state.clip import ClipPlane
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import PLANE, PLANE_EDGE, PLANE_HELD, rgb
 
 
 class PlaneWidget(Handles):
@@ -43,20 +43,20 @@ class PlaneWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw it for the dark ground, or for the light one."""
-        edge, plane, held = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
+        """Draw for the dark theme, or for the light one."""
+        edge, plane, selected = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
         self._shape.SetEdgeColor(edge)
         self._shape.GetPlaneProperty().SetColor(plane)
-        self._shape.GetSelectedPlaneProperty().SetColor(held)
-        self._shape.GetNormalProperty().SetColor(held)
+        self._shape.GetSelectedPlaneProperty().SetColor(selected)
+        self._shape.GetNormalProperty().SetColor(selected)
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
-        """Take the size of the mesh; the plane is drawn a little larger."""
+        """Set the bounds of the mesh; the plane is drawn slightly larger."""
         self._shape.PlaceWidget(bounds)
         self._placed = True
 
     def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
-        """Show a plane, or nothing.
+        """Show a plane, or hide it.
 
         While it is dragged it follows the hand: turned on from where it has been set straight, it would never get away
         from there.

@@ -1,4 +1,4 @@
-"""Convex polygons cut off at planes; several times faster than VTK's clipping, which makes triangles of them."""
+"""Clipping of convex polygons; several times faster than VTK's, which makes triangles of them."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Polygons:
 
     @classmethod
     def of(cls, poly: pv.PolyData) -> Polygons:
-        """The polygons of a dataset, each owned by its place there."""
+        """Return the polygons of a dataset, owned by their cell numbers."""
         cells = poly.GetPolys()
         start, places = (
             vtk_to_numpy(a).astype(np.int64) for a in (cells.GetOffsetsArray(), cells.GetConnectivityArray())
@@ -43,7 +43,7 @@ class Polygons:
         return len(self.owner)
 
     def same(self, other: Polygons) -> bool:
-        """Whether others have the same corners at the same places."""
+        """Return True if other polygons have equal corners."""
         return self is other or (
             np.array_equal(self.points, other.points)
             and np.array_equal(self.places, other.places)
@@ -51,7 +51,7 @@ class Polygons:
         )
 
     def before(self, normals: np.ndarray, offsets: np.ndarray) -> Polygons:
-        """What lies before all of some planes, where x . normal <= offset.
+        """Return the parts of the polygons before all planes, where x . normal <= offset.
 
         Parameters
         ----------
@@ -62,7 +62,7 @@ class Polygons:
         return Polygons(points, start, np.arange(len(points)), owner)
 
     def facing(self, direction: np.ndarray) -> Polygons:
-        """The same, each counter-clockwise as seen from far along a direction, (3,)."""
+        """Return the polygons, each counter-clockwise as seen from far along a direction, (3,)."""
         if not len(self):
             return self
         normals = np.empty((len(self), 3))
@@ -74,14 +74,14 @@ class Polygons:
         return Polygons(self.points, self.start, places, self.owner)
 
     def data(self) -> pv.PolyData:
-        """A dataset of them."""
+        """Return the polygons as a dataset."""
         if not len(self):
             return pv.PolyData()
         return pv.PolyData(self.points, faces=pv.CellArray.from_arrays(self.start, self.places))
 
 
 def together(parts: list[Polygons]) -> Polygons:
-    """Several sets of polygons as one."""
+    """Concatenate sets of polygons."""
     points = np.cumsum([0, *(len(part.points) for part in parts)])
     corners = np.cumsum([0, *(len(part.places) for part in parts)])
     return Polygons(

@@ -1,4 +1,4 @@
-"""Arrows from where nodes were to where they are."""
+"""Arrows from former to present positions of nodes."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.boundary.displacement import ROUNDING, Displacement
-from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.layers.body import Body
-from hexmend_app.scene.layers.structure import uncut
+from hexmend_app.picture.appearance import Arrows
+from hexmend_app.scene.layers.mesh import MeshLayer
+from hexmend_app.scene.layers.optional.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import rgb
-from hexmend_app.scene.pane import Pane
-from hexmend_app.state.look import Arrows
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import rgb
 
-#: Arrows that are drawn at most, the longest first: so many cost 20 ms of a moving frame without a graphics card.
+#: Largest number of arrows, the longest first: they cost 20 ms of a fast frame without a graphics card.
 MOST = 5_000
 
 #: Arrows up to which they have a rim: of more, that would be all that is seen.
@@ -39,7 +39,7 @@ _FACES = np.array([[3, 6, 2, 3], [3, 6, 3, 4], [3, 6, 4, 5], [3, 6, 5, 2]])
 
 
 class ArrowLayer:
-    """Draws arrows in a pane, dark with a light rim, so that they are seen on every colour.
+    """Draws arrows, dark with a light rim, so that they are visible on every colour.
 
     Attributes
     ----------
@@ -51,34 +51,34 @@ class ArrowLayer:
     Parameters
     ----------
     pane : Pane
-    pen : float
-        How many pixels wide a thin line is.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
     """
 
-    def __init__(self, pane: Pane, pen: float = 1.0):
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self._inside = pane.overlay()
         self.lines = pv.PolyData()
-        self._front_actors = _actors(pane.renderer, pen)
-        self._inside_actors = _actors(self._inside, pen)
-        self._pen = pen
+        self._front_actors = _actors(pane.renderer, pixel_ratio)
+        self._inside_actors = _actors(self._inside, pixel_ratio)
+        self._pixel_ratio = pixel_ratio
         self.drawn = self.moved = 0
         self._through = self._fast = False
         self.hide()
 
     @property
     def layer(self) -> vtkRenderer:
-        """What draws inside the mesh."""
+        """The renderer of arrows inside the mesh."""
         return self._inside
 
-    def draw(self, frame: Frame, keep: np.ndarray | None, body: Body) -> None:
-        """Draw what a frame's look wants of its movement.
+    def draw(self, frame: Frame, keep: np.ndarray | None, body: MeshLayer) -> None:
+        """Draw the arrows that the look of a frame selects.
 
         Parameters
         ----------
         frame : Frame
         keep : (m,) bool, optional
             Hexes that are shown, in whole or in part; None for all.
-        body : Body
+        body : MeshLayer
             Knows which nodes are in sight.
         """
         mesh, traces = frame.mesh, frame.look.traces
@@ -94,7 +94,7 @@ class ArrowLayer:
         self.show(frame.movement, nodes & uncut(frame.look, mesh.points), traces.factor, through)
 
     def hide(self) -> None:
-        """Draw none."""
+        """Draw nothing."""
         self.drawn = self.moved = 0
         self._inside.DrawOff()
         for actor in self._front_actors:
@@ -107,9 +107,9 @@ class ArrowLayer:
         ----------
         movement : Displacement
         nodes : (n,) bool
-            Those that may have one.
+            Nodes that may have an arrow.
         factor : float
-            How many times as long as the way they are drawn.
+            Factor of the length of arrows.
         through : bool
             As strongly where something hides them.
         """
@@ -136,7 +136,7 @@ class ArrowLayer:
         self._fit()
 
     def set_fast(self, fast: bool) -> None:
-        """Leave out rims, and what is pale, which cost twice the rest, or draw all again."""
+        """Omit rims and pale arrows, which cost twice the rest, or draw everything again."""
         self._fast = fast
         if self.drawn:
             self._fit()
@@ -153,12 +153,12 @@ class ArrowLayer:
             actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN)
         self._inside_actors[0].SetVisibility(through and rimmed)  # around what is pale it would be all that is seen
         for _, shaft, head in (self._front_actors, self._inside_actors):
-            shaft.GetProperty().SetLineWidth(self._pen * (_SHAFT_WIDTH if fine else 1.0))
+            shaft.GetProperty().SetLineWidth(self._pixel_ratio * (_SHAFT_WIDTH if fine else 1.0))
             head.GetProperty().SetEdgeVisibility(rimmed)
 
 
-def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
-    """Points of arrows, (7 k, 3): start, neck, four corners of the head, tip of each.
+def arrows(start: np.ndarray, path: np.ndarray, longest: float) -> np.ndarray:
+    """Return the points of arrows, (7 k, 3): start, neck, four corners of the head, tip of each.
 
     Parameters
     ----------
@@ -167,13 +167,13 @@ def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
     longest : float
         Heads are no longer than this.
     """
-    length = np.sqrt(np.square(way).sum(axis=1))[:, None]
-    ahead = way / length
+    length = np.sqrt(np.square(path).sum(axis=1))[:, None]
+    ahead = path / length
     aside = np.cross(ahead, np.eye(3)[np.abs(ahead).argmin(axis=1)])
     aside /= np.sqrt(np.square(aside).sum(axis=1))[:, None]
     upwards = np.cross(ahead, aside)
     head = np.minimum(_HEAD * length, longest)
-    tip = start + way
+    tip = start + path
     neck = tip - head * ahead
     wide = _WIDTH * head
     corners = [neck + wide * aside, neck + wide * upwards, neck - wide * aside, neck - wide * upwards]
@@ -181,7 +181,7 @@ def arrows(start: np.ndarray, way: np.ndarray, longest: float) -> np.ndarray:
 
 
 def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
-    """Shafts and heads, which share their points."""
+    """Build shafts and heads, which share their points."""
     first = np.arange(0, len(places), _POINTS)[:, None, None]
     lines, faces = ((part[None] + first * (np.arange(part.shape[1]) > 0)).ravel() for part in (_SHAFT, _FACES))
     shafts, heads = pv.PolyData(places, lines=lines), pv.PolyData(places, faces=faces)
@@ -189,10 +189,10 @@ def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
     return shafts, heads
 
 
-def _actors(renderer: vtkRenderer, pen: float) -> tuple[vtkActor, vtkActor, vtkActor]:
-    """The rim of shafts, shafts, and heads."""
+def _actors(renderer: vtkRenderer, pixel_ratio: float) -> tuple[vtkActor, vtkActor, vtkActor]:
+    """Make the actors of rims, shafts, and heads."""
     lines = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
-    rim, shaft, head = (_actor(renderer, colour, pen * width, before) for colour, width, before in lines)
+    rim, shaft, head = (_actor(renderer, colour, pixel_ratio * width, before) for colour, width, before in lines)
     head.GetProperty().SetEdgeColor(rgb(_RIM))
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head
@@ -207,9 +207,9 @@ def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> v
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.PickableOff()
-    how = actor.GetProperty()
-    how.SetColor(rgb(colour))
-    how.SetLineWidth(width)
-    how.LightingOff()
+    prop = actor.GetProperty()
+    prop.SetColor(rgb(colour))
+    prop.SetLineWidth(width)
+    prop.LightingOff()
     renderer.AddActor(actor)
     return actor

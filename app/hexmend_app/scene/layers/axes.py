@@ -7,8 +7,8 @@ from vtkmodules.vtkInteractionWidgets import vtkOrientationMarkerWidget
 from vtkmodules.vtkRenderingAnnotation import vtkAxesActor
 from vtkmodules.vtkRenderingCore import vtkTextProperty
 
-from hexmend_app.scene.palette import AXES, rgb
-from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import AXES, rgb
 
 #: Where they are, x low, y low, x high, y high as shares of a window that is one view.
 _PLACE = (0.0, 0.0, 0.13, 0.18)
@@ -20,7 +20,7 @@ _LEAST = 80
 _COLOURS = {"X": "#ff6347", "Y": "#2e8b57", "Z": "#0000ff"}
 
 
-class Axes:
+class AxesLayer:
     """Draws X, Y and Z as the camera sees them.
 
     Attributes
@@ -30,19 +30,19 @@ class Axes:
     Parameters
     ----------
     pane : Pane
-    pen : float
-        How many pixels wide a thin line is.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
     """
 
-    def __init__(self, pane: Pane, pen: float = 1.0):
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self._pane = pane
         self._actor = vtkAxesActor()
         for letter, colour in _COLOURS.items():
             for part in ("Shaft", "Tip"):
-                how = getattr(self._actor, f"Get{letter}Axis{part}Property")()
-                how.SetColor(rgb(colour))
-                how.SetAmbient(0.5)
-                how.SetLineWidth(2 * pen)
+                prop = getattr(self._actor, f"Get{letter}Axis{part}Property")()
+                prop.SetColor(rgb(colour))
+                prop.SetAmbient(0.5)
+                prop.SetLineWidth(2 * pixel_ratio)
             self._text(letter).ShadowOff()
         self.widget = vtkOrientationMarkerWidget()
         self.widget.SetOrientationMarker(self._actor)
@@ -56,11 +56,11 @@ class Axes:
         return getattr(self._actor, f"Get{letter}AxisCaptionActor2D")().GetCaptionTextProperty()
 
     def set_dark(self, dark: bool) -> None:
-        """Write the letters for the dark theme's ground, or for the light one's."""
+        """Colour the letters for the dark theme, or for the light one."""
         for letter in _COLOURS:
             self._text(letter).SetColor(rgb(AXES.of(dark)))
 
     def fit(self) -> None:
-        """Draw them as large as in a window of one view, and so that they can be read."""
+        """Keep the size of a single view, and the letters legible."""
         pixels = np.maximum(np.multiply(_PLACE[2:], self._pane.window.GetSize()), _LEAST)
         self.widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(self._pane.renderer.GetSize(), 1), 1))

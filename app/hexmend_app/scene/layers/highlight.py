@@ -1,4 +1,4 @@
-"""One element made to stand out: its edges over everything else, and a figure at each of its corners."""
+"""Highlight of one hex: its edges over everything else, and a figure at each corner."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkBillboardTextActor3D, vtkPo
 
 from hexmend.mesh.hexahedron import EDGES
 from hexmend_app.scene.camera.fitting import pixels
-from hexmend_app.scene.palette import rgb
-from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import rgb
 
 _LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
 
 #: Radius of a hex in pixels from which on there is room for figures at its corners.
-_ROOM = 45
+_SPACE = 45
 
 
 class Highlight:
-    """Draws the edges of one hex, light on dark, so that they are seen on every colour, before everything else.
+    """Draws the edges of one hex, light on dark, in front of everything else.
 
     Attributes
     ----------
@@ -29,18 +29,18 @@ class Highlight:
     Parameters
     ----------
     pane : Pane
-    pen : float
-        How many pixels wide a thin line is.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
     """
 
-    def __init__(self, pane: Pane, pen: float = 1.0):
-        self._pen = pen
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        self._pixel_ratio = pixel_ratio
         self._layer = pane.overlay()
         self.box = pv.PolyData(np.zeros((8, 3)), lines=_LINES)
         self._actors = [self._lines(colour, width) for colour, width in ((_HALO, 5), (_LINE, 2))]
         self._texts = [self._text() for _ in range(8)]
         self._point = self._add(pv.PolyData(np.zeros((1, 3))), _LINE)
-        self._point.GetProperty().SetPointSize(12 * pen)
+        self._point.GetProperty().SetPointSize(12 * pixel_ratio)
         self._point.GetProperty().RenderPointsAsSpheresOn()
         self._arrow = self._add(pv.PolyData(), _ARROW)
         self._with_values = False
@@ -49,12 +49,12 @@ class Highlight:
 
     @property
     def layer(self) -> vtkRenderer:
-        """What draws before everything else."""
+        """The renderer in front of everything else."""
         return self._layer
 
     def _lines(self, colour: str, width: int) -> vtkActor:
         actor = self._add(self.box, colour)
-        actor.GetProperty().SetLineWidth(self._pen * width)
+        actor.GetProperty().SetLineWidth(self._pixel_ratio * width)
         return actor
 
     def _add(self, poly: pv.PolyData, colour: str) -> vtkActor:
@@ -70,14 +70,14 @@ class Highlight:
     def _text(self) -> vtkBillboardTextActor3D:
         actor = vtkBillboardTextActor3D()
         actor.SetInput(" ")
-        how = actor.GetTextProperty()
-        how.SetFontSize(round(14 * self._pen))
-        how.SetBold(True)
-        how.SetColor(1, 1, 1)
-        how.SetBackgroundColor(0.07, 0.08, 0.11)
-        how.SetBackgroundOpacity(0.75)
-        how.SetJustificationToCentered()
-        how.SetVerticalJustificationToCentered()
+        prop = actor.GetTextProperty()
+        prop.SetFontSize(round(14 * self._pixel_ratio))
+        prop.SetBold(True)
+        prop.SetColor(1, 1, 1)
+        prop.SetBackgroundColor(0.07, 0.08, 0.11)
+        prop.SetBackgroundOpacity(0.75)
+        prop.SetJustificationToCentered()
+        prop.SetVerticalJustificationToCentered()
         self._layer.AddActor(actor)
         return actor
 
@@ -100,7 +100,7 @@ class Highlight:
                 text.SetPosition(*outside[k])
 
     def show_node(self, point: np.ndarray | None, arrow: np.ndarray | None = None) -> None:
-        """Mark a node beside the hex, and an arrow (3,) from it, as long as it is to be drawn; None marks none."""
+        """Mark a node besides the hex, and an arrow (3,) from it; None removes the mark."""
         self._point.SetVisibility(point is not None)
         self._arrow.SetVisibility(point is not None and arrow is not None)
         if point is not None:
@@ -112,17 +112,17 @@ class Highlight:
                 self._arrow.GetMapper().SetInputData(drawn)
 
     def _fit_texts(self, *_: object) -> None:
-        """Show the figures where the hex is large enough for them to stand apart."""
-        on = self._with_values and self._pixels() > self._pen * _ROOM
+        """Show the figures if the hex is large enough for them."""
+        on = self._with_values and self._pixels() > self._pixel_ratio * _SPACE
         for text in self._texts:
             text.SetVisibility(on)
 
     def _pixels(self) -> float:
-        """The radius of the hex in the picture."""
+        """Return the radius of the hex in pixels."""
         corners = self.box.points
         centre = corners.mean(axis=0)
         return pixels(self._layer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
 
     def hide(self) -> None:
-        """Mark none."""
+        """Draw nothing."""
         self._layer.DrawOff()  # costs nothing then

@@ -1,4 +1,4 @@
-"""Lines and points on the nodes of a mesh, in colours with a dark rim, so that they are seen on every colour."""
+"""Lines and points on nodes of a mesh, with a dark rim, so that they are visible on every colour."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import rgb
+from hexmend_app.theme.palette import rgb
 
 _RIM = "#11151c"
 _COLOURS = "colours"
@@ -18,7 +18,7 @@ _POINTS_BEFORE = (-60.0, -120.0)
 
 
 class Marks:
-    """Marks of one sort in one renderer, which come, move with the nodes and go.
+    """Marks of one kind in one renderer, which follow the nodes.
 
     Attributes
     ----------
@@ -36,12 +36,12 @@ class Marks:
         Width of the lines or side of the points where there is room, in pixels.
     rim : float
         Width of the dark rim on either side, in pixels.
-    pen : float
-        What a pixel is here: how many of the picture's a thin line is wide.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
     """
 
-    def __init__(self, renderer: vtkRenderer, size: float, rim: float, pen: float = 1.0):
-        self._size, self._rim, self._pen = size, rim, pen
+    def __init__(self, renderer: vtkRenderer, size: float, rim: float, pixel_ratio: float = 1.0):
+        self._size, self._rim, self._pixel_ratio = size, rim, pixel_ratio
         self.poly = pv.PolyData()
         self.nodes = np.empty(0, np.int64)
         self._around = self._actor(renderer, coloured=False)
@@ -69,7 +69,7 @@ class Marks:
 
     @property
     def shown(self) -> bool:
-        """Whether anything is drawn."""
+        """True while something is drawn."""
         return bool(self.filled.GetVisibility())
 
     @property
@@ -104,22 +104,22 @@ class Marks:
         self.show_rims(True)
 
     def show_rims(self, on: bool) -> None:
-        """Draw the rims or not; never where they would be seen through what they are around."""
+        """Draw the rims or not; translucent marks never have any."""
         self._around.SetVisibility(on and self.shown and self.filled.GetProperty().GetOpacity() == 1)
 
     def move(self, points: np.ndarray) -> None:
-        """Take the nodes' places, (n, 3) float64."""
+        """Move with the nodes, (n, 3) float64."""
         if self.shown:
             set_points(self.poly, points[self.nodes])
 
     def fit(self, share: float) -> None:
-        """Draw them smaller where there is little room between them, by a share from 0 to 1."""
+        """Scale the marks by a factor from 0 to 1, for dense meshes."""
         size, rim = max(1.0, share * self._size), max(0.5, share * self._rim)
         for actor, width in ((self.filled, size), (self._around, size + 2 * rim)):
-            actor.GetProperty().SetLineWidth(self._pen * width)
-            actor.GetProperty().SetPointSize(self._pen * width)
+            actor.GetProperty().SetLineWidth(self._pixel_ratio * width)
+            actor.GetProperty().SetPointSize(self._pixel_ratio * width)
 
     def hide(self) -> None:
-        """Draw none."""
+        """Draw nothing."""
         self.filled.VisibilityOff()
         self._around.VisibilityOff()

@@ -1,4 +1,4 @@
-"""A node's step in the view: its patch, gradient, search direction, trial steps and the step that is taken."""
+"""Step of a node: its patch, gradient, search direction, trial steps and the accepted step."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from hexmend.mesh.hexahedron import EDGES, FACES
 from hexmend.node_step import NodeStep
-from hexmend_app.scene.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role, rgb
-from hexmend_app.scene.pane import Pane
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import OTHERWISE, PATCH, SEARCH, TAKEN, TRIED, UPHILL, Role, rgb
 
 _RIM = "#11151c"
 
@@ -21,7 +21,7 @@ _BALLS = {"pulls": 0.04, "tried": 0.042, "taken": 0.05, "node": 0.055}
 
 
 class NodeStepMarks:
-    """Draws one step before everything else, so that nothing hides it.
+    """Draws one step in front of everything else.
 
     Where the mesh shows the node before its step, the patch as it would be after it is drawn pale; where it shows the
     node after it, the patch as it was.
@@ -29,17 +29,17 @@ class NodeStepMarks:
     Parameters
     ----------
     pane : Pane
-    pen : float
-        How many pixels wide a thin line is.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
 
     Attributes
     ----------
     step : NodeStep or None
-        What is drawn.
+        The drawn step.
     """
 
-    def __init__(self, pane: Pane, pen: float = 1.0):
-        self._pen = pen
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        self._pixel_ratio = pixel_ratio
         self._behind, self._front = (pane.overlay() for _ in range(2))  # the patch, and what is drawn over it
         self.step: NodeStep | None = None
         self._dark = False
@@ -57,31 +57,31 @@ class NodeStepMarks:
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
-        """What draws before everything else."""
+        """The renderers in front of everything else."""
         return self._behind, self._front
 
     def _add(self, layer: vtkRenderer, role: Role | None, width: float = 1, opacity: float = 1.0) -> vtkActor:
         actor = vtkActor()
         actor.SetMapper(vtkPolyDataMapper())
         actor.GetMapper().SetInputData(pv.PolyData())
-        how = actor.GetProperty()
-        how.LightingOff()
-        how.SetLineWidth(self._pen * width)
-        how.SetOpacity(opacity)
-        how.SetColor(rgb(_RIM))
+        prop = actor.GetProperty()
+        prop.LightingOff()
+        prop.SetLineWidth(self._pixel_ratio * width)
+        prop.SetOpacity(opacity)
+        prop.SetColor(rgb(_RIM))
         if role is not None:
             self._roles[actor] = role
         layer.AddActor(actor)
         return actor
 
     def _solid(self, role: Role) -> tuple[vtkActor, vtkActor]:
-        """A dark rim, of which only the inside of its back is seen, and what is within it."""
+        """Make the actors of a solid and its dark rim, of which only the inside of the back is visible."""
         around = self._add(self._front, None)
         around.GetProperty().FrontfaceCullingOn()
         return around, self._add(self._front, role)
 
     def set_dark(self, dark: bool) -> None:
-        """Take the colours of the dark theme, or of the light one."""
+        """Draw for the dark theme, or for the light one."""
         for actor, role in self._roles.items():
             actor.GetProperty().SetColor(rgb(role.of(dark)))
 
@@ -94,7 +94,7 @@ class NodeStepMarks:
         hexes : (k, 8) int32
             The nodes of its patch.
         points : (n, 3) float64
-            Where all nodes are in the view.
+            Drawn positions of all nodes.
         """
         self.step, self._hexes = step, hexes
         for layer in self.layers:
@@ -102,7 +102,7 @@ class NodeStepMarks:
         self.move(points)
 
     def move(self, points: np.ndarray) -> None:
-        """Draw the same step where the nodes, (n, 3) float64, are now."""
+        """Draw the same step at the present nodes, (n, 3) float64."""
         if self.step is None:
             return
         step, nodes = self.step, np.unique(self._hexes)
@@ -127,7 +127,7 @@ class NodeStepMarks:
         self._draw_balls("node", [step.before], length)
 
     def _draw_otherwise(self, x: np.ndarray, node: int, places: np.ndarray, spokes: np.ndarray) -> None:
-        """The edges and faces at the node, with the node at the other end of its step."""
+        """Draw edges and faces at the node, with the node at the other end of its step."""
         step, there = self.step, x.copy()
         at_end = np.square(x[node] - step.after).sum() < np.square(x[node] - step.before).sum()
         there[node] = step.before if at_end else step.after
@@ -137,7 +137,7 @@ class NodeStepMarks:
         _draw(self._ghost_edges, _lines(there, spokes[: len(spokes) * moves]))
 
     def _draw_arrow(self, role: Role, vector: np.ndarray, length: float) -> None:
-        """An arrow from the node; `length` is the unit of what is given in mean edge lengths."""
+        """Draw an arrow from the node; `length` is the mean edge length, the unit of all sizes."""
         far = float(np.linalg.norm(vector))
         tip = min(_TIP_LENGTH * length, 0.6 * far)
         thick = tip / _TIP_LENGTH  # a short arrow is a thin one
@@ -162,7 +162,7 @@ class NodeStepMarks:
                 _draw(actor, pv.PolyData(np.array(places)).glyph(geom=ball, scale=False, orient=False))
 
     def hide(self) -> None:
-        """Draw none."""
+        """Draw nothing."""
         self.step = None
         for layer in self.layers:
             layer.DrawOff()
@@ -173,11 +173,11 @@ def _draw(actor: vtkActor, poly: pv.PolyData) -> None:
 
 
 def _lines(points: np.ndarray, edges: np.ndarray) -> pv.PolyData:
-    """Lines between points (k, 3), by edges (j, 2)."""
+    """Build lines between points (k, 3), by edges (j, 2)."""
     return pv.PolyData(points, lines=np.column_stack([np.full(len(edges), 2), edges]).ravel())
 
 
 def _scaled(vector: np.ndarray, length: float) -> np.ndarray:
-    """The vector at another length; nothing stays nothing."""
+    """Scale a vector to another length; a zero vector stays zero."""
     far = float(np.linalg.norm(vector))
     return vector * (length / far) if far > 0 else vector

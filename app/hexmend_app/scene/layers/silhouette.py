@@ -1,4 +1,4 @@
-"""Sharp edges of the whole body, and the shape of a round one: what a part of a mesh was cut from is kept in mind."""
+"""Sharp edges and silhouette of the whole body, for orientation while a part of the mesh is hidden."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from vtkmodules.vtkRenderingCore import vtkMapper, vtkRenderer
 from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import sharp_edges
-from hexmend_app.scene.layers.flat import flat_actor
-from hexmend_app.scene.layers.structure import uncut
+from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.layers.flat_actor import flat_actor
+from hexmend_app.scene.layers.optional.structure import uncut
 from hexmend_app.scene.layers.surface import set_points
-from hexmend_app.scene.palette import SHADE, SHARP, SILHOUETTE, rgb
-from hexmend_app.state.look import Look
+from hexmend_app.theme.palette import SHADE, SHARP, SILHOUETTE, rgb
 
 #: Of the ends of sharp edges; where more belong to one sharp edge alone, a round body has facets that are sharp here
 #: and there, and what they give is a heap of splinters. Sharp edges of a body with corners go on at either end.
@@ -27,13 +27,13 @@ _BOLD = 1.75
 
 
 def form_lines(edges: np.ndarray) -> bool:
-    """Whether edges, (e, 2), go on into each other, so that a body can be recognised by them."""
+    """Return True if edges, (e, 2), form lines, so that they show the shape of a body."""
     ends = np.unique(edges, return_counts=True)[1]
     return len(edges) > 0 and (ends == 1).sum() <= _MOST * len(ends)
 
 
 class Silhouette:
-    """Draws the sharp edges of a mesh's boundary, and what a part of it was cut from.
+    """Draws the sharp edges of the boundary, and the outline of the whole mesh.
 
     Sharp edges of what is shown are dark lines, those of what is hidden are pale. A round body has none that go on
     into each other: it is a shade behind what is left of it.
@@ -48,11 +48,11 @@ class Silhouette:
     renderer : vtkRenderer
     mesh : Mesh
         Its boundary is drawn where its nodes are; `move` says where they go.
-    pen : float
-        How many pixels wide a thin line is.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
     """
 
-    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pen: float = 1.0):
+    def __init__(self, renderer: vtkRenderer, mesh: Mesh, pixel_ratio: float = 1.0):
         self._mesh, faces = mesh, mesh.topology.boundary_faces
         self._edges = edges = sharp_edges(mesh.points, faces)
         self._lines = lines = form_lines(edges)
@@ -62,7 +62,7 @@ class Silhouette:
         points = mesh.points[self._nodes]
         self._poly = _lines(points, places) if lines else pv.PolyData.from_regular_faces(points, places)
         self._renderer = renderer
-        self.actor, self._sharp = flat_actor(renderer, pen), flat_actor(renderer, _BOLD * pen)
+        self.actor, self._sharp = flat_actor(renderer, pixel_ratio), flat_actor(renderer, _BOLD * pixel_ratio)
         self.actor.GetMapper().SetInputData(self._poly)
         _offset(self._sharp.GetMapper(), _BEFORE, _BEFORE)
         if not lines:
@@ -71,7 +71,7 @@ class Silhouette:
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark ground, or for the light one."""
+        """Draw for the dark theme, or for the light one."""
         self.actor.GetProperty().SetColor(rgb((SILHOUETTE if self._lines else SHADE).of(dark)))
         self._sharp.GetProperty().SetColor(rgb(SHARP.of(dark)))
 
@@ -81,7 +81,7 @@ class Silhouette:
         self._sharp.SetVisibility(False)
 
     def show(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> None:
-        """Draw what a look wants of it.
+        """Draw the outline as a look selects it.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Silhouette:
             self._sharp.GetMapper().SetInputData(lines)
 
     def _shown(self, look: Look, points: np.ndarray, keep: np.ndarray | None) -> np.ndarray:
-        """True for the sharp edges of elements that are shown, and before a smooth cut; (e,) bool."""
+        """Return True for the sharp edges of shown hexes before a smooth cut, (e,) bool."""
         answer = np.ones(len(self._edges), bool)
         if look.shrink:
             return ~answer  # elements are drawn aside of them
@@ -110,24 +110,24 @@ class Silhouette:
         return answer & uncut(look, points[self._edges].mean(axis=1))
 
     def move(self, points: np.ndarray) -> None:
-        """Take the nodes' places, (n, 3) float64; of a boundary that is fixed, nothing is sent to be drawn anew."""
+        """Move with the nodes, (n, 3) float64; a fixed boundary is not uploaded again."""
         places = points[self._nodes]
         if not np.array_equal(places, self._poly.points):
             set_points(self._poly, places)
 
     def close(self) -> None:
-        """Draw it no more."""
+        """Remove the outline."""
         for actor in (self.actor, self._sharp):
             self._renderer.RemoveActor(actor)
 
 
 def _lines(points: np.ndarray, ends: np.ndarray) -> pv.PolyData:
-    """Lines between points, (k, 3), by their ends, (e, 2)."""
+    """Build lines between points, (k, 3), by their ends, (e, 2)."""
     return pv.PolyData(points, lines=np.column_stack([np.full(len(ends), 2), ends]).ravel())
 
 
 def _offset(mapper: vtkMapper, lines: float, polygons: float) -> None:
-    """Draw before, or behind, what is there."""
+    """Offset the depth of an actor to the front or the back."""
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, lines)
     mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, polygons)

@@ -65,10 +65,7 @@ def check_targets(source: str, output: str, *targets: str | None) -> None:
         For the first target that cannot be written or is another of the files.
     """
     taken = {Path(source).resolve(), Path(output).resolve()}
-    for target in targets:
-        if target is None:
-            continue
-        path = Path(target)
+    for path in (Path(target) for target in targets if target is not None):
         if path.resolve() in taken:
             raise FileError(path, "is the mesh, or another file to be written", "Choose another name for it.")
         check_writable(path)

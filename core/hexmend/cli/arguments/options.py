@@ -10,36 +10,32 @@ from hexmend.errors import ParameterError
 def add_mesh(parser: argparse.ArgumentParser) -> None:
     """Declare the mesh file, and the option that keeps its orientation."""
     parser.add_argument("mesh", metavar="MESH", help="the mesh file")
-    parser.add_argument(
-        "--as-is", action="store_true", help="do not reorient parts in which all hexes have the opposite orientation"
-    )
+    text = "do not reorient parts in which all hexes have the opposite orientation"
+    parser.add_argument("--as-is", action="store_true", help=text)
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
     """Declare the options of one run: a method with its parameters, or a recipe, and the limits."""
     parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
-    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="a parameter of the method")
+    add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
     _add_boundary(parser)
-    parser.add_argument(
-        "--recipe",
-        metavar="FILE.toml",
-        help="run the methods of this recipe one after another; limits hold for each of them",
-    )
+    text = "run the methods of this recipe one after another; limits hold for each of them"
+    parser.add_argument("--recipe", metavar="FILE.toml", help=text)
     _add_limits(parser)
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Declare the options that hold for several methods: parameters, boundary, limits, memory."""
-    parser.add_argument(
-        "--set",
-        metavar="[METHOD.]KEY=VALUE",
-        action="append",
-        default=[],
-        help="a parameter of the one method, or of every method that has it",
-    )
+    text = "a parameter of the one method, or of every method that has it"
+    add_repeated(parser, "--set", "[METHOD.]KEY=VALUE", text)
     _add_boundary(parser)
     _add_limits(parser)
     add_force(parser)
+
+
+def add_repeated(parser: argparse.ArgumentParser, option: str, metavar: str, text: str) -> None:
+    """Declare an option that may be given several times; its value is the list of all words."""
+    parser.add_argument(option, metavar=metavar, action="append", default=[], help=text)
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
@@ -84,11 +80,8 @@ def parse_settings(words: list[str]) -> dict[str, str]:
 
 def _add_boundary(parser: argparse.ArgumentParser) -> None:
     """Declare the short form of `--set boundary=...`."""
-    parser.add_argument(
-        "--boundary",
-        choices=("fixed", "slide"),
-        help="keep the nodes of the boundary fixed (default) or let them slide on the surface",
-    )
+    text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
+    parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
 
 
 def _add_limits(parser: argparse.ArgumentParser) -> None:

@@ -98,11 +98,8 @@ def current_method(run: Run) -> str:
 
 def describe_iteration(run: Run) -> str:
     """Return the quality and the largest move of the newest iteration as text."""
-    quality = run.last.quality
-    return (
-        f"{quality.n_inverted:,} inverted, q min {quality.q.min():.4f}, q mean {quality.q.mean():.4f}, "
-        f"move {run.last.largest_move:.2g}"
-    )
+    q, inverted, move = run.last.quality.q, run.last.quality.n_inverted, run.last.largest_move
+    return f"{inverted:,} inverted, q min {q.min():.4f}, q mean {q.mean():.4f}, move {move:.2g}"
 
 
 class _Live:
@@ -110,9 +107,7 @@ class _Live:
 
     def __init__(self):
         self._due = monotonic() + LIVE_DELAY
-        self._line = None
-        self._run: Run | None = None
-        self._task = None
+        self._line = self._run = self._task = None
 
     @uninterrupted  # a line that is drawn in part could not be removed
     def show(self, run: Run) -> None:
@@ -125,14 +120,9 @@ class _Live:
             if self._task is not None:
                 self._line.remove_task(self._task)
             self._run = run
-            self._task = self._line.add_task("", total=run.limit, method="")
-        self._line.update(
-            self._task,
-            total=run.limit,
-            completed=run.last.number,
-            method=current_method(run),
-            description=describe_iteration(run),
-        )
+            self._task = self._line.add_task("", total=run.max_iterations, method="")
+        words = {"method": current_method(run), "description": describe_iteration(run)}
+        self._line.update(self._task, total=run.max_iterations, completed=run.last.number, **words)
 
     def close(self) -> None:
         if self._line is not None:
@@ -151,14 +141,11 @@ def progress_line(template: str) -> rich.progress.Progress:
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
     from rich.table import Column
 
+    text = Column(no_wrap=True, ratio=1)  # shortened on a narrow terminal
     return Progress(
         SpinnerColumn(table_column=Column(no_wrap=True)),
         TimeElapsedColumn(table_column=Column(no_wrap=True)),
-        TextColumn(
-            template,
-            markup=False,
-            table_column=Column(no_wrap=True, ratio=1),  # shortened on a narrow terminal
-        ),
+        TextColumn(template, markup=False, table_column=text),
         console=Console(stderr=True, highlight=False),
         expand=True,
         transient=True,
@@ -176,7 +163,7 @@ class _Lines:
         if self._due is None:  # the interval begins after the preparations for the first iteration
             self._due = monotonic() + LINE_INTERVAL
         if monotonic() >= self._due:
-            at = f"iteration {run.last.number:,} of at most {run.limit:,}, {run.last.seconds:.0f} s"
+            at = f"iteration {run.last.number:,} of at most {run.max_iterations:,}, {run.last.seconds:.0f} s"
             print(f"{current_method(run)}: {at}: {describe_iteration(run)}", file=sys.stderr, flush=True)
             self._due = monotonic() + LINE_INTERVAL
 

@@ -55,13 +55,11 @@ def print_columns(head: Sequence[str] | None, rows: Sequence[Sequence[str]]) -> 
     every = [*([head] if head else []), *rows]
     widths = [max(map(len, column)) for column in zip(*every, strict=True)]
 
+    def painted(cell: str, width: int) -> str:
+        return f"{red}{cell:>{width}}{reset}" if isinstance(cell, WorsenedText) else cell.rjust(width)
+
     def line(row: Sequence[str]) -> str:
-        cells = (cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))
-        painted = (
-            f"{red}{text}{reset}" if isinstance(cell, WorsenedText) else text
-            for cell, text in zip(row[1:], cells, strict=True)
-        )
-        return "  " + "   ".join([row[0].ljust(widths[0]), *painted])
+        return "  " + "   ".join([row[0].ljust(widths[0]), *map(painted, row[1:], widths[1:])])
 
     print()
     if head:

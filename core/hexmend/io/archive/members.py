@@ -7,11 +7,10 @@ import os
 import re
 import stat
 import zipfile
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 
@@ -42,44 +41,36 @@ _LONGEST_HEADER = 1024
 _CHUNK = 1 << 24
 
 
-class ArchiveMembers(ABC):
+class ArchiveMembers(NamedTuple):
     """Members by name.
 
-    Attributes
+    Parameters
     ----------
     sizes : mapping of str to int
         Sizes in bytes.
+    open : callable
+        open(name) opens a member for reading.
     """
 
     sizes: Mapping[str, int]
-
-    @abstractmethod
-    def open(self, name: str) -> IO[bytes]:
-        """Open a member for reading."""
+    open: Callable[[str], IO[bytes]]
 
 
-class _ZipMembers(ArchiveMembers):
-    def __init__(self, path: Path, archive: zipfile.ZipFile):
-        self._archive, self._infos = archive, _checked(path, archive)
-        self.sizes = {name: info.file_size for name, info in self._infos.items()}
-
-    def open(self, name: str) -> IO[bytes]:
-        return self._archive.open(self._infos[name])
+def _zip_members(path: Path, archive: zipfile.ZipFile) -> ArchiveMembers:
+    infos = _checked(path, archive)
+    sizes = {name: info.file_size for name, info in infos.items()}
+    return ArchiveMembers(sizes, lambda name: archive.open(infos[name]))
 
 
-class _FolderMembers(ArchiveMembers):
+def _folder_members(path: Path) -> ArchiveMembers:
     """Members of a folder; other files, such as those of a killed writer, are ignored."""
-
-    def __init__(self, path: Path):
-        self._path, self.sizes = path, {}
-        for folder, start in ((path, ""), (path / ARRAYS, f"{ARRAYS}/")):
-            for entry in os.scandir(folder) if folder.is_dir() else ():
-                about, name = entry.stat(follow_symlinks=False), start + entry.name
-                if stat.S_ISREG(about.st_mode) and (name == DESCRIPTION or MEMBER.fullmatch(name)):
-                    self.sizes[name] = about.st_size
-
-    def open(self, name: str) -> IO[bytes]:
-        return open(self._path / name, "rb")
+    sizes = {}
+    for folder, start in ((path, ""), (path / ARRAYS, f"{ARRAYS}/")):
+        for entry in os.scandir(folder) if folder.is_dir() else ():
+            about, name = entry.stat(follow_symlinks=False), start + entry.name
+            if stat.S_ISREG(about.st_mode) and (name == DESCRIPTION or MEMBER.fullmatch(name)):
+                sizes[name] = about.st_size
+    return ArchiveMembers(sizes, lambda name: open(path / name, "rb"))
 
 
 @contextmanager
@@ -98,22 +89,14 @@ def open_members(path: Path) -> Iterator[ArchiveMembers]:
     zipfile.BadZipFile
         Where the file is not a zip file.
     """
-    if path.is_dir():
-        members = _FolderMembers(path)
-        _check(path, members)
+    with ExitStack() as stack:
+        is_folder = path.is_dir()
+        members = _folder_members(path) if is_folder else _zip_members(path, stack.enter_context(zipfile.ZipFile(path)))
+        if DESCRIPTION not in members.sizes:
+            raise FileError(path, f"has no {DESCRIPTION}", NOT_OURS)
+        if members.sizes[DESCRIPTION] > LARGEST:
+            raise FileError(path, f"{DESCRIPTION} is larger than {LARGEST >> 20} MB", REMEDY)
         yield members
-        return
-    with zipfile.ZipFile(path) as archive:
-        members = _ZipMembers(path, archive)
-        _check(path, members)
-        yield members
-
-
-def _check(path: Path, members: ArchiveMembers) -> None:
-    if DESCRIPTION not in members.sizes:
-        raise FileError(path, f"has no {DESCRIPTION}", NOT_OURS)
-    if members.sizes[DESCRIPTION] > LARGEST:
-        raise FileError(path, f"{DESCRIPTION} is larger than {LARGEST >> 20} MB", REMEDY)
 
 
 def _checked(path: Path, archive: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:

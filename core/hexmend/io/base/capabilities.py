@@ -32,6 +32,7 @@ def required_capabilities(mesh: Mesh, stored_names: Collection[str] = ()) -> dic
     data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
     volume_sets = [mesh.hex_sets, *(cells.sets for cells in mesh.cells if cells.dimension == 3)]
     lower_sets = [cells.sets for cells in mesh.cells if cells.dimension < 3]
+    groups = ([mesh.node_sets], [*volume_sets, *lower_sets], [mesh.side_sets])
     names = {
         Capability.NODE_DATA: [name for name in mesh.node_data if name not in (ID, redundant_marks(mesh))],
         Capability.HEX_DATA: [name for name in _names(data) if name != ID],
@@ -40,11 +41,7 @@ def required_capabilities(mesh: Mesh, stored_names: Collection[str] = ()) -> dic
         Capability.HEX_SETS: _non_empty(volume_sets),
         Capability.CELL_SETS: _non_empty(lower_sets),
         Capability.SIDE_SETS: _non_empty([mesh.side_sets]),
-        Capability.EMPTY_SETS: [
-            name
-            for sets in ([mesh.node_sets], [*volume_sets, *lower_sets], [mesh.side_sets])
-            for name in set(_names(sets)) - set(_non_empty(sets))
-        ],
+        Capability.EMPTY_SETS: [name for sets in groups for name in set(_names(sets)) - set(_non_empty(sets))],
         Capability.FIXED_NODES: [""] if needs_marks(mesh) else [],
         Capability.LOWER_CELLS: [""] if any(0 < cells.dimension < 3 for cells in mesh.cells) else [],
         Capability.VERTICES: [""] if any(cells.dimension == 0 for cells in mesh.cells) else [],
@@ -62,13 +59,11 @@ def required_capabilities(mesh: Mesh, stored_names: Collection[str] = ()) -> dic
 
 def rounded_integers(mesh: Mesh) -> list[str]:
     """Describe integer data that a format rounds because it stores all data as float64; empty if there are none."""
-    return _describe(
-        mesh,
-        "whole numbers of {} above 2^53, which are rounded",
-        lambda values: (
-            values.dtype.kind in "iu" and bool(((values > _LARGEST_EXACT) | (values < -_LARGEST_EXACT)).any())
-        ),
-    )
+
+    def is_rounded(values: np.ndarray) -> bool:
+        return values.dtype.kind in "iu" and bool(((values > _LARGEST_EXACT) | (values < -_LARGEST_EXACT)).any())
+
+    return _describe(mesh, "whole numbers of {} above 2^53, which are rounded", is_rounded)
 
 
 def non_numeric_data(mesh: Mesh) -> list[str]:

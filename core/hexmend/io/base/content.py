@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import count
@@ -16,6 +17,7 @@ from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING, interpolate
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import check_node_numbers
+from hexmend.terminal_text import count_phrase
 
 #: Name of the data that hold the file's own numbers of nodes and cells.
 ID = "id"
@@ -139,16 +141,10 @@ def from_mesh(mesh: Mesh) -> Content:
     """Make the content of a file that holds a mesh: blocks of hexes by their number of nodes, then other cells."""
     blocks, hexes = zip(*hex_blocks(mesh), strict=True)
     new_index = np.argsort(np.concatenate(hexes))  # of each hex of the mesh, counted through the blocks
-    side_sets = {name: np.asarray(rows, np.int64).reshape(-1, 2) for name, rows in mesh.side_sets.items()}
-    return Content(
-        mesh.points,
-        (*blocks, *(Block(cells.kind, cells.nodes, cells.data, cells.sets) for cells in mesh.cells)),
-        mesh.node_data,
-        mesh.node_sets,
-        {name: np.column_stack([new_index[rows[:, 0]], rows[:, 1]]) for name, rows in side_sets.items()},
-        mesh.pinned,
-        mesh.field_data,
-    )
+    sides = {name: np.asarray(rows, np.int64).reshape(-1, 2) for name, rows in mesh.side_sets.items()}
+    sides = {name: np.column_stack([new_index[rows[:, 0]], rows[:, 1]]) for name, rows in sides.items()}
+    blocks += tuple(Block(cells.kind, cells.nodes, cells.data, cells.sets) for cells in mesh.cells)
+    return Content(mesh.points, blocks, mesh.node_data, mesh.node_sets, sides, mesh.pinned, mesh.field_data)
 
 
 def hex_blocks(mesh: Mesh) -> Iterator[tuple[Block, np.ndarray]]:
@@ -199,6 +195,13 @@ def concatenate_data(parts: list[Mapping[str, np.ndarray]], lengths: list[int]) 
     return joined
 
 
+def merge_blocks(blocks: list[Block]) -> Block:
+    """Concatenate blocks of one kind."""
+    lengths, nodes = [len(block) for block in blocks], np.concatenate([block.nodes for block in blocks])
+    data = concatenate_data([block.data for block in blocks], lengths)
+    return Block(blocks[0].kind, nodes, data, concatenate_sets([block.sets for block in blocks], lengths))
+
+
 def unused_name(name: str, taken: Collection[str]) -> str:
     """Append a number from 2 to a name so that it is not taken."""
     return next(title for k in count(2) if (title := f"{name}_{k}") not in taken)
@@ -229,19 +232,16 @@ def _mid_nodes(hexes: list[Block]) -> np.ndarray | None:
     """Mid-nodes of all hexes, (m, 19) int32, -1 where a hex has fewer; None if no hex has any."""
     if all(block.kind == "hex" for block in hexes):
         return None
-    mid_nodes = np.full((sum(map(len, hexes)), 19), -1, np.int32)
-    first = 0
-    for block in hexes:
-        mid_nodes[first : first + len(block), : block.nodes.shape[1] - 8] = block.nodes[:, 8:]
-        first += len(block)
-    return mid_nodes
+    missing = [((0, 0), (0, 27 - block.nodes.shape[1])) for block in hexes]
+    rows = [block.nodes[:, 8:].astype(np.int32) for block in hexes]
+    return np.concatenate([np.pad(own, pad, constant_values=-1) for own, pad in zip(rows, missing, strict=True)])
 
 
 def _inventory(blocks: list[Block], unread: Mapping[str, int] | None = None) -> str:
     """List numbers of cells by kind for a message; of kinds that are not supported, the first six."""
-    counts: dict[str, int] = {}
+    counts = Counter()
     for block in blocks:
-        counts[block.kind] = counts.get(block.kind, 0) + len(block)
-    phrases = [f"{n:,} {kind} cell{'s' * (n != 1)}" for kind, n in counts.items()]
-    phrases += [f"{n:,} cell{'s' * (n != 1)} of {kind}" for kind, n in list((unread or {}).items())[:6]]
+        counts[block.kind] += len(block)
+    phrases = [count_phrase(n, f"{kind} cell") for kind, n in counts.items()]
+    phrases += [f"{count_phrase(n, 'cell')} of {kind}" for kind, n in list((unread or {}).items())[:6]]
     return " and ".join([", ".join(phrases[:-1]), phrases[-1]] if len(phrases) > 1 else phrases) or "no cells"

@@ -9,6 +9,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.decimals import count_words, exceeds_dtype, parse_numbers
+from hexmend.io.base.remedies import DAMAGED
 
 _NUMERIC = re.compile(rb"[\s0-9.eE+\-]*")
 _NOT_FINITE = re.compile(rb"(?:nan|inf(?:inity)?)(?=\s|$)", re.IGNORECASE)
@@ -21,8 +22,6 @@ _NEWLINE = b"\n"
 _LONGEST_LINE = 1 << 16
 #: Bytes that are parsed at a time in the search for a word that is not a number.
 _CHUNK = 1 << 20
-
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 class ByteCursor:
@@ -44,25 +43,24 @@ class ByteCursor:
     """
 
     def __init__(self, path: Path, data: bytes, is_text: bool = True):
-        self.path = path
-        self.data = data
-        self.is_text = is_text
-        self.pos = 0
+        self.path, self.data, self.is_text, self.pos = path, data, is_text, 0
 
-    def error(self, problem: str, remedy: str = _DAMAGED) -> FileError:
+    def error(self, problem: str, remedy: str = DAMAGED) -> FileError:
         """Make the error to raise; `problem` and `remedy` are as of `FileError`."""
         return FileError(self.path, problem, remedy)
 
     def location_of(self, pos: int) -> str:
         """Describe the location of a byte, such as "line 12"."""
-        if not self.is_text:
-            return f"byte {pos}"
-        return f"line {self.data.count(_NEWLINE, 0, pos) + 1}"
+        return f"line {self.data.count(_NEWLINE, 0, pos) + 1}" if self.is_text else f"byte {pos}"
 
     @property
     def location(self) -> str:
         """Location of the next byte, such as "line 12"."""
         return self.location_of(self.pos)
+
+    @property
+    def _end(self) -> str:
+        return f"the file ends at {self.location_of(len(self.data))}"
 
     @property
     def at_end(self) -> bool:
@@ -159,17 +157,14 @@ class ByteCursor:
         """
         end = self.data.find(mark, self.pos)
         if end < 0:
-            raise self.error(
-                f"{section} ends without {mark.decode()}: the file ends at {self.location_of(len(self.data))}"
-            )
+            raise self.error(f"{section} ends without {mark.decode()}: {self._end}")
         values = self.read_numbers_to(section, end, dtype)
         self.pos = end + len(mark)
         return values
 
     def read_numbers_to(self, section: str, end: int, dtype: np.dtype | type) -> np.ndarray:
         """Read all decimal numbers before the offset `end`, (k,) array; see `read_numbers_until`."""
-        count = count_words(self.data[self.pos : end])
-        return self.read_numbers(section, count, 1, dtype)[:, 0]
+        return self.read_numbers(section, count_words(self.data[self.pos : end]), 1, dtype)[:, 0]
 
     def read_binary(self, section: str, rows: int, width: int, dtype: np.dtype | str) -> np.ndarray:
         """Read rows * width binary numbers; returns a (rows, width) view in the byte order of the file."""
@@ -192,13 +187,9 @@ class ByteCursor:
 
     def _numeric_end(self) -> int:
         """Offset at which the numbers end: before the next word with a letter."""
-        end = self.pos
-        while True:
-            end = _NUMERIC.match(self.data, end).end()
-            special = _NOT_FINITE.match(self.data, end)
-            if special is None:
-                break
-            end = special.end()
+        end = _NUMERIC.match(self.data, self.pos).end()
+        while special := _NOT_FINITE.match(self.data, end):
+            end = _NUMERIC.match(self.data, special.end()).end()
         if end < len(self.data):
             while end > self.pos and not self.data[end - 1 : end].isspace():
                 end -= 1  # a word such as 2nd begins like a number
@@ -218,20 +209,15 @@ class ByteCursor:
                 kind(word)
             except ValueError:
                 location, shown = self.location_of(found.start()), quoted(word.decode("utf-8", errors="replace"))
-                if _KEYWORD.match(word):
-                    raise self.error(
-                        f"{section} ends after {k // width} of {rows} rows: {location} continues with {shown}"
-                    ) from None
-                number = "a number" if kind is float else "a whole number"
-                raise self.error(
-                    f"{section} holds {shown} in row {k // width + 1} of {rows} ({location}): expected {number}"
-                ) from None
+                problem = f"{section} ends after {k // width} of {rows} rows: {location} continues with {shown}"
+                if not _KEYWORD.match(word):
+                    problem = f"{section} holds {shown} in row {k // width + 1} of {rows} ({location})"
+                    problem += ": expected a number" if kind is float else ": expected a whole number"
+                raise self.error(problem) from None
             k, end = k + 1, found.end()
         if k == rows * width:
             return end
-        raise self.error(
-            f"{section} ends after {k // width} of {rows} rows: the file ends at {self.location_of(len(self.data))}"
-        )
+        raise self.error(f"{section} ends after {k // width} of {rows} rows: {self._end}")
 
     def _numbers_until(self, dtype: np.dtype | type, count: int) -> tuple[int, int]:
         """Skip chunks that hold numbers only; returns an offset and the count of numbers before it, below `count`."""

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-from hexmend.aliases import exports, reads_old_names
+from hexmend.aliases import exports, reads_old_members, reads_old_names
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
 
 
+@reads_old_members
 class Capability(Enum):
     """Kind of mesh data that a format may be able to store; the value names it in messages."""
 
@@ -29,7 +32,6 @@ class Capability(Enum):
     OTHER_CELLS = "tetrahedra, pyramids and wedges"
     SECOND_ORDER = "nodes of second order"
     FIELD_DATA = "field data"
-    PINS = FIXED_NODES  # the name in version 0.1
 
 
 @reads_old_names
@@ -80,8 +82,15 @@ class Format:
 FORMATS: Registry[Format] = Registry("format")
 
 
-def register(format: Format) -> Format:
-    """Add a format to FORMATS under its name."""
+def deferred(function: str) -> Callable[..., Any]:
+    """Return a function that imports another one, "module:function", when it is called: for a quick start."""
+    module, _, name = function.partition(":")
+    return lambda *arguments: getattr(import_module(module), name)(*arguments)
+
+
+def register(*fields: Any, **named_fields: Any) -> Format:
+    """Make a `Format` of its fields and add it to FORMATS."""
+    format = Format(*fields, **named_fields)
     return FORMATS.add(format.name, format)
 
 

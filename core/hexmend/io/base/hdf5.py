@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Content
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.terminal_text import printable
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
 
 _ONE_FILE = "Write all data into one file with the program that made it (links: HDF5's h5copy -f ext)."
+
+#: Exceptions of h5py for damaged files.
+_FAILURES = (OSError, RuntimeError, ValueError, LookupError, TypeError, AttributeError)
 
 #: A compressed array may be this many times the size of the file; arrays of up to so many bytes are always read.
 _LARGEST_RATIO, _ALWAYS_READ = 100, 1 << 28
@@ -48,11 +55,22 @@ def read_content(reader: str, path: Path) -> Content:
     return run_reader(reader, path)
 
 
-def open_file(path: Path) -> object:
+@contextmanager
+def library_errors(path: Path) -> Iterator[None]:
+    """Context manager that turns errors of the library on a damaged file into a `FileError`."""
+    try:
+        yield
+    except _FAILURES as error:
+        detail = " ".join(str(error).split())[:160]
+        raise FileError(path, f"the HDF5 library cannot read it ({detail})", DAMAGED) from None
+
+
+@contextmanager
+def open_file(path: Path) -> Iterator[object]:
     """Open a file for a `with` statement; every reader of a format on HDF5 does it by this function.
 
-    Returns
-    -------
+    Yields
+    ------
     h5py.File
 
     Raises
@@ -62,16 +80,11 @@ def open_file(path: Path) -> object:
     """
     import h5py
 
-    try:
+    with library_errors(path):
         file = h5py.File(path, "r")
-    except OSError as error:
-        raise damaged_file(path, error) from None
-    try:
+    with file:
         _check_self_contained(path, file)
-    except FileError:
-        file.close()
-        raise
-    return file
+        yield file
 
 
 def _check_self_contained(path: Path, file: object) -> None:
@@ -86,12 +99,10 @@ def _check_self_contained(path: Path, file: object) -> None:
     def visit(name: bytes, link: object) -> None:  # without calls of the library, whose errors would be lost here
         links.append((name, link.type))
 
-    try:
+    with library_errors(path):
         file.id.links.visit(visit, info=True)
         problems = (f"{_title(name)} {problem}" for name, kind in links if (problem := _external(file, name, kind)))
         problem = next(problems, "")
-    except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-        raise damaged_file(path, error) from None
     if problem:
         raise FileError(path, f"its {problem}: no other file is opened", _ONE_FILE)
 
@@ -120,8 +131,7 @@ def _external(file: object, name: bytes, kind: int) -> str:
 
 def _title(name: bytes | str) -> str:
     """Quote the name of a file or an object for a message, printable and of 80 characters at most."""
-    name = name.decode("utf-8", "replace") if isinstance(name, bytes) else name
-    name = "".join(letter if letter.isprintable() else "?" for letter in name)
+    name = printable(name.decode("utf-8", "replace") if isinstance(name, bytes) else name)
     return repr(f"{name[:80]}..." if len(name) > 80 else name)
 
 
@@ -144,24 +154,15 @@ def read_dataset(path: Path, dataset: object) -> np.ndarray:
         For a dataset that is too large or damaged.
     """
     bound = max(_ALWAYS_READ, _LARGEST_RATIO * os.path.getsize(path))
-    try:
+    with library_errors(path):
         size, width = dataset.size, dataset.dtype.itemsize
         if size is not None and size * width <= bound:
             return dataset[()]
-    except (OSError, ValueError, TypeError, RuntimeError, IndexError) as error:
-        raise damaged_file(path, error) from None
-    raise FileError(
-        path,
-        f"{dataset.name} would have {size} values: more than a file of its size holds",
-        "Write the file again without compression, if it is true.",
-    )
+    problem = f"{dataset.name} would have {size} values: more than a file of its size holds"
+    raise FileError(path, problem, "Write the file again without compression, if it is true.")
 
 
-def damaged_file(path: Path, error: Exception) -> FileError:
-    """Make the error to raise after an error of the library."""
-    detail = " ".join(str(error).split())[:160]
-    return FileError(
-        path,
-        f"the HDF5 library cannot read it ({detail})",
-        "Write the file again with the program that made it: it is damaged or cut short.",
-    )
+def text_of(value: str | bytes) -> str:
+    """Decode a text of a file: up to the first zero byte, stripped."""
+    value = value if isinstance(value, str) else bytes(value).decode("utf-8", errors="replace")
+    return value.split("\0")[0].strip()

@@ -14,16 +14,9 @@ from hexmend.mesh.mesh import Mesh
 
 #: Kind of cell that remains without the last nodes of a kind.
 _LOWER = {
-    "hex27": "hex20",
-    "hex20": "hex",
-    "tetra10": "tetra",
-    "wedge15": "wedge",
-    "pyramid13": "pyramid",
-    "quad9": "quad8",
-    "quad8": "quad",
-    "triangle6": "triangle",
-    "line3": "line",
-}
+    "hex27": "hex20", "hex20": "hex", "tetra10": "tetra", "wedge15": "wedge", "pyramid13": "pyramid",
+    "quad9": "quad8", "quad8": "quad", "triangle6": "triangle", "line3": "line",
+}  # fmt: skip
 
 
 def reduce_order(content: Content, kinds: Collection[str]) -> Content:
@@ -54,15 +47,12 @@ def reduce_order(content: Content, kinds: Collection[str]) -> Content:
     kept = after | ~before
     if kept.all():
         return replace(content, blocks=tuple(blocks))
-    new_index = np.cumsum(kept) - 1
-    return replace(
-        content,
-        points=content.points[kept],
-        blocks=tuple(replace(block, nodes=new_index[block.nodes]) for block in blocks),
-        node_data={name: np.asarray(values)[kept] for name, values in content.node_data.items()},
-        node_sets={name: new_index[np.asarray(nodes)[kept[nodes]]] for name, nodes in content.node_sets.items()},
-        pinned=None if content.pinned is None else content.pinned[kept],
-    )
+    new_index, points = np.cumsum(kept) - 1, content.points[kept]
+    blocks = tuple(replace(block, nodes=new_index[block.nodes]) for block in blocks)
+    data = {name: np.asarray(values)[kept] for name, values in content.node_data.items()}
+    sets = {name: new_index[np.asarray(nodes)[kept[nodes]]] for name, nodes in content.node_sets.items()}
+    pinned = None if content.pinned is None else content.pinned[kept]
+    return replace(content, points=points, blocks=blocks, node_data=data, node_sets=sets, pinned=pinned)
 
 
 def lost_mid_nodes(mesh: Mesh, kinds: Collection[str]) -> list[str]:

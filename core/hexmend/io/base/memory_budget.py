@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.errors import FileError
+from hexmend.io.base.remedies import DAMAGED
 
 #: Bytes that the arrays of any file may have, and further bytes for each byte of the file. Compression reaches 650
 #: for constant arrays only.
@@ -42,9 +43,5 @@ class MemoryBudget:
         """
         self.announced += size
         if self.announced > _BASE + _BYTES_PER_BYTE * self.size:
-            raise FileError(
-                self.path,
-                f"{label} and the arrays before it are announced to have {self.announced >> 20:,} MB: too many for a "
-                f"file of {max(1, self.size >> 10):,} kB",
-                "Write the file again with the program that made it: it is damaged or cut short.",
-            )
+            problem = f"{label} and the arrays before it are announced to have {self.announced >> 20:,} MB"
+            raise FileError(self.path, f"{problem}: too many for a file of {max(1, self.size >> 10):,} kB", DAMAGED)

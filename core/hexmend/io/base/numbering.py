@@ -10,6 +10,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import ID, Block, from_mesh
+from hexmend.io.base.remedies import DAMAGED
 from hexmend.mesh.mesh import Mesh
 
 
@@ -59,9 +60,8 @@ def find_ids(path: Path, ids: np.ndarray, wanted: np.ndarray, label: str) -> np.
             found, wrong = order[at], in_order[at] != wanted
     if np.any(wrong):
         number = int(np.asarray(wanted)[wrong].flat[0])
-        raise FileError(
-            path, f"{label} {number} is used, but the file has no such {label}", "Add it, or correct what uses it."
-        )
+        problem = f"{label} {number} is used, but the file has no such {label}"
+        raise FileError(path, problem, "Add it, or correct what uses it.")
     return found
 
 
@@ -124,6 +124,13 @@ def first_out_of_range(values: np.ndarray, count: int) -> int | None:
     if not values.size or (values.min() >= 0 and values.max() < count):
         return None
     return int(values[(values < 0) | (values >= count)].flat[0])
+
+
+def check_numbers(path: Path, label: str, numbers: np.ndarray, count: int) -> None:
+    """Raise a `FileError` unless all numbers are from 0 to count - 1; `label` begins it: "block 1 uses the nodes"."""
+    if first_out_of_range(numbers, count) is not None:
+        problem = f"{label} {numbers.min() + 1} to {numbers.max() + 1}: expected 1 to {count}"
+        raise FileError(path, problem, DAMAGED)
 
 
 def runs(*keys: np.ndarray) -> list[slice]:

@@ -31,9 +31,8 @@ def make_unique(names: Iterable[str], form: Callable[[str, str], str]) -> dict[s
     taken = set(written)
     for name in names:
         if name not in written:
-            written[name] = next(
-                title for k in count(1) if (title := form(name, "" if k == 1 else f" {k}")) not in taken
-            )
+            titles = (form(name, "" if k == 1 else f" {k}") for k in count(1))
+            written[name] = next(title for title in titles if title not in taken)
             taken.add(written[name])
     return {name: written[name] for name in names}
 

@@ -8,16 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cell_kinds import node_count
+from hexmend.io.base.cell_kinds import dimension, node_count
 from hexmend.io.base.content import HEX_KINDS, Block, Content, from_mesh
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
 from hexmend.io.base.decimals import format_rows, row_chunks
-from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.base.lower_order import lost_mid_nodes, reduce_order
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.unique_names import altered_names, make_unique
-from hexmend.mesh.cells import CELL_KINDS
 from hexmend.mesh.mesh import Mesh
 
 #: Kinds of elements by type number; the format has no others.
@@ -52,7 +51,7 @@ def read(path: Path) -> Mesh:
                 zones.append(_Zone())
         elif key == "NDIME":
             if value != "3":
-                raise cursor.error(f"NDIME is {quoted(value)}: expected 3", "Hexmend works in space.")
+                raise cursor.error(f"NDIME is {quoted(value)}: expected 3", "Hexmend needs a three-dimensional mesh.")
         elif key == "NELEM":
             zones[-1].cells = _read_cells(cursor, end, cursor.parse_count(value, "NELEM"), "NELEM")
         elif key == "NPOIN":
@@ -60,9 +59,8 @@ def read(path: Path) -> Mesh:
         elif key == "MARKER_TAG":
             tag = value
         elif key == "MARKER_ELEMS":
-            zones[-1].markers.append(
-                (tag, _read_cells(cursor, end, cursor.parse_count(value, "MARKER_ELEMS"), quoted(tag)))
-            )
+            count = cursor.parse_count(value, "MARKER_ELEMS")
+            zones[-1].markers.append((tag, _read_cells(cursor, end, count, quoted(tag))))
     if zones[0].points is None and zones[0].cells is None:
         raise cursor.error("has neither NELEM= nor NPOIN=", "Is it an SU2 file? Check its suffix.")
     if len(zones) != announced:
@@ -89,10 +87,8 @@ def _merge_zones(cursor: ByteCursor, zones: list[_Zone]) -> Content:
             for nodes in cells.values():
                 outside = first_out_of_range(nodes, len(zone.points))
                 if outside is not None:
-                    raise cursor.error(
-                        f"an element of zone {k + 1} names the node {outside}: "
-                        f"expected numbers from 0 to {len(zone.points) - 1}"
-                    )
+                    problem = f"an element of zone {k + 1} names the node {outside}"
+                    raise cursor.error(f"{problem}: expected numbers from 0 to {len(zone.points) - 1}")
         for kind, nodes in zone.cells.items():
             add(kind, nodes, f"zone {k + 1}" if len(zones) > 1 else "")
         for tag, cells in zone.markers:
@@ -100,21 +96,12 @@ def _merge_zones(cursor: ByteCursor, zones: list[_Zone]) -> Content:
                 add(kind, nodes, tag)
         count += len(zone.points)
     note = f"{len(zones)} zones are read as one mesh; nodes where they meet are not joined."
-    kinds = sorted(
-        rows, key=lambda kind: (kind not in HEX_KINDS, -CELL_KINDS[kind].dimension if kind in CELL_KINDS else 0)
-    )
-    return Content(
-        np.concatenate([zone.points for zone in zones]),
-        tuple(
-            Block(
-                kind,
-                np.concatenate(rows[kind]),
-                sets={name: np.concatenate(members) for name, members in sets.get(kind, {}).items()},
-            )
-            for kind in kinds
-        ),
-        notes=(note,) if len(zones) > 1 else (),
-    )
+    blocks = []
+    for kind in sorted(rows, key=lambda kind: (kind not in HEX_KINDS, -dimension(kind))):
+        named = {name: np.concatenate(members) for name, members in sets.get(kind, {}).items()}
+        blocks.append(Block(kind, np.concatenate(rows[kind]), sets=named))
+    points = np.concatenate([zone.points for zone in zones])
+    return Content(points, tuple(blocks), notes=(note,) if len(zones) > 1 else ())
 
 
 def _read_points(cursor: ByteCursor, end: int, count: int) -> np.ndarray:
@@ -135,18 +122,13 @@ def _read_cells(cursor: ByteCursor, end: int, count: int, name: str) -> dict[str
             starts.append(at)
             at += 1 + node_count(KIND_BY_TYPE[view[at]]) + indices
         if len(starts) == count and at == values.size:
-            begins = np.array(starts, np.int64)
-            types = values[begins]
-            return {
-                KIND_BY_TYPE[number]: values[
-                    begins[types == number][:, None] + np.arange(1, 1 + node_count(KIND_BY_TYPE[number]))
-                ]
-                for number in np.unique(types).tolist()
-            }
-    raise cursor.error(
-        f"{name} holds {values.size} numbers, which are not {count} elements of the types "
-        f"{', '.join(map(str, KIND_BY_TYPE))}",
-    )
+            begins, found = np.array(starts, np.int64), {}
+            for number in np.unique(values[begins]).tolist():
+                own, kind = begins[values[begins] == number], KIND_BY_TYPE[number]
+                found[kind] = values[own[:, None] + np.arange(1, 1 + node_count(kind))]
+            return found
+    types = ", ".join(map(str, KIND_BY_TYPE))
+    raise cursor.error(f"{name} holds {values.size} numbers, which are not {count} elements of the types {types}")
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -156,7 +138,7 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """
     content = reduce_order(from_mesh(mesh), TYPE_BY_KIND)
     titles = _titles(content)
-    volumes = [block for block in content.blocks if block.kind == "hex" or CELL_KINDS[block.kind].dimension == 3]
+    volumes = [block for block in content.blocks if dimension(block.kind) == 3]
     markers: dict[str, list[tuple[str, np.ndarray]]] = {}
     for block in content.blocks:
         if block.kind in ("triangle", "quad"):
@@ -198,28 +180,19 @@ def _write_cells(file: object, kind: str, nodes: np.ndarray) -> None:
 
 def _matches(head: bytes) -> bool:
     first = _KEY.search(_COMMENT.sub(b"", head))
-    return (
-        first is not None
-        and first[1].upper() in (b"NDIME", b"NZONE", b"IZONE", b"NELEM")
-        and not (head[: first.start()].translate(None, b" \t\r\n") and not head.lstrip().startswith(b"%"))
-    )
+    if first is None or first[1].upper() not in (b"NDIME", b"NZONE", b"IZONE", b"NELEM"):
+        return False
+    return head.lstrip().startswith(b"%") or not head[: first.start()].strip(b" \t\r\n")
 
 
 register(
-    Format(
-        name="su2",
-        title="SU2",
-        suffixes=(".su2",),
-        encodings=("ascii",),
-        read=read,
-        write=write,
-        capabilities=frozenset(
-            {
-                Capability.CELL_SETS,
-                Capability.OTHER_CELLS,
-            }
-        ),
-        limitations=limitations,
-        matches=_matches,
-    )
+    name="su2",
+    title="SU2",
+    suffixes=(".su2",),
+    encodings=("ascii",),
+    read=read,
+    write=write,
+    capabilities=frozenset({Capability.CELL_SETS, Capability.OTHER_CELLS}),
+    limitations=limitations,
+    matches=_matches,
 )

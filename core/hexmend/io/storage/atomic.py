@@ -53,9 +53,8 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[Path]:
         own = (path,) if temporary is None else (path, temporary.path, temporary.lock_path)
         if error.filename is not None and Path(error.filename) not in own:
             raise  # of another file, which the block uses
-        raise FileError(
-            path, f"cannot be written: {error.strerror or error}", "Free the place or choose another."
-        ) from None
+        problem = f"cannot be written: {error.strerror or error}"
+        raise FileError(path, problem, "Free the place or choose another.") from None
     finally:
         if temporary is not None:
             temporary.remove()

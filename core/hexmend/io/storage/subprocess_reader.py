@@ -15,13 +15,12 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block, Content
+from hexmend.io.base.remedies import DAMAGED
 
 #: Time limit of a reader in seconds, and further seconds for each megabyte of the file.
 SECONDS, SECONDS_PER_MB = 60.0, 0.5
 #: Memory limit of a reader in bytes, and further bytes for each byte of the file.
 MEMORY, MEMORY_PER_BYTE = 4 << 30, 64
-
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 def run_reader(reader: str, path: Path) -> Content:
@@ -49,20 +48,15 @@ def run_reader(reader: str, path: Path) -> Content:
         limit = SECONDS + SECONDS_PER_MB * size / 1e6
         try:
             with open(log, "wb") as errors:
-                process = subprocess.run(
-                    [sys.executable, "-c", program, reader, str(path.absolute()), str(answer), *sys.path],
-                    stdin=subprocess.DEVNULL,
-                    stdout=subprocess.DEVNULL,
-                    stderr=errors,
-                    timeout=limit,
-                    check=False,
-                )
+                command = [sys.executable, "-c", program, reader, str(path.absolute()), str(answer), *sys.path]
+                null = subprocess.DEVNULL
+                process = subprocess.run(command, stdin=null, stdout=null, stderr=errors, timeout=limit, check=False)
         except subprocess.TimeoutExpired:
-            raise FileError(path, f"is not read within {limit:.0f} seconds", _DAMAGED) from None
+            raise FileError(path, f"is not read within {limit:.0f} seconds", DAMAGED) from None
         if process.returncode == 1:  # an unexpected exception
             raise FileError(path, f"its reader fails ({_last_line(log)})", "Write the file again, and report this.")
         if process.returncode or not answer.exists():
-            raise FileError(path, "ends the library that reads it", _DAMAGED)
+            raise FileError(path, "ends the library that reads it", DAMAGED)
         with np.load(answer, allow_pickle=False) as arrays:
             message = json.loads(arrays["message"].tobytes())
             if "problem" in message:
@@ -78,7 +72,7 @@ def main(reader: str, path: str, answer: str) -> None:
     try:
         message = {"content": encode(getattr(import_module(module), function)(Path(path)), arrays)}
     except MemoryError:
-        message = {"problem": "needs more memory than a file of its size should", "remedy": _DAMAGED}
+        message = {"problem": "needs more memory than a file of its size should", "remedy": DAMAGED}
     except FileError as error:
         message = {"problem": error.problem, "remedy": error.remedy}
     np.savez(answer, message=np.frombuffer(json.dumps(message).encode(), np.uint8), **arrays)

@@ -12,7 +12,8 @@ from __future__ import annotations
 import errno
 import os
 import zlib
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from hexmend.signal_guard import uninterrupted
@@ -69,12 +70,9 @@ class TemporaryFile:
             while not self._create_lock():
                 self._choose_name()
         flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
-        handle = os.open(self.path, flags, 0o666 if mode is None else 0o600)
-        try:
+        with _opened(self.path, flags, 0o666 if mode is None else 0o600) as handle:
             if mode is not None and hasattr(os, "fchmod"):
                 os.fchmod(handle, mode)
-        finally:
-            os.close(handle)
 
     @uninterrupted
     def remove(self) -> None:
@@ -110,6 +108,16 @@ class TemporaryFile:
             os.close(handle)
 
 
+@contextmanager
+def _opened(path: Path, flags: int, mode: int = 0o777) -> Iterator[int]:
+    """Context manager that opens a file, by its descriptor."""
+    handle = os.open(path, flags, mode)
+    try:
+        yield handle
+    finally:
+        os.close(handle)
+
+
 def remove_abandoned(target: Path) -> None:
     """Remove temporary files of `target` whose writers have ended; errors are ignored.
 
@@ -129,14 +137,11 @@ def remove_abandoned(target: Path) -> None:
 
 
 def _remove_unlocked(lock: Path, data: Path) -> None:
-    with suppress(OSError):  # locked, gone, not ours, or on a file system without locks
-        handle = os.open(lock, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            data.unlink(missing_ok=True)
-            lock.unlink()
-        finally:
-            os.close(handle)
+    flags = os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK
+    with suppress(OSError), _opened(lock, flags) as handle:  # locked, gone, not ours, or without locks
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        data.unlink(missing_ok=True)
+        lock.unlink()
 
 
 def _host() -> str:
@@ -178,14 +183,12 @@ def flush_file(path: Path) -> None:
     OSError
         Where the file cannot be written, for example because the disk is full.
     """
-    handle = os.open(path, os.O_WRONLY)
-    try:
-        _flush(handle)
-    except OSError as error:
-        if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # a file system that cannot flush
-            raise
-    finally:
-        os.close(handle)
+    with _opened(path, os.O_WRONLY) as handle:
+        try:
+            _flush(handle)
+        except OSError as error:
+            if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # a file system that cannot flush
+                raise
 
 
 def flush_folder(folder: Path) -> None:
@@ -195,23 +198,17 @@ def flush_folder(folder: Path) -> None:
     ----------
     folder : Path
     """
-    with suppress(OSError):  # Windows cannot open folders; a folder may be writable and not readable
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            _flush(handle)
-        finally:
-            os.close(handle)
+    # Windows cannot open folders; a folder may be writable and not readable
+    with suppress(OSError), _opened(folder, os.O_RDONLY) as handle:
+        _flush(handle)
 
 
 def _flush(handle: int) -> None:
     """Flush an open file; on macOS also the cache of the drive, which `os.fsync` does not flush there."""
     full = getattr(fcntl, "F_FULLFSYNC", None)
     if full is not None:
-        try:
+        with suppress(OSError):  # not on this file system
             fcntl.fcntl(handle, full)
-        except OSError:  # not on this file system
-            pass
-        else:
             return
     os.fsync(handle)
 

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from hexmend.errors import FileError
-from hexmend.io.files import check_readable
+from hexmend.io.files import check_readable, reading
 
 
 def read_text(path: str | os.PathLike[str], label: str, largest: int) -> str:
@@ -32,14 +32,12 @@ def read_text(path: str | os.PathLike[str], label: str, largest: int) -> str:
     path = Path(path)
     check_readable(path, label)
     try:
-        with open(path, "rb") as file:
+        with reading(path, "Name a smaller file."), open(path, "rb") as file:
             data = file.read(4 * largest + 4)  # bytes of `largest` characters
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = error.object.count(b"\n", 0, error.start) + 1
         raise FileError(path, f"is not text: line {line} holds bytes that are not UTF-8", f"Name {label}.") from None
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
     if len(text) > largest:
         raise FileError(path, f"has {len(text):,} letters: expected {label}, of {largest:,} at most", f"Name {label}.")
     return text

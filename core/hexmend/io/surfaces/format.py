@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.remedies import DAMAGED
 from hexmend.registry import Registry
 
 
@@ -56,9 +57,6 @@ SURFACE_FORMATS: Registry[SurfaceFormat] = Registry("surface format")
 def register(format: SurfaceFormat) -> SurfaceFormat:
     """Add a format to SURFACE_FORMATS under its name."""
     return SURFACE_FORMATS.add(format.name, format)
-
-
-DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 
 
 def parse_surface(path: Path, title: str, parse: Callable[[], Polygons]) -> Polygons:

@@ -25,11 +25,8 @@ def read(path: Path) -> Polygons:
     if not head.startswith(b"ply") or not end:
         raise FileError(path, "has no head from 'ply' to 'end_header'", "Is it a PLY file? Check its suffix.")
     if not re.search(rb"\n\s*element vertex 0*[1-9]", head):
-        raise FileError(
-            path,
-            "holds no surface: expected vertices and faces, its head counts no vertex",
-            "Name a file of a surface.",
-        )
+        problem = "holds no surface: expected vertices and faces, its head counts no vertex"
+        raise FileError(path, problem, "Name a file of a surface.")
     # The list of vertices has two names in use; meshlane knows one of them.
     head = head.replace(b"\r\n", b"\n").replace(b" vertex_index\n", b" vertex_indices\n")
     rest = b"\n" + rest.lstrip(b"\r")[1:]

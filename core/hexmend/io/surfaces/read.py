@@ -10,7 +10,7 @@ import numpy as np
 from hexmend.boundary import SkinSurface
 from hexmend.errors import FileError
 from hexmend.io.base.numbering import first_out_of_range
-from hexmend.io.files import check_readable
+from hexmend.io.files import check_readable, reading
 from hexmend.io.surfaces.format import SURFACE_FORMATS, Polygons
 from hexmend.mesh.components import components
 
@@ -42,16 +42,11 @@ def read_surface(path: str | os.PathLike[str]) -> SkinSurface:
     check_readable(path, "a file of a surface")
     format = next((known for known in SURFACE_FORMATS.values() if path.suffix.lower() in known.suffixes), None)
     if format is None:
-        supported = ", ".join(
-            f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes
-        )
-        raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", f"Hexmend reads {supported}.")
-    try:
+        titles = [f"{suffix} ({known.title})" for known in SURFACE_FORMATS.values() for suffix in known.suffixes]
+        remedy = f"Hexmend reads {', '.join(titles)}."
+        raise FileError(path, f"the suffix {path.suffix!r} is none of a surface", remedy)
+    with reading(path, "Name a coarser surface."):
         polygons = format.read(path)
-    except MemoryError:
-        raise FileError(path, "needs more memory than there is", "Name a coarser surface.") from None
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
     return _to_surface(path, polygons)
 
 
@@ -63,20 +58,16 @@ def _to_surface(path: Path, polygons: Polygons) -> SkinSurface:
     for nodes in polygons.faces:
         outside = first_out_of_range(nodes, len(polygons.points))
         if outside is not None:
-            raise FileError(
-                path,
-                f"a face uses the point {outside}: expected numbers from 0 to {len(polygons.points) - 1}",
-                "Correct it.",
-            )
+            expected = f"expected numbers from 0 to {len(polygons.points) - 1}"
+            raise FileError(path, f"a face uses the point {outside}: {expected}", "Correct it.")
     faces = _with_equal_width([nodes for nodes in polygons.faces if nodes.size and nodes.shape[1] > 2])
     points, faces = _merge_corners(polygons.points, faces)
     # Drop faces with fewer than three different corners.
     distinct = np.sort(faces, axis=1)
     faces = faces[(distinct[:, 1:] != distinct[:, :-1]).sum(axis=1) >= 2]
     if not _relative_area(points, faces) > _MIN_AREA:
-        raise FileError(
-            path, "holds no surface: it has no triangle or quad with an area", "Name a file of the surface of the body."
-        )
+        problem = "holds no surface: it has no triangle or quad with an area"
+        raise FileError(path, problem, "Name a file of the surface of the body.")
     return SkinSurface(points, np.ascontiguousarray(faces, dtype=np.int32), path.name)
 
 
@@ -111,9 +102,7 @@ def _merge_corners(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, n
     if not used.size:
         return points[:0], faces.reshape(-1, width)
     points, index = np.unique(points[used], axis=0, return_inverse=True)
-    close_pairs = cKDTree(points).query_pairs(
-        _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0))), output_type="ndarray"
-    )
-    merged = components(len(points), close_pairs)
+    distance = _MERGE_TOLERANCE * float(np.linalg.norm(np.ptp(points, axis=0)))
+    merged = components(len(points), cKDTree(points).query_pairs(distance, output_type="ndarray"))
     _, first = np.unique(merged, return_index=True)
     return points[first], merged[index.ravel()][faces].reshape(-1, width)

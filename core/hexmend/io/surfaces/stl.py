@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
-from hexmend.io.surfaces.format import DAMAGED, Polygons, SurfaceFormat, parse_surface, register
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.io.surfaces.format import Polygons, SurfaceFormat, parse_surface, register
 
 #: Bytes before the triangles of a binary file.
 _HEADER = 84
@@ -24,17 +25,15 @@ def read(path: Path) -> Polygons:
             return _polygons(np.frombuffer(data, _TRIANGLE, offset=_HEADER)["corners"])
     if data.lstrip()[:5].lower() != b"solid":
         have = max(len(data) - _HEADER, 0) / _TRIANGLE.itemsize
-        raise FileError(
-            path, f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles", DAMAGED
-        )
+        problem = f"is no STL: it begins without 'solid' and ends after {have:.1f} binary triangles"
+        raise FileError(path, problem, DAMAGED)
     return parse_surface(path, "STL", lambda: _polygons(_corners(data.lower())))
 
 
 def _corners(data: bytes) -> np.ndarray:
     """Parse the corners of all facets, (3 k, 3) float64; raises ValueError where a facet has not three of them."""
-    lines = [
-        line for line in map(bytes.split, re.split(rb"[\r\n]+", data)) if line and line[0] in (b"facet", b"vertex")
-    ]
+    words = map(bytes.split, re.split(rb"[\r\n]+", data))
+    lines = [line for line in words if line and line[0] in (b"facet", b"vertex")]
     kinds = [line[0] for line in lines]
     if kinds != [b"facet", b"vertex", b"vertex", b"vertex"] * (len(kinds) // 4):
         raise ValueError("a facet has not three vertices")

@@ -45,12 +45,12 @@ class MovableCorners:
         return np.where(self._locked | self.frozen, np.inf, self.values)
 
     @property
-    def least(self) -> float:
+    def active_minimum(self) -> float:
         """The least of the active values; +inf where there is none."""
         return float(self.active_values().min(initial=np.inf))
 
     @property
-    def least_of_all(self) -> float:
+    def movable_minimum(self) -> float:
         """The least value of all corners that can be moved, frozen or not; +inf where there is none."""
         return float(np.where(self._locked, np.inf, self.values).min(initial=np.inf))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
+from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 
 #: Hexes in a batch, which bounds the memory of temporary arrays.
 _HEXES = 50_000
@@ -59,16 +59,6 @@ def gradients(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.n
     by_edge -= values[:, None, None] * edges / np.where(sound, np.square(lengths)[:, :, None], 1.0)
     by_edge *= sound
     return values, np.concatenate([-by_edge.sum(axis=1, keepdims=True), by_edge], axis=1)
-
-
-def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Find the length of the shortest edge of hexes (k, 8) at each node, (n,); +inf at nodes of none of them."""
-    size = np.full(len(points), np.inf)
-    ends = hexes[:, EDGES].reshape(-1, 2)
-    lengths = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
-    for side in ends.T:
-        np.minimum.at(size, side, lengths)
-    return size
 
 
 def _edge_terms(points: np.ndarray, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

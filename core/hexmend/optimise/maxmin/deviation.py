@@ -6,6 +6,7 @@ import copy
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, lower_bounds
 
@@ -37,8 +38,7 @@ class DeviationTracker:
         other = copy.copy(self)
         other.points = points
         other.distances, other._away = self.distances.copy(), self._away.copy()
-        touched = np.zeros(len(points), dtype=bool)
-        touched[nodes] = True
+        touched = mask(nodes, len(points))
         other._update(np.flatnonzero(touched[self._nodes].any(axis=1)))
         return other
 
@@ -46,7 +46,7 @@ class DeviationTracker:
         """Return True if a distance exceeds `max_deviation` and what it was before nodes (k,) moved."""
         if (self.distances > np.maximum(before.distances, max_deviation)).any():
             return True
-        beyond = self.sliding.boundary_deviation(self.points, self.sliding.midpoints_of(nodes), max_deviation)
+        beyond = self.sliding.boundary_deviation(self.points, self.sliding.samples_at(nodes), max_deviation)
         if not beyond.indices.size:
             return False
         was = self.sliding.boundary_deviation(before.points, beyond.indices, max_deviation)
@@ -57,9 +57,9 @@ class DeviationTracker:
     def bounds(self, moves: np.ndarray, max_deviation: float) -> LinearConstraints:
         """Constraints on the distances while each node moves by moves (n,) at most, in the mesh's unit."""
         sliding = self.sliding
-        which = sliding.midpoints_of(np.flatnonzero(moves))
+        which = sliding.samples_at(np.flatnonzero(moves))
         beyond = sliding.boundary_deviation(
-            self.points, which, max_deviation - moves[sliding.midpoints[which]].max(axis=1, initial=0.0)
+            self.points, which, max_deviation - moves[sliding.samples[which]].max(axis=1, initial=0.0)
         )
         models = lower_bounds(
             beyond.nodes, max_deviation - beyond.distances, -beyond.weights[:, :, None] * beyond.directions[:, None]
@@ -67,7 +67,7 @@ class DeviationTracker:
         reach = moves[self._nodes].max(axis=1, initial=0.0)
         near = np.flatnonzero((reach > 0) & (self.distances > 0) & (self.distances + reach > max_deviation))
         slopes = self._weights[near, :, None] * self._away[near, None]
-        return models.joined(lower_bounds(self._nodes[near], max_deviation - self.distances[near], slopes))
+        return models.concatenate(lower_bounds(self._nodes[near], max_deviation - self.distances[near], slopes))
 
     def _update(self, which: np.ndarray) -> None:
         """Find what is closest to some places of the surface, beginning with what was closest at first."""

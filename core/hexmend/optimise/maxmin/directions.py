@@ -18,17 +18,17 @@ class StepDirections:
 
     Parameters
     ----------
-    owner : (w,) int
+    node_index : (w,) int
         The node of each, as an index into the nodes of the step, ascending.
     displacements : (w, 3) float64
         The displacement: along a tangent where the node slides.
-    effective : (w, 3) float64
+    projected : (w, 3) float64
         The displacement after projection; on a faceted surface each direction leads to another plane.
     """
 
-    owner: np.ndarray
+    node_index: np.ndarray
     displacements: np.ndarray
-    effective: np.ndarray
+    projected: np.ndarray
 
 
 def step_directions(
@@ -62,20 +62,22 @@ def step_directions(
     """
     axes = np.concatenate([np.eye(3), -np.eye(3)])
     inside = np.flatnonzero(~slides)
-    of, aims = np.repeat(inside, 6), np.tile(axes, (inside.size, 1))
-    leads = aims
+    index, displacements = np.repeat(inside, 6), np.tile(axes, (inside.size, 1))
+    projected = displacements
     if slides.any():
-        on = np.flatnonzero(slides)
-        bases = sliding.tangent_bases(x[on], nodes[on])
-        around = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
-        of_around = np.repeat(on, len(_AROUND))
-        there = np.linalg.norm(around, axis=1) > 0.5  # on a curve those along it, each once
-        there &= np.tile(_AROUND[:, 1] == 0, on.size) | np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
-        around, of_around = around[there], of_around[there]
-        far = np.maximum(radius * size[of_around, None], np.finfo(float).tiny)  # nodes may coincide
-        start = x[of_around]
-        led = (sliding.project(start + far * around, nodes[of_around]) - start) / far
-        of, aims, leads = (np.concatenate(both) for both in ((of, of_around), (aims, around), (leads, led)))
-    order = np.argsort(of, kind="stable")
-    scale = size[of[order], None]
-    return StepDirections(of[order], scale * aims[order], scale * leads[order])
+        sliding_index = np.flatnonzero(slides)
+        bases = sliding.tangent_bases(x[sliding_index], nodes[sliding_index])
+        tangents = np.einsum("kij,wj->kwi", bases, _AROUND).reshape(-1, 3)
+        admissible = np.linalg.norm(tangents, axis=1) > 0.5  # on a curve those along it, each once
+        on_patch = np.repeat(bases[:, :, 1].any(axis=1), len(_AROUND))
+        admissible &= np.tile(_AROUND[:, 1] == 0, sliding_index.size) | on_patch
+        tangents, tangent_index = tangents[admissible], np.repeat(sliding_index, len(_AROUND))[admissible]
+        distance = np.maximum(radius * size[tangent_index, None], np.finfo(float).tiny)  # nodes may coincide
+        start = x[tangent_index]
+        on_surface = (sliding.project(start + distance * tangents, nodes[tangent_index]) - start) / distance
+        index = np.concatenate([index, tangent_index])
+        displacements = np.concatenate([displacements, tangents])
+        projected = np.concatenate([projected, on_surface])
+    order = np.argsort(index, kind="stable")
+    scale = size[index[order], None]
+    return StepDirections(index[order], scale * displacements[order], scale * projected[order])

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 
 from hexmend.boundary import Deviations, SlidingBoundary
@@ -31,10 +34,28 @@ class Envelope:
 
     def __init__(self, n_nodes: int, sliding: SlidingBoundary | None):
         self.sliding = sliding
-        self.max_deviation = np.inf if sliding is None else sliding.tolerance
+        self.max_deviation = np.inf if sliding is None else sliding.max_deviation
         self.released = np.zeros(n_nodes, dtype=bool)
         self.flips_allowed = False
         self._tracker: DeviationTracker | None = None
+
+    def limit_to(self, max_deviation: float) -> None:
+        """Set the distance of boundary and surface in the band, in the mesh's unit of length."""
+        self.max_deviation = max_deviation
+
+    def release(self, nodes: np.ndarray) -> None:
+        """Let nodes (k,) of the boundary leave the surface."""
+        self.released[nodes] = True
+
+    @contextmanager
+    def relaxed(self, max_deviation: float) -> Iterator[None]:
+        """Context in which the band is as wide as `max_deviation`, if it is not wider, and steps may flip quads."""
+        limit, self.flips_allowed = self.max_deviation, True
+        self.limit_to(max(max_deviation, limit))
+        try:
+            yield
+        finally:
+            self.max_deviation, self.flips_allowed = limit, False
 
     def slides(self, nodes: np.ndarray) -> np.ndarray:
         """Mark those of some nodes (k,) that slide on the surface and are not released, (k,) bool."""
@@ -91,7 +112,7 @@ class Envelope:
             return 0.0
         return max(float(places.distances.max(initial=0.0)) for places in self._deviations(points, 0.0))
 
-    def infeasible_nodes(self, points: np.ndarray) -> np.ndarray:
+    def nodes_outside_band(self, points: np.ndarray) -> np.ndarray:
         """Nodes at which the boundary at points (n, 3) is outside its band, ascending, (k,) int."""
         return np.unique(np.concatenate([places.nodes for places in self._deviations(points, self.max_deviation)]))
 
@@ -102,7 +123,7 @@ class Envelope:
     def _deviations(self, points: np.ndarray, limit: float) -> tuple[Deviations, Deviations]:
         """Places of the boundary further than `limit` from the surface, and of the surface from the boundary."""
         sliding = self.sliding
-        midpoints = np.arange(len(sliding.midpoints))
+        midpoints = np.arange(len(sliding.samples))
         return sliding.boundary_deviation(points, midpoints, limit), sliding.surface_deviation(points, limit=limit)
 
     def _track(self, points: np.ndarray) -> DeviationTracker:

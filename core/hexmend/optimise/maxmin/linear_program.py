@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexmend.arrays import index_of
 from hexmend.optimise.maxmin.directions import StepDirections
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-#: Share of the gain that may be given up so that nodes without effect do not move.
+#: Cost, in scaled Jacobian, of moving all nodes by their shortest edge: nodes without effect stay.
 MOVE_COST = 0.05
 #: Distance of a model from its bound, in radii of the region, up to which the program begins with it.
 INITIAL_MARGIN = 0.3
@@ -29,30 +30,29 @@ class LinearConstraints:
 
     Parameters
     ----------
-    ends : (r, 4) int
-        The nodes.
-    above : (r,) float64
+    nodes : (r, 4) int
+    slack : (r,) float64
         Distance of the value above its bound.
     slopes : (r, 4, 3) float64
         Derivatives of the value by the nodes' places.
-    rises : (r,) float64
+    has_gain : (r,) float64
         1 where the bound is the least of the corners, which is raised; 0 where it is constant.
     """
 
-    ends: np.ndarray
-    above: np.ndarray
+    nodes: np.ndarray
+    slack: np.ndarray
     slopes: np.ndarray
-    rises: np.ndarray
+    has_gain: np.ndarray
 
-    def joined(self, other: LinearConstraints) -> LinearConstraints:
+    def concatenate(self, other: LinearConstraints) -> LinearConstraints:
         """Append the models of another."""
         pairs = ((getattr(one, field.name) for one in (self, other)) for field in dataclasses.fields(self))
         return LinearConstraints(*(np.concatenate(list(pair)) for pair in pairs))
 
 
-def lower_bounds(ends: np.ndarray, above: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
+def lower_bounds(nodes: np.ndarray, slack: np.ndarray, slopes: np.ndarray) -> LinearConstraints:
     """Models with constant lower bounds; arrays as in `LinearConstraints`."""
-    return LinearConstraints(ends, above, slopes, np.zeros(len(above)))
+    return LinearConstraints(nodes, slack, slopes, np.zeros(len(slack)))
 
 
 def no_constraints() -> LinearConstraints:
@@ -80,7 +80,11 @@ class LPSolution:
 
 
 def solve(
-    nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool = False
+    nodes: np.ndarray,
+    directions: StepDirections,
+    constraints: LinearConstraints,
+    radius: float,
+    may_decrease: bool = False,
 ) -> LPSolution | None:
     """Find the lengths of the steps that raise the least most; None where the program has no solution.
 
@@ -93,10 +97,10 @@ def solve(
         The nodes that move.
     directions : StepDirections
         Of these nodes.
-    models : LinearConstraints
+    constraints : LinearConstraints
     radius : float
         Longest step in a direction.
-    falls : bool
+    may_decrease : bool
         The least may fall, so that the constant bounds can be kept.
 
     Returns
@@ -105,7 +109,7 @@ def solve(
     """
     from scipy.optimize import linprog
 
-    cost, matrix, limits, bounds = build_program(nodes, directions, models, radius, falls)
+    cost, matrix, limits, bounds = build_program(nodes, directions, constraints, radius, may_decrease)
     taken = limits < INITIAL_MARGIN * radius
     while True:
         rows = np.flatnonzero(taken)
@@ -121,7 +125,7 @@ def solve(
 
 
 def build_program(
-    nodes: np.ndarray, directions: StepDirections, models: LinearConstraints, radius: float, falls: bool
+    nodes: np.ndarray, directions: StepDirections, constraints: LinearConstraints, radius: float, may_decrease: bool
 ) -> tuple[np.ndarray, csr_array, np.ndarray, np.ndarray]:
     """Build the linear program: costs (u,), matrix (r, u), its upper limits (r,), bounds (u, 2).
 
@@ -130,23 +134,21 @@ def build_program(
     """
     from scipy.sparse import coo_array
 
-    ends = models.ends
-    slot = np.full(int(ends.max(initial=0)) + 1, -1)
-    slot[nodes] = np.arange(nodes.size)
-    slots = slot[ends]
-    row, end = np.nonzero(slots >= 0)
-    own = slots[row, end]
-    start = np.searchsorted(directions.owner, np.arange(nodes.size + 1))
-    count = start[own + 1] - start[own]
-    pair = np.repeat(np.arange(own.size), count)
-    column = np.arange(pair.size) + np.repeat(start[own] - np.cumsum(count) + count, count)
-    slopes = np.einsum("ki,ki->k", models.slopes[row[pair], end[pair]], directions.effective[column])
-    unknowns, rows = directions.owner.size + 1, len(ends)
-    entries = np.concatenate([-slopes, models.rises])
-    at = np.concatenate([row[pair], np.arange(rows)]), np.concatenate([column, np.full(rows, unknowns - 1)])
+    node_index = index_of(nodes, int(constraints.nodes.max(initial=0)) + 1)[constraints.nodes]
+    model, place = np.nonzero(node_index >= 0)
+    node_index = node_index[model, place]
+    first = np.searchsorted(directions.node_index, np.arange(nodes.size + 1))
+    count = first[node_index + 1] - first[node_index]  # directions of the node
+    pair = np.repeat(np.arange(node_index.size), count)
+    direction = np.arange(pair.size) + np.repeat(first[node_index] - np.cumsum(count) + count, count)
+    slopes = np.einsum("ki,ki->k", constraints.slopes[model[pair], place[pair]], directions.projected[direction])
+    unknowns, models = directions.node_index.size + 1, len(constraints.nodes)
+    entries = np.concatenate([-slopes, constraints.has_gain])
+    rows = np.concatenate([model[pair], np.arange(models)])
+    columns = np.concatenate([direction, np.full(models, unknowns - 1)])
     cost = np.full(unknowns, MOVE_COST / max(nodes.size, 1))
     cost[-1] = -1.0
     bounds = np.zeros((unknowns, 2))
     bounds[:, 1] = radius
-    bounds[-1] = -2.0 if falls else 0.0, 2.0
-    return cost, coo_array((entries, at), shape=(rows, unknowns)).tocsr(), models.above, bounds
+    bounds[-1] = -2.0 if may_decrease else 0.0, 2.0
+    return cost, coo_array((entries, (rows, columns)), shape=(models, unknowns)).tocsr(), constraints.slack, bounds

@@ -15,9 +15,10 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
+from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.corner_set import MovableCorners
-from hexmend.optimise.maxmin.corner_values import gradients, shortest_edges
+from hexmend.optimise.maxmin.corner_values import gradients
 from hexmend.optimise.maxmin.directions import step_directions
 from hexmend.optimise.maxmin.envelope import Envelope
 from hexmend.optimise.maxmin.linear_program import LinearConstraints, solve
@@ -112,28 +113,28 @@ class MaxMinOptimiser:
         config = self.config
         self._begin()
         gains = [np.inf] * config.window
-        while self._radius > config.min_radius and self.corners.least < target:
-            values, least, radius = self.corners.active_values().ravel(), self.corners.least, self._radius
+        while self._radius > config.min_radius and self.corners.active_minimum < target:
+            values, least, radius = self.corners.active_values().ravel(), self.corners.active_minimum, self._radius
             band = float(np.clip(config.active_band * radius, config.min_active_band, config.max_active_band))
             low = np.flatnonzero(values < least + band)
-            whole = low.size <= self._most
+            whole = low.size <= self._max_corners
             if not whole:
-                low = low[np.argpartition(values[low], self._most)[: self._most]]
+                low = low[np.argpartition(values[low], self._max_corners)[: self._max_corners]]
             promised, points, moved = self._step(low, band)
-            gain = self._take(points, moved, least, promised) if promised > config.no_gain else 0.0
+            gain = self._accept(points, moved, least, promised) if promised > config.no_gain else 0.0
             if gain > 0:
-                yield MaxMinStep(self.points, self.corners.least, low.size, radius)
+                yield MaxMinStep(self.points, self.corners.active_minimum, low.size, radius)
             gains.append(gain)
             enough = config.min_gain if least < config.acceptable else config.min_gain_acceptable
             if promised <= config.no_gain or sum(gains[-config.window :]) < enough:
-                if whole or self._most >= config.max_corners:
+                if whole or self._max_corners >= config.max_corners:
                     break
-                self._most, self._radius = 2 * self._most, max(self._radius, config.min_active_band)
+                self._max_corners, self._radius = 2 * self._max_corners, max(self._radius, config.min_active_band)
                 gains.append(np.inf)
         yield self._active_corners()
 
     def return_to_band(self, max_deviation: float) -> Iterator[MaxMinStep]:
-        """Bring the boundary nearer to the surface until it is in its band; the least falls as little as it can.
+        """Bring the boundary nearer to the surface until it is in its band, with the least loss of the minimum.
 
         Frozen corners are free again.
 
@@ -149,18 +150,19 @@ class MaxMinOptimiser:
         allowed = max_deviation * (1 + config.return_tolerance)
         while self._radius > config.min_radius and (far := envelope.largest_deviation(self.points)) > allowed:
             radius = self._radius
-            envelope.max_deviation = max(max_deviation, far - config.return_step * radius * edge)
-            low = np.flatnonzero(corners.active_values().ravel() < corners.least + config.min_active_band)[: self._most]
-            outside = envelope.infeasible_nodes(self.points)
+            envelope.limit_to(max(max_deviation, far - config.return_step * radius * edge))
+            near = corners.active_values().ravel() < corners.active_minimum + config.min_active_band
+            low = np.flatnonzero(near)[: self._max_corners]
+            outside = envelope.nodes_outside_band(self.points)
             _, points, moved = self._step(low, config.min_active_band, outside[self.mesh.free[outside]])
             if envelope.largest_deviation(points) > far - config.accept * (far - envelope.max_deviation):
-                self._radius *= self.config.shrink
+                self._radius *= config.shrink
                 continue
             corners.update(points, corners.hexes_at(moved))
             envelope.track(self.points, points, moved)
             self.points, self._radius = points, min(config.grow * self._radius, config.max_radius)
-            yield MaxMinStep(points, corners.least, low.size, radius)
-        envelope.max_deviation = max_deviation
+            yield MaxMinStep(points, corners.active_minimum, low.size, radius)
+        envelope.limit_to(max_deviation)
 
     def freeze(self, active: ActiveCorners) -> None:
         """Fix the nodes of corners that hold each other, so that the corners above them can be raised further."""
@@ -178,11 +180,11 @@ class MaxMinOptimiser:
             fixed = mesh.fixed.copy()
             fixed[nodes] = False
             self.corners.set_mesh(mesh.with_fixed(fixed))
-        envelope.released[nodes] = True
+        envelope.release(nodes)
         return nodes.size > 0
 
     def _begin(self) -> None:
-        self._radius, self._most = self.config.initial_radius, self.config.initial_corners
+        self._radius, self._max_corners = self.config.initial_radius, self.config.initial_corners
         self._multipliers: tuple[np.ndarray, np.ndarray] = np.empty(0, np.int64), np.empty(0)
 
     def _step(
@@ -192,46 +194,46 @@ class MaxMinOptimiser:
 
         Returns the gain that it promises, all points with these nodes moved and projected, and the numbers of these.
         """
-        corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.least
+        corners, envelope, radius, least = self.corners, self.envelope, self._radius, self.corners.active_minimum
         nodes = corners.movable(np.unique(corners.nodes_of(low)))
         if outside is not None:
             nodes = np.union1d(nodes, outside)
         around = corners.hexes_at(nodes)
         near = (8 * around[:, None] + np.arange(8)).ravel()
         near = near[corners.active_values().ravel()[near] - least < band + self.config.max_slope * radius]
-        ends = corners.nodes_of(near)
-        values, derivatives = gradients(self.points, ends)
+        corner_nodes = corners.nodes_of(near)
+        values, derivatives = gradients(self.points, corner_nodes)
         size = shortest_edges(self.points, self.mesh.hexes[around])
-        models = LinearConstraints(ends, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
+        constraints = LinearConstraints(corner_nodes, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
         moves = np.zeros(len(self.points))
         moves[nodes] = radius * size[nodes]
         bounds = envelope.bounds(self.points, moves)
         if outside is None:
-            np.maximum(bounds.above, 0.0, out=bounds.above)
+            np.maximum(bounds.slack, 0.0, out=bounds.slack)
         x, slides = self.points[nodes], envelope.slides(nodes)
         directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
-        solved = solve(nodes, directions, models.joined(bounds), radius, falls=outside is not None)
+        solved = solve(nodes, directions, constraints.concatenate(bounds), radius, may_decrease=outside is not None)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
-        np.add.at(points, nodes[directions.owner], solved.lengths[:, None] * directions.displacements)
+        np.add.at(points, nodes[directions.node_index], solved.lengths[:, None] * directions.displacements)
         return solved.gain, envelope.project(self.points, points, nodes), nodes
 
-    def _take(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
+    def _accept(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Accept `points` if the gain is large enough, and adapt the trust region; returns the gain, 0 if rejected."""
         corners, config = self.corners, self.config
         hexes = corners.hexes_at(moved)
         before = corners.values[hexes]
         corners.update(points, hexes)
-        gain = corners.least - least
+        gain = corners.active_minimum - least
         if gain > config.accept * promised and self.envelope.leaves_band(self.points, points, moved):
             gain = -np.inf
         share = gain / promised
         if share > config.good:
             self._radius = min(config.grow * self._radius, config.max_radius)
         elif share < config.poor:
-            self._radius *= self.config.shrink
+            self._radius *= config.shrink
         if share > config.accept:
             self.points = points
             return gain
@@ -242,4 +244,4 @@ class MaxMinOptimiser:
         corners, weights = self._multipliers
         order = np.argsort(-weights, kind="stable")
         order = order[weights[order] > self.config.min_multiplier]
-        return ActiveCorners(self.corners.least, corners[order] // 8, corners[order] % 8)
+        return ActiveCorners(self.corners.active_minimum, corners[order] // 8, corners[order] % 8)

@@ -37,8 +37,9 @@ class SLPConfig:
         From which on a corner is active; the sum of all is 1.
     return_step : float
         By how many radii, in mean edge lengths, a boundary outside its band is brought nearer at a time.
-    return_tolerance : float
-        Share of the band's width that is not counted as outside.
+    return_tolerance, band_excess : float
+        Shares of the band's width by which a boundary may exceed it: where the return to it ends, and where its result
+        is judged, as the last steps may keep the band to rounding errors of the linear program only.
     """
 
     initial_radius: float = 0.1
@@ -63,6 +64,7 @@ class SLPConfig:
     min_multiplier: float = 1e-3
     return_step: float = 0.2
     return_tolerance: float = 1e-6
+    band_excess: float = 1e-5
 
 
 SLP = SLPConfig()

@@ -3,19 +3,16 @@
 import math
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, kernel_metric
+from hexmend.quality.metric import Metric, kernel_metric
 
-CONDITION = METRICS.add(
-    "condition",
-    Metric(
-        name="condition",
-        title="Condition number",
-        formula="greatest over the eight corners of |S||S⁻¹| / 3, ∞ with a corner of σ ≤ 0",
-        source="Verdict, SAND2007-1751 (maximum aspect Frobenius); Knupp 2000",
-        full_range=(1.0, math.inf),
-        acceptable=(1.0, 3.0),
-        better=-1,
-        meaning="High values carry over to the stiffness matrix: iterative solvers take longer and lose digits.",
-        of=kernel_metric(metrics.corners, rows=2, row=1, worst=math.inf),
-    ),
-)
+CONDITION = Metric(
+    name="condition",
+    title="Condition number",
+    formula="greatest over the eight corners of |S||S⁻¹| / 3, ∞ with a corner of σ ≤ 0",
+    source="Verdict, SAND2007-1751 (maximum aspect Frobenius); Knupp 2000",
+    full_range=(1.0, math.inf),
+    acceptable=(1.0, 3.0),
+    better=-1,
+    meaning="High values carry over to the stiffness matrix: iterative solvers take longer and lose digits.",
+    of=kernel_metric(metrics.corners, rows=2, row=1, worst=math.inf),
+).register()

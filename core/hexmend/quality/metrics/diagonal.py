@@ -1,19 +1,16 @@
 """Diagonal ratio: the shortest diagonal over the longest; 0 where none has a length."""
 
 from hexmend.kernels import metrics
-from hexmend.quality.metric import METRICS, Metric, kernel_metric
+from hexmend.quality.metric import Metric, kernel_metric
 
-DIAGONAL = METRICS.add(
-    "diagonal",
-    Metric(
-        name="diagonal",
-        title="Diagonal ratio",
-        formula="shortest / longest of the four diagonals, 0 where none has a length",
-        source="Verdict, SAND2007-1751",
-        full_range=(0.0, 1.0),
-        acceptable=(0.65, 1.0),
-        better=1,
-        meaning="Low values mean a hex that leans: its answer depends on the direction of the load.",
-        of=kernel_metric(metrics.lengths, rows=3, row=2, worst=0.0),
-    ),
-)
+DIAGONAL = Metric(
+    name="diagonal",
+    title="Diagonal ratio",
+    formula="shortest / longest of the four diagonals, 0 where none has a length",
+    source="Verdict, SAND2007-1751",
+    full_range=(0.0, 1.0),
+    acceptable=(0.65, 1.0),
+    better=1,
+    meaning="Low values mean a hex that leans: its answer depends on the direction of the load.",
+    of=kernel_metric(metrics.lengths, rows=3, row=2, worst=0.0),
+).register()

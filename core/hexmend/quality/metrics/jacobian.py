@@ -7,7 +7,7 @@ import numpy as np
 from hexmend.errors import MeshError
 from hexmend.kernels import metrics
 from hexmend.quality.measure import ElementQuality
-from hexmend.quality.metric import METRICS, Metric, kernel_metric
+from hexmend.quality.metric import Metric, kernel_metric
 
 _at_centre = kernel_metric(metrics.centre, rows=1, row=0, worst=-math.inf)
 
@@ -19,18 +19,15 @@ def _least(points: np.ndarray, hexes: np.ndarray, quality: ElementQuality) -> np
     return np.fmin(quality.sigma, _at_centre(points, hexes, quality))
 
 
-JACOBIAN = METRICS.add(
-    "jacobian",
-    Metric(
-        name="jacobian",
-        title="Jacobian",
-        formula="least of σ at the eight corners and of det[X₁, X₂, X₃] / 64 at the centre",
-        source="Verdict, SAND2007-1751; Knupp 2000",
-        full_range=(-math.inf, math.inf),
-        acceptable=(0.0, math.inf),
-        better=1,
-        meaning=("At 0 and below the map to the hex folds: integrals over it have no meaning, and most solvers stop."),
-        of=_least,
-        unit="mesh unit³",
-    ),
-)
+JACOBIAN = Metric(
+    name="jacobian",
+    title="Jacobian",
+    formula="least of σ at the eight corners and of det[X₁, X₂, X₃] / 64 at the centre",
+    source="Verdict, SAND2007-1751; Knupp 2000",
+    full_range=(-math.inf, math.inf),
+    acceptable=(0.0, math.inf),
+    better=1,
+    meaning="At 0 and below the map to the hex folds: integrals over it have no meaning, and most solvers stop.",
+    of=_least,
+    unit="mesh unit³",
+).register()

@@ -27,12 +27,12 @@ class GETMe(SlidingSmoother):
 
     name = "getme"
     title = "GETMe, simultaneous"
-    help = "Each hex takes a step towards a cube, and nodes go to the mean of their places. Fast; often untangles."
+    help = "Each hex makes a step towards a cube; nodes move to the mean of their new positions. Fast; often untangles."
     source = "Wilson 3.1.2; Vartziotis and Wipper 2011"
     bytes_per_hex = 600
 
-    scaling: float = parameter(1.0, low=0.01, high=10, help="s: how far a corner goes along its triangle's normal.")
-    relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: share of a hex's step that is taken.")
+    scaling: float = parameter(1.0, low=0.01, high=10, help="s: factor of a corner's step along its triangle's normal.")
+    relaxation: float = parameter(0.75, low=0.01, high=1, help="rho: fraction of a hex's step.")
     weights: str = parameter(
         "quality",
         choices=("quality", "paper", "equal"),
@@ -40,7 +40,7 @@ class GETMe(SlidingSmoother):
     )
     exponent: float = parameter(1.0, low=0, high=10, help="Exponent of the paper's weights.")
     patience: int = parameter(
-        10, low=1, high=1000, help="Ends after this many iterations in which neither q_min nor q_mean has risen."
+        10, low=1, high=1000, help="Number of iterations without a rise of q_min or q_mean after which the method ends."
     )
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -50,23 +50,22 @@ class GETMe(SlidingSmoother):
         nodes = np.flatnonzero(mesh.free).astype(np.int32)
         places = np.empty((mesh.n_hexes, 8, 3))
         points, quality = mesh.points, measure(mesh.points, mesh.hexes)
-        best = merit(quality)
+        best = figures_of_merit(quality)
         idle = 0
         yield Step(points)
         while idle < self.patience:
             element_steps(points, mesh.hexes, self.scaling, self.relaxation, places)
             moved = points.copy()
-            kernels.weighted_means(places, self.weigh(quality.q), hex_mesh, nodes, moved)
-            if sliding is not None:
-                moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
-            points, quality, relaxed = _without_harm(mesh, points, quality, moved, sliding)
-            now = merit(quality)
+            kernels.weighted_means(places, self.hex_weights(quality.q), hex_mesh, nodes, moved)
+            moved = moved if sliding is None else sliding.projected(moved)
+            points, quality, relaxed = _relax_harmful_moves(mesh, points, quality, moved, sliding)
+            now = figures_of_merit(quality)
             idle = 0 if np.any(now > best + RISE) else idle + 1
             best = np.maximum(best, now)
             yield Step(points, {"relaxed_nodes": relaxed}, quality=quality)
         return Outcome.NO_IMPROVEMENT
 
-    def weigh(self, q: np.ndarray) -> np.ndarray:
+    def hex_weights(self, q: np.ndarray) -> np.ndarray:
         """Weights of hexes by their q(H), (m,) float64: the worse, the heavier; finite and positive."""
         if self.weights == "quality":
             return 1 / np.sqrt(np.maximum(q, 0.01))
@@ -75,12 +74,12 @@ class GETMe(SlidingSmoother):
         return np.ones(len(q))
 
 
-def merit(quality: ElementQuality) -> np.ndarray:
+def figures_of_merit(quality: ElementQuality) -> np.ndarray:
     """Figures of merit that GETMe raises, (3,) float64: minus the number of inverted hexes, q_min, q_mean."""
     return np.array([-quality.n_inverted, quality.q.min(), quality.q.mean()])
 
 
-def _without_harm(
+def _relax_harmful_moves(
     mesh: Mesh, points: np.ndarray, quality: ElementQuality, moved: np.ndarray, sliding: SlidingBoundary | None
 ) -> tuple[np.ndarray, ElementQuality, int]:
     """Relax moves that would invert a valid hex; returns the points, their quality and the number of relaxed nodes."""
@@ -91,9 +90,10 @@ def _without_harm(
     relaxed = kernels.relax(points, mesh.topology.hex_mesh, ~quality.inverted, harmed, moved)
     if sliding is None:
         return moved, measure(moved, mesh.hexes), relaxed
-    moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
+
+    def newly_inverted(x: np.ndarray) -> np.ndarray:
+        return mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted]
+
     # Projection of a relaxed step may invert a hex again: such a step is rejected.
-    moved = sliding.reject_moves(
-        points, moved, lambda x: mesh.hexes[measure(x, mesh.hexes).inverted & ~quality.inverted]
-    )
+    moved = sliding.reject_moves(points, sliding.projected(moved), newly_inverted)
     return moved, measure(moved, mesh.hexes), relaxed

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from hexmend.optimise.search_direction import Direction, ModifiedNewton
+from hexmend.optimise.search_direction import DirectionMethod, ModifiedNewton
 from hexmend.smoothers.base import method
-from hexmend.smoothers.global_.newton_base import GlobalNewton
+from hexmend.smoothers.global_.base import GlobalNewton
 
 
 @method
-@dataclass(frozen=True)
 class GlobalModifiedNewton(GlobalNewton):
     """All free nodes at once by Newton's direction, the Hessian made positive definite."""
 
     name = "global-mnr"
     title = "Global modified Newton"
-    help = "Newton's method for all nodes at once with the Hessian's eigenvalues raised: steadier, a little slower."
+    help = "Newton's method for all nodes at once, with the Hessian's eigenvalues raised. More robust, slightly slower."
     source = "Wilson 3.2, Algorithms 3.3, A.4 and A.5"
 
-    def direction(self) -> Direction:
+    def direction(self) -> DirectionMethod:
         return ModifiedNewton(self.linear_solver())

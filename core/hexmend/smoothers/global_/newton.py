@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from hexmend.optimise.search_direction import Direction, Newton
+from hexmend.optimise.search_direction import DirectionMethod, Newton
 from hexmend.smoothers.base import method
-from hexmend.smoothers.global_.newton_base import GlobalNewton
+from hexmend.smoothers.global_.base import GlobalNewton
 
 
 @method
-@dataclass(frozen=True)
 class GlobalNewtonRaphson(GlobalNewton):
     """All free nodes at once by Newton's direction."""
 
     name = "global-nr"
     title = "Global Newton-Raphson"
-    help = "Newton's method for all nodes at once: the optimum in a dozen steps where nothing is inverted."
+    help = "Newton's method for all nodes at once: the optimum in about twelve steps if no hex is inverted."
     source = "Wilson 3.2, Algorithms 3.3, A.3 and A.5"
 
-    def direction(self) -> Direction:
+    def direction(self) -> DirectionMethod:
         return Newton(self.linear_solver())

@@ -6,11 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.kernels import laplacian as kernels
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.topology import CSR
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother, Sweeps
@@ -36,7 +34,7 @@ class Laplacian(SlidingSmoother):
     order: str = parameter(
         "natural",
         choices=tuple(ORDERS),
-        help="In what order nodes are updated in place, 5.2.6: natural is by number, inward from the fixed ones.",
+        help="Order of updates in place (5.2.6): natural is by number, inward is by level from the fixed nodes.",
     )
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -45,27 +43,19 @@ class Laplacian(SlidingSmoother):
         if sliding is not None:
             mesh, ring, surface = sliding.mesh, sliding.rings, sliding.sliding_surface
         sequence, sweeps = ORDERS[self.order](mesh), Sweeps(sliding, mesh.n_nodes)
-        points, sweep = mesh.points, 0
+        points, number = mesh.points, 0
+
+        def sweep(moved: np.ndarray, stays: np.ndarray) -> None:
+            kernels.in_place(moved, ring.start, ring.items, nodes[~stays[nodes]], surface)
+
         yield Step(points)
         while True:
-            nodes = sequence(points, sweep)
-            if self.update == "simultaneous":
-                points = self._at_once(points, ring, nodes, sliding)
+            nodes = sequence(points, number)
+            if self.update == "in-place":
+                points, _ = sweeps(points, sweep)
             else:
-
-                def one_by_one(moved: np.ndarray, stays: np.ndarray, nodes: np.ndarray = nodes) -> None:
-                    nodes = nodes[~stays[nodes]]
-                    kernels.in_place(moved, ring.start, ring.items, nodes, surface)
-
-                points, _ = sweeps(points, one_by_one)
+                moved = points.copy()
+                kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
+                points = moved if sliding is None else sliding.reject_moves(points, sliding.projected(moved))
             yield Step(points)
-            sweep += 1
-
-    @staticmethod
-    def _at_once(points: np.ndarray, ring: CSR, nodes: np.ndarray, sliding: SlidingBoundary | None) -> np.ndarray:
-        moved = points.copy()
-        kernels.simultaneous(points, ring.start, ring.items, nodes, moved)
-        if sliding is None:
-            return moved
-        moved[sliding.nodes] = sliding.project(moved[sliding.nodes])
-        return sliding.reject_moves(points, moved)
+            number += 1

@@ -21,14 +21,14 @@ class SmartLaplacian(SlidingSmoother):
 
     name = "smart-laplacian"
     title = "Smart Laplacian"
-    help = "Laplacian smoothing that takes back every move which inverts an attached hex. Never adds an inverted hex."
+    help = "Laplacian smoothing that rejects every move that inverts an attached hex. Never adds an inverted hex."
     source = "Wilson 3.1.1"
     bytes_per_hex = 400
 
     guard: str = parameter(
         "inversion",
         choices=("inversion", "quality"),
-        help="What counts as harm: inverting an attached hex, or lowering the least q(H) of the attached hexes too.",
+        help="Moves that are rejected: those that invert an attached hex, or also those that lower its least q(H).",
     )
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -46,5 +46,5 @@ class SmartLaplacian(SlidingSmoother):
 
         yield Step(points)
         while True:
-            points, taken_back = sweeps(points, sweep)
-            yield Step(points, {"taken_back": taken_back})
+            points, rejected = sweeps(points, sweep)
+            yield Step(points, {"rejected_steps": rejected})

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from hexmend.kernels import local
 from hexmend.smoothers.base import method
 from hexmend.smoothers.local.single_node import LocalDescent
 
 
 @method
-@dataclass(frozen=True)
 class LocalModifiedNewton(LocalDescent):
     """Node after node by Newton's direction, the 3 x 3 Hessian made positive definite."""
 
     name = "local-mnr"
     title = "Local modified Newton"
-    help = "As local Newton-Raphson, with the eigenvalues of the 3 x 3 Hessian raised where they are small or negative."
+    help = "Like local Newton-Raphson, with small or negative eigenvalues of the 3 x 3 Hessian raised."
     source = "Wilson 3.2, Algorithms 3.2, A.4 and A.5"
-    direction = local.MODIFIED_NEWTON
+    direction = local.Direction.MODIFIED_NEWTON

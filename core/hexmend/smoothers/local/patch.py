@@ -27,12 +27,12 @@ class LocalPatch(LocalOptimiser):
 
     name = "local-patch"
     title = "Local Newton, large patches"
-    help = "Moves patches of connected nodes, each by its own Newton step. Few sweeps, each expensive."
+    help = "Moves patches of connected nodes, each by its own Newton step. Few, but expensive sweeps."
     source = "Wilson 5.2.5, Algorithms 3.2, A.3 and A.5"
     bytes_per_hex = 1700
 
     patch: int = parameter(
-        8, low=1, high=1000, unit="nodes", help="Connected free nodes that a patch is made of: 1, 8, 27, 64, 216..."
+        8, low=1, high=1000, unit="nodes", help="Number of connected free nodes in a patch: 1, 8, 27, 64, 216..."
     )
     overlap: int = parameter(
         1, low=0, high=1, unit="rings", help="Rings of nodes of other patches that move with a patch."
@@ -48,7 +48,8 @@ class LocalPatch(LocalOptimiser):
         partition, colours = patches.kernel_partition, patches.colours
 
         def slide(moved: np.ndarray, stays: np.ndarray) -> int:
-            groups, settings = alone.without(stays), local.NodeStepSettings(local.NEWTON, delta, self.power, search)
+            groups = alone.without(stays)
+            settings = local.NodeStepSettings(local.Direction.NEWTON, delta, self.norm, search)
             surface, tangents = sliding.sliding_surface, sliding.tangents(moved)
             return local.sweep(moved, mesh.topology.hex_mesh, groups.start, groups.items, settings, surface, tangents)
 
@@ -56,9 +57,9 @@ class LocalPatch(LocalOptimiser):
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
-            settings = kernels.PatchStepSettings(delta, self.power, search)
+            settings = kernels.PatchStepSettings(delta, self.norm, search)
             energies, derivatives = kernels.sweep(points, partition, colours.start, colours.items, settings)
             if sliding is not None:
                 points, more = sweeps(points, slide)
                 energies, derivatives = energies + more, derivatives + derived
-            yield Step(points, {"delta": delta, "energies": energies, "derivatives": derivatives})
+            yield Step(points, {"delta": delta, "energy_evaluations": energies, "derivative_evaluations": derivatives})

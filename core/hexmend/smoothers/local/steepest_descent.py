@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from hexmend.kernels import local
 from hexmend.smoothers.base import method
 from hexmend.smoothers.local.single_node import LocalDescent
 
 
 @method
-@dataclass(frozen=True)
 class LocalSteepestDescent(LocalDescent):
     """Node after node down the gradient of its patch's energy."""
 
@@ -18,4 +15,4 @@ class LocalSteepestDescent(LocalDescent):
     title = "Local steepest descent"
     help = "Moves node after node down the gradient of its patch's energy. Smooths and untangles; reaches the optimum."
     source = "Wilson 3.2, Algorithms 3.2, A.2 and A.5"
-    direction = local.STEEPEST_DESCENT
+    direction = local.Direction.STEEPEST_DESCENT

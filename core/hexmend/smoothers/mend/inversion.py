@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.energy.hex_energy import pack_corners, unpack_corners
+from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.corner_values import shortest_edges
 from hexmend.quality import ElementQuality, corner_determinants
 from hexmend.quality.measure import locked_tetrahedra
 
@@ -59,14 +60,13 @@ def inverted_corners(points: np.ndarray, hexes: np.ndarray, quality: ElementQual
     bits = np.zeros(len(hexes), np.uint8)
     where = np.flatnonzero(quality.inverted)
     inverted = ~(corner_determinants(points, hexes, where) > 0)
-    bits[where] = np.packbits(inverted, axis=1, bitorder="little")[:, 0]
+    bits[where] = pack_corners(inverted)
     return bits
 
 
 def locked_corners(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     """Mark the corner tetrahedra that fixed nodes lock in inversion, (m,) uint8, bits as in `inverted_corners`."""
-    locked = locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)
-    return np.packbits(locked, axis=1, bitorder="little")[:, 0]
+    return pack_corners(locked_tetrahedra(mesh.points, mesh.hexes, mesh.fixed, quality.inverted))
 
 
 def count_inverted(
@@ -90,7 +90,6 @@ def count_inverted(
         In the cube of the points' unit of length; 0 where no corner is inverted.
     """
     where = np.flatnonzero(quality.inverted)
-    counts = np.unpackbits(omitted[where, None], axis=1, bitorder="little") == 0
-    sigma = np.where(counts, corner_determinants(points, hexes, where), np.inf)
+    sigma = np.where(unpack_corners(omitted[where]), np.inf, corner_determinants(points, hexes, where))
     inverted = ~(sigma > 0)
     return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.energy import MeshEnergy
-from hexmend.energy.hex_energy import corners_left_out
+from hexmend.energy.hex_energy import as_omitted_corners
 from hexmend.kernels import local
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.validation import as_bools, points_like
 
 
 def local_sweeps(
-    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, left_out: np.ndarray, delta: float, sweeps: int
+    energy: MeshEnergy, x: np.ndarray, around: np.ndarray, omitted: np.ndarray, delta: float, sweeps: int
 ) -> np.ndarray:
     """Sweep over the inner nodes of some hexes and of their neighbours with local Newton steps.
 
@@ -25,10 +26,10 @@ def local_sweeps(
         Points in mean edge lengths.
     around : (m,) bool
         The hexes.
-    left_out : (m,) uint8
+    omitted : (m,) uint8
         A bit for each corner that the energy omits.
     delta : float
-        In cubes of the mean edge length.
+        In cubes of the mean edge length of each node's patch, to which the kernel scales it.
     sweeps : int
 
     Returns
@@ -43,13 +44,14 @@ def local_sweeps(
     """
     mesh = energy.mesh
     x = points_like(x, mesh.points.shape)
-    around, left_out = as_bools(around, "around", mesh.n_hexes), corners_left_out(left_out, mesh.n_hexes)
-    near = np.zeros(mesh.n_nodes, dtype=bool)
-    near[mesh.hexes[around]] = True
+    around, omitted = as_bools(around, "around", mesh.n_hexes), as_omitted_corners(omitted, mesh.n_hexes)
+    near = mask(mesh.hexes[around], mesh.n_nodes)
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
-    near[mesh.hexes[left_out != 0]] = False
+    near[mesh.hexes[omitted != 0]] = False
     colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
-    settings = local.NodeStepSettings(local.MODIFIED_NEWTON, delta, energy.power, LineSearch(max_backtracks=60))
+    settings = local.NodeStepSettings(
+        local.Direction.MODIFIED_NEWTON, delta, energy.norm, LineSearch(max_backtracks=60)
+    )
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)

@@ -17,11 +17,11 @@ from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
-from hexmend.smoothers.mend.maxmin_stage import MAXMIN, active_set, raise_least
+from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
 from hexmend.smoothers.mend.messages import freed_message, limit_message, omission_message
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
-from hexmend.smoothers.mend.surface_return import MaxMinResult, release_from_surface
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 
 
@@ -32,7 +32,7 @@ class Mend(ObjectiveSmoother):
 
     name = "mend"
     title = "Mend"
-    help = "Untangles whatever its fixed nodes allow, then goes to the optimum, of shape or of the worst corner."
+    help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
 
@@ -55,11 +55,11 @@ class Mend(ObjectiveSmoother):
         False, help="Keep the best iterate that lowers neither the least q(H) nor the least scaled Jacobian."
     )
     solver_iterations: int = parameter(
-        200, low=1, high=10**6, help="Most iterations of conjugate gradients for a Newton step."
+        200, low=1, high=10**6, help="Iteration limit of conjugate gradients for a Newton step."
     )
 
     @property
-    def power(self) -> ObjectiveNorm:
+    def norm(self) -> ObjectiveNorm:
         """The highest p and the offset: the objective at whose optimum a run ends.
 
         Steps with a lower p record the objective with that p instead. Steps that raise the least scaled Jacobian do not
@@ -68,13 +68,13 @@ class Mend(ObjectiveSmoother):
         return ObjectiveNorm(max(self.p, self.max_p), self.offset)
 
     @property
-    def raises(self) -> bool:
+    def maximises_jacobian(self) -> bool:
         """The least scaled Jacobian is the goal."""
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
         yield Step(mesh.points)
-        norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.raises
+        norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.maximises_jacobian
         quality = measure(mesh.points, mesh.hexes)
         locked_at_start = locked_corners(mesh, quality)
         if self.slides and mesh.target is not None:  # the boundary begins on the surface
@@ -83,28 +83,31 @@ class Mend(ObjectiveSmoother):
         shape = yield from self._shape(mesh, MeshEnergy(mesh, norm), quality, intermediate)
         if not intermediate:
             return shape.outcome
-        candidates, sliding, max_deviation = [mesh.points, shape.points], None, 0.0
+        fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
+        candidates = [mesh.points, fixed_optimum]
         if self.slides:
-            max_deviation = self.max_deviation(mesh)
+            max_deviation = self.absolute_tolerance(mesh)
             sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation)
             mesh = sliding.mesh
-            freed = yield from self._slide_free(mesh, shape.points, sliding)
+            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
+            yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
+            freed = mesh.with_points(optimiser.points)
             quality = measure(freed.points, mesh.hexes)
             shape = yield from self._shape(freed, SlidingEnergy(sliding, norm), quality, intermediate)
             candidates += [freed.points, shape.points]
-        result = yield from self._raise_least(mesh, candidates, sliding, max_deviation)
+        result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
-        limits, sentences, quality = None, [], None
-        if self.raises:
-            limits = active_set(result.optimiser, result.active)
+        active, sentences, quality = None, [], None
+        if self.maximises_jacobian:
+            active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
         if self.slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
         if decision or outcome is Outcome.NO_IMPROVEMENT:
-            yield Step(points, decision=decision, intermediate=True, quality=quality, limits=limits)
+            yield Step(points, decision=decision, intermediate=True, quality=quality, active=active)
         return outcome
 
     def _shape(
@@ -112,40 +115,40 @@ class Mend(ObjectiveSmoother):
     ) -> Generator[Step, None, ShapeOptimum]:
         """Untangle a mesh whose hexes have this quality, then go to the optimum of shape."""
         newton, locked = NewtonConfig(self.solver_iterations), locked_corners(mesh, quality)
-        energy = energy.with_objective(energy.power, locked)
-        config = UntanglingConfig(initial_epsilon=self.initial_epsilon)
-        untangled = yield from untangle(mesh, energy, quality, locked, config, newton)
+        energy = energy.with_objective(energy.norm, locked)
+        config = UntanglingConfig(self.initial_epsilon, newton=newton)
+        untangled = yield from untangle(mesh, energy, quality, locked, config)
         points, omitted = untangled.points, untangled.omitted
         if omitted.any() and not self.slides:
             decision = omission_message(omitted, locked)
-            yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, power=energy.power)
-        energy = energy.with_objective(energy.power, omitted)
-        return (yield from optimise_shape(energy, points, self.max_p, intermediate, ShapeOptimumConfig(), newton))
+            yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
+        energy = energy.with_objective(energy.norm, omitted)
+        config = ShapeOptimumConfig(newton=newton)
+        return (yield from optimise_shape(energy, points, self.max_p, intermediate, config))
 
-    @staticmethod
-    def _slide_free(mesh: Mesh, points: np.ndarray, sliding: SlidingBoundary) -> Generator[Step, None, Mesh]:
-        """Raise the least scaled Jacobian by sliding until the energy's barrier can be used."""
-        optimiser = MaxMinOptimiser(mesh, points, sliding)
-        yield from raise_least(optimiser, MAXMIN.barrier_safe)
-        return mesh.with_points(optimiser.points)
-
-    def _raise_least(
-        self, mesh: Mesh, candidates: Sequence[np.ndarray], sliding: SlidingBoundary | None, max_deviation: float
+    def _maxmin_stage(
+        self,
+        mesh: Mesh,
+        candidates: Sequence[np.ndarray],
+        fixed_optimum: np.ndarray,
+        sliding: SlidingBoundary | None,
+        max_deviation: float,
     ) -> Generator[Step, None, MaxMinResult | None]:
         """Raise the least scaled Jacobian from the best of some points (n, 3), where it is the goal or not sound.
 
-        None where shape is the goal and the least is sound. `max_deviation` is the distance from the surface that
-        the boundary may have, in the mesh's unit of length.
+        None where shape is the goal and the least is sound. Steps off the surface begin with `fixed_optimum`, one of
+        the points; `max_deviation` is the distance that the boundary may have from it, in the mesh's unit of length.
         """
         optimisers = (MaxMinOptimiser(mesh, points, sliding) for points in candidates)
-        best = max(optimisers, key=lambda optimiser: optimiser.corners.least)
-        if not self.raises and not best.corners.least < MAXMIN.barrier_safe:
+        best = max(optimisers, key=lambda optimiser: optimiser.corners.active_minimum)
+        if not self.maximises_jacobian and not best.corners.active_minimum < MAXMIN.barrier_safe:
             return None
-        target, wanted = (np.inf, MAXMIN.acceptable) if self.raises else (MAXMIN.barrier_safe, MAXMIN.barrier_safe)
-        result = MaxMinResult(best, (yield from raise_least(best, target, groups=MAXMIN.max_groups)))
-        if 0 < max_deviation < np.inf and best.corners.least_of_all < wanted:
-            optimiser = MaxMinOptimiser(mesh, candidates[1], sliding)  # from the optimum with the boundary fixed
-            result = yield from release_from_surface(optimiser, max_deviation, result)
+        target = np.inf if self.maximises_jacobian else MAXMIN.barrier_safe
+        wanted = min(target, MAXMIN.acceptable)
+        result = MaxMinResult(best, (yield from maximise_minimum(best, target, groups=MAXMIN.max_groups)))
+        if 0 < max_deviation < np.inf and best.corners.movable_minimum < wanted:
+            optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
+            result = yield from improve_off_surface(optimiser, max_deviation, result)
         return result
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
@@ -156,17 +159,15 @@ class Mend(ObjectiveSmoother):
         """
         fallen = now.q.min() < start.q.min(), now.scaled_jacobian.min() < start.scaled_jacobian.min()
         harmed = any(fallen) if self.guard else all(fallen)
-        if self.raises:
+        if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
-        p, offset = self.power
+        p, offset = self.norm
         with np.errstate(over="ignore"):  # close to the barrier
-            before, after = (
-                np.power(quality.eta[~quality.inverted] + (1 - offset), p).sum() for quality in (start, now)
-            )
+            before, after = (np.power(of.eta[~of.inverted] + (1 - offset), p).sum() for of in (start, now))
         return now.n_inverted, harmed, after > before
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.raises or "inverted" in worse:
+        if self.maximises_jacobian or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."

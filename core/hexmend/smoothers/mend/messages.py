@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
-from hexmend.smoothers.mend.maxmin_stage import locked_below
+from hexmend.smoothers.mend.maxmin import locked_below
+from hexmend.terminal_text import count_phrase
 
 
 def omission_message(omitted: np.ndarray, locked: np.ndarray) -> str:
@@ -17,8 +18,8 @@ def omission_message(omitted: np.ndarray, locked: np.ndarray) -> str:
         A bit for each corner that is omitted, and that fixed nodes lock.
     """
     by_fixed, others = int(np.count_nonzero(locked)), int(np.count_nonzero(omitted & ~locked))
-    fixed = f"{by_fixed:,} hex{'es have' if by_fixed != 1 else ' has'} corners that fixed nodes lock in inversion"
-    resisting = f"{others:,} more resist{'s' * (others == 1)}"
+    fixed = f"{count_phrase(by_fixed, 'hex has', 'hexes have')} corners that fixed nodes lock in inversion"
+    resisting = count_phrase(others, "hex has corners that stay inverted", "hexes have corners that stay inverted")
     clauses = [fixed] * bool(by_fixed) + [resisting] * bool(others)
     return f"Left out of the energy: {'; '.join(clauses)}."
 
@@ -37,8 +38,8 @@ def freed_message(locked: np.ndarray, inverted: np.ndarray) -> str:
     if not count:
         return ""
     left = np.count_nonzero(locked & inverted)
-    rest = "none is left" if not left else f"{left:,} {'is' if left == 1 else 'are'} left"
-    had = f"{count:,} hex{'es had' if count != 1 else ' had'} corners that fixed nodes lock in inversion"
+    rest = "none is left" if not left else count_phrase(left, "is left", "are left")
+    had = f"{count_phrase(count, 'hex had', 'hexes had')} corners that fixed nodes lock in inversion"
     return f"{had}: sliding freed {count - left:,}, {rest}."
 
 
@@ -56,15 +57,15 @@ def limit_message(optimiser: MaxMinOptimiser, active: ActiveCorners) -> str:
     elif places == 1:
         subject = f"{count} of them hold each other there, in the hexes"
     else:
-        subject = f"{count} of them can go no further there, in {places} separate places, in the hexes"
+        subject = f"it is limited by {count} corners at {places} separate places, in the hexes"
     least = f"The least scaled Jacobian of the corners that can be moved is {active.least:.4f}"
     sentence = f"{least}: {subject} {_first_hexes(active.hexes)}."
     locked = locked_below(optimiser, active)
     if not locked.size:
         return sentence
-    which = "One corner is locked below that" if locked.size == 1 else f"{locked.size:,} corners are locked below that"
+    which = "One corner is" if locked.size == 1 else f"{locked.size:,} corners are"
     lowest = optimiser.corners.values.ravel()[locked[0]]
-    return f"{sentence} {which}: {lowest:.4f} at the lowest, in hex {_first_hexes(locked[:1] // 8)}."
+    return f"{sentence} {which} locked below that: {lowest:.4f} at the lowest, in hex {_first_hexes(locked[:1] // 8)}."
 
 
 def _first_hexes(hexes: np.ndarray) -> str:

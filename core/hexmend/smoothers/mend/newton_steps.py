@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.energy import MeshEnergy
 from hexmend.kernels.line_search import LineSearch
 from hexmend.optimise.descent import Descent, descend
-from hexmend.optimise.search_direction import TruncatedNewton
+from hexmend.optimise.search_direction import TruncatedNewton, TruncatedNewtonConfig
 
 SEARCH = LineSearch(backtrack_factor=0.5)
 
@@ -22,17 +22,20 @@ class NewtonConfig:
     ----------
     solver_iterations : int
         Most iterations of conjugate gradients for a direction.
-    reach : float
+    max_step : float
         How far a step may take a node, in mean lengths of the node's edges.
     """
 
     solver_iterations: int = 200
-    reach: float = 1.5
+    max_step: float = 1.5
 
     def direction(self) -> TruncatedNewton:
         """Make the direction for one sequence of steps; it adapts from step to step."""
-        return TruncatedNewton(iterations=self.solver_iterations)
+        return TruncatedNewton(TruncatedNewtonConfig(self.solver_iterations))
 
-    def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, find: TruncatedNewton) -> Descent | None:
+    def step(self, energy: MeshEnergy, x: np.ndarray, delta: float, direction: TruncatedNewton) -> Descent | None:
         """Take a step from x (n, 3), in mean edge lengths; None where the energy is infinite there."""
-        return descend(energy, x, delta, find, SEARCH, self.reach)
+        return descend(energy, x, delta, direction, SEARCH, self.max_step)
+
+
+NEWTON = NewtonConfig()

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.arrays import largest_norm
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
 from hexmend.iteration import Outcome, Step
-from hexmend.optimise.descent import Descent
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,10 @@ class ShapeOptimumConfig:
     min_fall, min_fall_omitting : float
         Share of the objective by which it must fall in these steps; the second while corners are omitted, which only
         a later stage can repair.
+    rounding : float
+        Slope, as a share of the energy, up to which it counts as zero.
+    newton : NewtonConfig
+        Of the steps of all nodes.
     """
 
     poor: float = 3.0
@@ -41,6 +45,8 @@ class ShapeOptimumConfig:
     window: int = 5
     min_fall: float = 2e-3
     min_fall_omitting: float = 2e-2
+    rounding: float = 1e-10
+    newton: NewtonConfig = NEWTON
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +58,7 @@ class ShapeOptimum:
 
 
 def optimise_shape(
-    energy: MeshEnergy,
-    points: np.ndarray,
-    max_p: float,
-    intermediate: bool,
-    config: ShapeOptimumConfig,
-    newton: NewtonConfig,
+    energy: MeshEnergy, points: np.ndarray, max_p: float, intermediate: bool, config: ShapeOptimumConfig
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy at delta = 0, then with p doubled again and again up to `max_p`.
 
@@ -71,7 +72,6 @@ def optimise_shape(
     intermediate : bool
         Another stage follows.
     config : ShapeOptimumConfig
-    newton : NewtonConfig
 
     Yields
     ------
@@ -79,51 +79,41 @@ def optimise_shape(
         After each step of all nodes.
     """
     while True:
-        reached = yield from _minimise(energy, points, energy.power.p < max_p, intermediate, config, newton)
+        reached = yield from _minimise(energy, points, energy.norm.p < max_p, intermediate, config)
         if reached.outcome is not None:
             return reached
-        points, (p, offset) = reached.points, energy.power
-        energy = energy.with_objective(ObjectiveNorm(min(2 * p, max_p), offset), energy.left_out)
+        points, (p, offset) = reached.points, energy.norm
+        energy = energy.with_objective(ObjectiveNorm(min(2 * p, max_p), offset), energy.omitted)
 
 
 def _minimise(
-    energy: MeshEnergy,
-    points: np.ndarray,
-    rises: bool,
-    intermediate: bool,
-    config: ShapeOptimumConfig,
-    newton: NewtonConfig,
+    energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool, config: ShapeOptimumConfig
 ) -> Generator[Step, None, ShapeOptimum]:
-    """Minimise the energy with one p; if p `rises` afterwards, only until no node moves far."""
-    omitted, hexes, find = energy.left_out, energy.mesh.hexes, newton.direction()
+    """Minimise the energy with one p; if p rises afterwards, only until no node moves far."""
+    omitted, hexes, direction = energy.omitted, energy.mesh.hexes, config.newton.direction()
     min_fall = config.min_fall_omitting if omitted.any() else config.min_fall
-    x, uncut = energy.to_edge_units(points), False
+    x, full_step = energy.to_edge_units(points), False
     values: list[float] = []
     while True:
-        if not uncut:  # after a full step no hex has limited the line search
+        if not full_step:  # after a full step no hex has limited the line search
             poor = energies(x, hexes, 0.0, omitted) > config.poor
             if poor.any():
                 x = local_sweeps(energy, x, poor, omitted, 0.0, config.sweeps)
-        taken = newton.step(energy, x, 0.0, find)
-        if taken is None or (taken.alpha == 0 and (taken.slope < 0 or intermediate)):
+        descent = config.newton.step(energy, x, 0.0, direction)
+        if descent is None or (descent.alpha == 0 and (descent.slope < 0 or intermediate)):
             break
-        values.append(taken.value - energy.least)
-        if (
-            energy.faceted
-            and len(values) > config.window
-            and values[-config.window] - values[-1] < min_fall * values[-1]
-        ):
+        values.append(descent.value - energy.cube_value)
+        judged = energy.faceted and len(values) > config.window
+        if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
-        move = float(np.sqrt(np.square(taken.x - energy.to_edge_units(points)).sum(axis=1).max()))
-        x, points, uncut = taken.x, energy.to_mesh_units(taken.x), taken.cuts == 0
-        diagnostics = taken.diagnostics(0.0) | {"p": energy.power.p}
-        yield Step(points, diagnostics, intermediate=rises or intermediate, power=energy.power)
-        if rises and move < config.converged:
+        move = largest_norm(descent.x - energy.to_edge_units(points))
+        x, points, full_step = descent.x, energy.to_mesh_units(descent.x), descent.backtracks == 0
+        diagnostics = descent.diagnostics(0.0) | {"p": energy.norm.p}
+        yield Step(points, diagnostics, intermediate=p_will_rise or intermediate, norm=energy.norm)
+        if p_will_rise and move < config.converged:
             break
-    return ShapeOptimum(points, None if rises else _outcome(taken))
-
-
-def _outcome(taken: Descent | None) -> Outcome:
-    """Outcome where no step descends: at the optimum what a step would gain is less than rounding."""
-    at_rounding = taken is not None and -taken.slope <= 1e-10 * taken.value  # both are 0 where all hexes are cubes
-    return Outcome.CONVERGED if at_rounding else Outcome.NO_DESCENT
+    if p_will_rise:
+        return ShapeOptimum(points, None)
+    # At the optimum a step would gain less than rounding; slope and value are 0 where all hexes are cubes.
+    converged = descent is not None and -descent.slope <= config.rounding * descent.value
+    return ShapeOptimum(points, Outcome.CONVERGED if converged else Outcome.NO_DESCENT)

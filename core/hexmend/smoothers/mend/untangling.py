@@ -18,7 +18,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.smoothers.mend.inversion import count_inverted, inverted_corners, recentre_far_nodes
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
+from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,12 @@ class UntanglingConfig:
     few : float
         Share of inverted hexes below which mainly local sweeps are used.
     few_sweeps, few_period : int
-        Below that share: sweeps per delta, and number of deltas without progress per Newton step of all nodes.
+        Below that share: sweeps per delta; steps of all nodes only at each `few_period`-th delta without progress.
     patience, faceted_patience : int
         Number of successive deltas without progress after which the stage ends; the second on a faceted surface, where
         the max-min stage repairs what is left.
+    newton : NewtonConfig
+        Of the steps of all nodes.
     """
 
     initial_epsilon: float = 0.03
@@ -57,6 +59,7 @@ class UntanglingConfig:
     few_period: int = 3
     patience: int = 14
     faceted_patience: int = 7
+    newton: NewtonConfig = NEWTON
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,23 +92,13 @@ class _Iterate:
 
     @classmethod
     def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
-        points = energy.to_mesh_units(x)
-        return cls.measured(x, points, measure(points, energy.mesh.hexes), energy, locked)
-
-    @classmethod
-    def measured(
-        cls, x: np.ndarray, points: np.ndarray, quality: ElementQuality, energy: MeshEnergy, locked: np.ndarray
-    ) -> _Iterate:
-        return cls(x, points, quality, *count_inverted(points, energy.mesh.hexes, locked, quality))
+        points, hexes = energy.to_mesh_units(x), energy.mesh.hexes
+        quality = measure(points, hexes)
+        return cls(x, points, quality, *count_inverted(points, hexes, locked, quality))
 
 
 def untangle(
-    mesh: Mesh,
-    energy: MeshEnergy,
-    quality: ElementQuality,
-    locked: np.ndarray,
-    config: UntanglingConfig,
-    newton: NewtonConfig,
+    mesh: Mesh, energy: MeshEnergy, quality: ElementQuality, locked: np.ndarray, config: UntanglingConfig
 ) -> Generator[Step, None, Untangled]:
     """Untangle what can be untangled.
 
@@ -120,7 +113,6 @@ def untangle(
     locked : (m,) uint8
         Corners that fixed nodes lock in inversion.
     config : UntanglingConfig
-    newton : NewtonConfig
 
     Yields
     ------
@@ -130,8 +122,9 @@ def untangle(
     points = recentre_far_nodes(mesh, quality)
     if points is not mesh.points:
         quality = measure(points, mesh.hexes)
-        yield Step(points, intermediate=True, quality=quality, power=energy.power)
-    now = _Iterate.measured(energy.to_edge_units(points), points, quality, energy, locked)
+        yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
+    x, inverted = energy.to_edge_units(points), count_inverted(points, mesh.hexes, locked, quality)
+    now = _Iterate(x, points, quality, *inverted)
     epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
     patience = config.faceted_patience if energy.faceted else config.patience
     while now.inverted and idle < patience and epsilon > config.min_epsilon:
@@ -139,13 +132,13 @@ def untangle(
         delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
         few = now.inverted < config.few * mesh.n_hexes
         if not few or idle % config.few_period == config.few_period - 1:
-            now = yield from _newton_steps(now, energy, locked, delta, config.newton_steps, newton)
+            now = yield from _newton_steps(now, energy, locked, delta, config)
         if now.inverted:
             sweeps = config.few_sweeps if few else config.sweeps
             x = local_sweeps(energy, now.x, now.quality.inverted, locked, delta, sweeps)
             now = _Iterate.at(x, energy, locked)
             diagnostics = {"delta": delta, "sweeps": sweeps}
-            yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, power=energy.power)
+            yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         idle = 0 if now.inverted < fewest else idle + 1
         fewest = min(fewest, now.inverted)
         epsilon *= config.reduction
@@ -153,17 +146,17 @@ def untangle(
 
 
 def _newton_steps(
-    now: _Iterate, energy: MeshEnergy, locked: np.ndarray, delta: float, count: int, newton: NewtonConfig
+    now: _Iterate, energy: MeshEnergy, locked: np.ndarray, delta: float, config: UntanglingConfig
 ) -> Generator[Step, None, _Iterate]:
-    """Step with all nodes at one delta until no hex is inverted or no step descends, `count` times at most."""
-    find = newton.direction()
-    for _ in range(count):
-        taken = newton.step(energy, now.x, delta, find)
-        if taken is None or taken.alpha == 0:
+    """Step with all nodes at one delta until no hex is inverted or no step descends, `newton_steps` times at most."""
+    direction = config.newton.direction()
+    for _ in range(config.newton_steps):
+        descent = config.newton.step(energy, now.x, delta, direction)
+        if descent is None or descent.alpha == 0:
             break
-        now = _Iterate.at(taken.x, energy, locked)
-        diagnostics = taken.diagnostics(delta)
-        yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, power=energy.power)
+        now = _Iterate.at(descent.x, energy, locked)
+        diagnostics = descent.diagnostics(delta)
+        yield Step(now.points, diagnostics, intermediate=True, quality=now.quality, norm=energy.norm)
         if not now.inverted:
             break
     return now

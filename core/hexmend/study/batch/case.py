@@ -22,15 +22,15 @@ class TaskLimits(Parametrised):
         low=0,
         high=1e7,
         unit="s",
-        help="Most seconds of a task, with reading and writing; then its process is ended. 0 sets no limit.",
+        help="Time limit of a task, with reading and writing; then its process is ended. 0 sets no limit.",
     )
     max_memory_mb: int = parameter(
         0,
         low=0,
         high=1e9,
         unit="MB",
-        help="Most memory of a task, which the system refuses to exceed; 0 is an equal share, for each "
-        "task at work, of what is free as the study begins.",
+        help="Memory limit of a task, which the system enforces; 0 means an equal share, for each "
+        "running task, of the free memory at the start of the study.",
     )
 
 

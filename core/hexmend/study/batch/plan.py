@@ -126,7 +126,7 @@ def parse_plan(text: str, folder: Path, title: str = "Study") -> Plan:
         if count > 1:
             raise ParameterError(f"two of the methods would be called {name!r} in tables: give each of them a  title")
     if surface is not None and not any(case.slides for case in cases):
-        raise ParameterError("surface names what the boundary slides on, and it is fixed: say boundary = slide")
+        raise ParameterError("a surface is given, but the boundary is fixed: set boundary = 'slide'")
     limits = from_values(TaskLimits, read_table(data, "task"), owner="task")
     return Plan(title, cases, limits, None if surface is None else folder / surface)
 

@@ -46,7 +46,7 @@ class StudyProgress:
     done : int
         Tasks that were run now.
     failed : int
-        Tasks without a result, of both.
+        Tasks without a result, among those reused and those done.
     last : str
         Mesh and case of the last task.
     """

@@ -54,15 +54,11 @@ class Store:
 
     def save(self, task: Task, row: Mapping[str, Any]) -> None:
         """Store an answer; it replaces an older one."""
-        limits = {"max_seconds": task.max_seconds, "max_memory_mb": task.max_memory_mb}
         stored = {
             "key": task.key,
             "hexmend": task.version,
-            "mesh": task.mesh,
-            "mesh_hash": task.mesh_hash,
-            "surface_hash": task.surface_hash,
-            "case": task.case,
-            "limits": limits,
+            **{key: getattr(task, key) for key in ("mesh", "mesh_hash", "surface_hash", "case")},
+            "limits": {"max_seconds": task.max_seconds, "max_memory_mb": task.max_memory_mb},
             "answer": dict(row),
         }
         with atomic_write(self._path(task)) as temporary:

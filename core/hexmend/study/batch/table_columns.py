@@ -37,45 +37,41 @@ class Column:
 
 def _figures(when: str, description: str) -> tuple[Column, ...]:
     return tuple(
-        Column(
-            f"{key}_{when}",
-            int if "inverted" in key else float,
-            f"{label[:1].upper()}{label[1:]}, {description}.",
-        )
+        Column(f"{key}_{when}", int if "inverted" in key else float, f"{label[:1].upper()}{label[1:]}, {description}.")
         for key, label in ((key, SUMMARY_QUANTITIES[key].label) for key in CHANGED_FIGURES)
     )
 
 
 #: Columns that the client fills: mesh and case of the row.
 PLACE = (
-    Column("mesh", str, "The mesh file, as it was named."),
-    Column("case", str, "What the study calls the method with what was chosen from its lists."),
+    Column("mesh", str, "The mesh file, as given on the command line."),
+    Column("case", str, "Name of the case: the method with its values from the lists."),
     Column("method", str, "The method's name, or a recipe's title."),
-    Column("parameters", str, "Every value of the method, as `name=value` words; none for a recipe."),
+    Column("parameters", str, "All values of the method, as `name=value` words; empty for a recipe."),
     Column("mesh_hash", str, "SHA-256 of the mesh file."),
-    Column("key", str, "The task's: its result is `tasks/KEY.json`."),
+    Column("key", str, "Key of the task; its result is `tasks/KEY.json`."),
 )
 
 #: Columns that the process of a task fills.
 ANSWER = (
-    Column("status", str, f"How the task ended: {', '.join(Status)}."),
-    Column("reason", str, "Why there is no result, in a sentence."),
+    Column("status", str, f"End of the task: {', '.join(Status)}."),
+    Column("reason", str, "Reason if there is no result, as a sentence."),
     Column("hexes", int, "Number of hexes."),
-    Column("nodes", int, "Number of nodes that a hex uses."),
+    Column("nodes", int, "Number of nodes of hexes."),
     Column("free_nodes", int, "Number of nodes that are not fixed."),
-    *_figures("before", "of the mesh as given"),
+    *_figures("before", "of the initial mesh"),
     *_figures("after", "of the result"),
-    Column("worse", str, "What is worse than before, of inverted, q_min and scaled_jacobian."),
-    Column("outcome", str, "Why the run ended, as in `smooth --json`."),
-    Column("message", str, "The same with its figures, in sentences."),
+    Column("worse", str, "Quantities that became worse: inverted, q_min, scaled_jacobian."),
+    Column("outcome", str, "Reason for the end of the run, as in `smooth --json`."),
+    Column("message", str, "The reason with its figures, in sentences."),
     Column("iterations", int, "Iterations until the run ended."),
     Column("kept", int, "Number of the iteration that is the result."),
     Column("seconds", float, "Seconds in the method, without its preparation."),
-    Column("setup_seconds", float, "Seconds of its preparation."),
-    Column("task_seconds", float, "Seconds of the whole process, with its start, reading and writing."),
-    Column("threads", int, "Threads that the task computed with."),
-    Column("peak_mb", float, "The most memory that the process has held, MiB."),
-    Column("output", str, "The mesh that was written, if meshes are."),
+    Column("setup_seconds", float, "Seconds of the preparation of the method."),
+    Column("task_seconds", float, "Seconds of the whole process, including start, reading and writing."),
+    Column("threads", int, "Number of threads of the task."),
+    Column("peak_mb", float, "Peak memory of the process in MiB."),
+    Column("output", str, "The mesh file that was written, with `--write-meshes`."),
 )
 
 COLUMNS = PLACE + ANSWER

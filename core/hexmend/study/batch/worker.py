@@ -112,16 +112,9 @@ def _sizes(mesh: Mesh) -> dict[str, Any]:
 
 def _figures(result: Result) -> Mapping[str, Any]:
     after = result.after.to_dict()
-    return {
-        **{f"{key}_after": after[key] for key in CHANGED_FIGURES},
-        "worse": " ".join(result.worse),
-        "outcome": result.outcome.key,
-        "message": result.message,
-        "iterations": result.iterations,
-        "kept": result.kept,
-        "seconds": result.seconds,
-        "setup_seconds": result.setup_seconds,
-    }
+    run = {key: getattr(result, key) for key in ("message", "iterations", "kept", "seconds", "setup_seconds")}
+    run |= {"worse": " ".join(result.worse), "outcome": result.outcome.key}
+    return {f"{key}_after": after[key] for key in CHANGED_FIGURES} | run
 
 
 def _exit_with_client() -> None:

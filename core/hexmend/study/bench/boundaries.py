@@ -47,10 +47,7 @@ def _row(path: Path, boundary: str) -> dict[str, Any]:
         "mesh": path.name,
         "boundary": boundary,
         "hexes": before["hexes"],
-        "inverted": [before["inverted"], after["inverted"]],
-        "scaled_jacobian_min": [before["scaled_jacobian_min"], after["scaled_jacobian_min"]],
-        "q_min": [before["q_min"], after["q_min"]],
-        "q_mean": [before["q_mean"], after["q_mean"]],
+        **{key: [before[key], after[key]] for key in ("inverted", "scaled_jacobian_min", "q_min", "q_mean")},
         "distance_percent": surface.get("max_percent_of_diagonal", 0.0),
         "volume_change": surface.get("volume_change", 0.0),
         "seconds": seconds,
@@ -83,6 +80,5 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-BOUNDARIES = BenchSection(
-    "boundaries", "The worst hex: boundary fixed and sliding, and published figures", _measure, _lines
-)
+_TITLE = "The worst hex: boundary fixed and sliding, and published figures"
+BOUNDARIES = BenchSection("boundaries", _TITLE, _measure, _lines)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
+from functools import partial
 from statistics import median
 from typing import Any
 
@@ -37,9 +38,7 @@ def _row(mesh: Mesh) -> dict[str, Any]:
         "locked": result.before.locked_inverted,
         "left": result.after.inverted,
         "q_min": result.after.q_min,
-        "iterations": result.iterations,
-        "seconds": result.seconds,
-        "setup_seconds": result.setup_seconds,
+        **{key: getattr(result, key) for key in ("iterations", "seconds", "setup_seconds")},
     }
 
 
@@ -52,8 +51,7 @@ def _optima_lines(figures: dict[str, Any]) -> list[str]:
 
 
 def _untangling() -> dict[str, Any]:
-    seconds, ends = [], Counter()
-    failures = []
+    seconds, ends, failures = [], Counter(), []
     for (name, size), amplitude, seed in itertools.product(_SCRAMBLED, _AMPLITUDES, _SEEDS):
         mesh = make(name, size=size, scramble=amplitude, seed=seed)
         before = summarise(mesh)
@@ -78,11 +76,8 @@ def _untangling_lines(figures: dict[str, Any]) -> list[str]:
         f"{figures['at_lower_bound']} of {figures['meshes']} end with no inverted hex but those that fixed nodes lock",
         f"ended: {ends}; median {figures['median_seconds']:.3f} s, at most {figures['most_seconds']:.3f} s",
     ]
-    for failure in figures["others"]:
-        lines.append(
-            f"{failure['mesh']}, amplitude {failure['amplitude']}, seed {failure['seed']}: {failure['left']} left"
-        )
-    return lines
+    others = "{mesh}, amplitude {amplitude}, seed {seed}: {left} left"
+    return lines + [others.format(**failure) for failure in figures["others"]]
 
 
 _PROBE = """
@@ -105,10 +100,6 @@ print(json.dumps(row))
 """
 
 
-def _sizes() -> dict[str, Any]:
-    return {"sizes": by_size(_PROBE)}
-
-
 def _size_lines(figures: dict[str, Any]) -> list[str]:
     return [
         f"{row['hexes']:>9,} hexes   inverted {row['inverted']:>6,} to {row['left']}"
@@ -118,7 +109,8 @@ def _size_lines(figures: dict[str, Any]) -> list[str]:
     ]
 
 
-SIZES = BenchSection("sizes", "mend on five-side scrambled by 0.3, against size (whole process)", _sizes, _size_lines)
+_TITLE = "mend on five-side scrambled by 0.3, against size (whole process)"
+SIZES = BenchSection("sizes", _TITLE, partial(by_size, _PROBE), _size_lines)
 OPTIMA = BenchSection("optima", "mend, from the mesh to its optimum", _optima, _optima_lines)
 UNTANGLING = BenchSection(
     "tangled", "mend on meshes scrambled by up to 5 edge lengths, 750 to 2,500 hexes", _untangling, _untangling_lines

@@ -36,11 +36,13 @@ def _kernels() -> dict[str, Any]:
     mesh = make("bridge-sharp")
     energy = MeshEnergy(mesh)
     x, hexes, m = energy.to_edge_units(mesh.points), mesh.hexes, mesh.n_hexes
-    hessian, none = energy.hessian(x), energy.left_out
+    hessian, none = energy.hessian(x), energy.omitted
     gradient, shares, figures = energy.gradient(x), np.empty((m, 8, 3)), np.empty((4, m))
     matrix, right = hessian.assembled(), -gradient.ravel()
     hex_mesh, colours = mesh.topology.hex_mesh, mesh.topology.colouring(mesh.free)
-    settings = local.NodeStepSettings(local.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), LineSearch(max_backtracks=60))
+    settings = local.NodeStepSettings(
+        local.Direction.STEEPEST_DESCENT, 0.0, ObjectiveNorm(), LineSearch(max_backtracks=60)
+    )
 
     def sweep(by: Callable[..., None]) -> None:
         by(x.copy(), hex_mesh, colours.start, colours.items, settings)
@@ -122,16 +124,9 @@ def _preconditioners() -> dict[str, Any]:
             for residual in _RESIDUALS:
                 began = perf_counter()
                 solved = matrix.solve(right, residual, 2000)
-                rows.append(
-                    {
-                        "hexes": mesh.n_hexes,
-                        "preconditioner": name,
-                        "residual": residual,
-                        "iterations": solved.iterations,
-                        "negative_curvature": bool(solved.negative_curvature),
-                        "seconds": perf_counter() - began,
-                    }
-                )
+                row = {"hexes": mesh.n_hexes, "preconditioner": name, "residual": residual}
+                row |= {"iterations": solved.iterations, "negative_curvature": bool(solved.negative_curvature)}
+                rows.append(row | {"seconds": perf_counter() - began})
     return {"systems": rows}
 
 
@@ -145,9 +140,5 @@ def _preconditioner_lines(figures: dict[str, Any]) -> list[str]:
 
 
 KERNELS = BenchSection("kernels", "Kernels on bridge-sharp, 32,000 hexes (median of 15)", _kernels, _kernel_lines)
-PRECONDITIONERS = BenchSection(
-    "preconditioners",
-    "Newton's system on five-side, moved by up to 0.03 edge lengths from its optimum",
-    _preconditioners,
-    _preconditioner_lines,
-)
+_TITLE = "Newton's system on five-side, moved by up to 0.03 edge lengths from its optimum"
+PRECONDITIONERS = BenchSection("preconditioners", _TITLE, _preconditioners, _preconditioner_lines)

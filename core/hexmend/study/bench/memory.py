@@ -99,6 +99,5 @@ def _lines(figures: dict[str, Any]) -> list[str]:
     return lines
 
 
-MEMORY = BenchSection(
-    "memory", "Memory of a run in addition to the open mesh, a scrambled block (whole process)", _memory, _lines
-)
+_TITLE = "Memory of a run in addition to the open mesh, a scrambled block (whole process)"
+MEMORY = BenchSection("memory", _TITLE, _memory, _lines)

@@ -84,6 +84,5 @@ def _pair(one: float, zero: float) -> str:
     return f"**{texts[0]}** · {texts[1]}" if one > zero else f"{texts[0]} · **{texts[1]}**"
 
 
-OFFSETS = BenchSection(
-    "offsets", 'The optimum with the "-1" of (B.20) · without it (in brackets the thesis\'s)', _measure, _lines
-)
+_TITLE = 'The optimum with the "-1" of (B.20) · without it (in brackets the thesis\'s)'
+OFFSETS = BenchSection("offsets", _TITLE, _measure, _lines)

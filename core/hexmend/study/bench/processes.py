@@ -80,9 +80,7 @@ def _processes() -> dict[str, Any]:
 
 
 def _lines(figures: dict[str, Any]) -> list[str]:
-    lines = []
-    for name, row in figures["commands"].items():
-        lines.append(f"hexmend {name:<42} {_pair(row, '')}")
+    lines = [f"hexmend {name:<42} {_pair(row, '')}" for name, row in figures["commands"].items()]
     for name, row in figures["smooth"].items():
         lines.append(f"hexmend smooth {name:<35} {_pair(row, '')}   of it the method {_pair(row, '_method')}")
     rows = list(figures["smooth"].values())
@@ -99,6 +97,5 @@ def _pair(row: dict[str, float], suffix: str) -> str:
     return f"{now:7.3f} s" + (f" (before {before:7.3f} s, {before / now:5.2f} x)" if before else "")
 
 
-PROCESSES = BenchSection(
-    "processes", f"Whole processes (median of {_TIMES}; {_OTHER} names a program to compare)", _processes, _lines
-)
+_TITLE = f"Whole processes (median of {_TIMES}; {_OTHER} names a program to compare)"
+PROCESSES = BenchSection("processes", _TITLE, _processes, _lines)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import platform
+from functools import partial
 from importlib.metadata import entry_points
 from statistics import median
 from typing import Any
@@ -93,9 +94,8 @@ def _iteration_lines(figures: dict[str, Any]) -> list[str]:
     rows = []
     for name, row in figures.items():
         against = f"   {row['ratio']:,.0f} x faster than the program of the thesis" if row["ratio"] else ""
-        rows.append(
-            f"{name:<18} {row['seconds'] * 1e3:8.1f} ms   {row['seconds_per_node'] * 1e9:8.0f} ns a node{against}"
-        )
+        milliseconds, nanoseconds = row["seconds"] * 1e3, row["seconds_per_node"] * 1e9
+        rows.append(f"{name:<18} {milliseconds:8.1f} ms   {nanoseconds:8.0f} ns a node{against}")
     return rows
 
 
@@ -122,10 +122,6 @@ print(json.dumps(row))
 """
 
 
-def _scaling() -> dict[str, Any]:
-    return {"sizes": by_size(_PROBE)}
-
-
 def _scaling_lines(figures: dict[str, Any]) -> list[str]:
     return [
         f"{row['hexes']:>9,} hexes   topology {row['topology_seconds']:6.2f} s   "
@@ -137,4 +133,5 @@ def _scaling_lines(figures: dict[str, Any]) -> list[str]:
 ITERATIONS = BenchSection(
     "iterations", "One iteration on bridge-sharp, 32,000 hexes (median of 9)", _iterations, _iteration_lines
 )
-SCALING = BenchSection("scaling", "Topology and quality against size (whole process)", _scaling, _scaling_lines)
+_TITLE = "Topology and quality against size (whole process)"
+SCALING = BenchSection("scaling", _TITLE, partial(by_size, _PROBE), _scaling_lines)

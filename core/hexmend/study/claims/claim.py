@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import wraps
+from types import ModuleType
 from typing import Any, TypeVar
 
 T = TypeVar("T")
@@ -41,6 +42,9 @@ class Claim:
 
 Judge = Callable[[Sequence[T]], Finding]
 
+#: All functions that `claim` has decorated, in the order of their modules' lines.
+_DECLARED: list[Callable[..., Claim]] = []
+
 
 def claim(section: str, sentence: str) -> Callable[[Judge[T]], Callable[[Sequence[T]], Claim]]:
     """Decorator: turn a function from results to a `Finding` into one from results to a `Claim`.
@@ -58,9 +62,15 @@ def claim(section: str, sentence: str) -> Callable[[Judge[T]], Callable[[Sequenc
         def judged(results: Sequence[T]) -> Claim:
             return Claim(section, sentence, *judge(results))
 
+        _DECLARED.append(judged)
         return judged
 
     return decorate
+
+
+def claims_of(*modules: ModuleType) -> tuple[Callable[..., Claim], ...]:
+    """Return the claims that modules declare, in the order of the modules and of their lines."""
+    return tuple(one for module in modules for one in _DECLARED if one.__module__ == module.__name__)
 
 
 def tally(cases: Sequence[tuple[bool, str]], otherwise: str, *, most: bool = False) -> Finding:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from hexmend.iteration import Outcome
 from hexmend.study.claims.claim import Finding, claim, tally
-from hexmend.study.claims.queries import ending, of_mesh, optimiser_runs, rows_of
+from hexmend.study.claims.queries import ending, of_mesh, optimiser_runs, reached_optimum, with_rows
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
@@ -27,6 +27,17 @@ def small_delta_harms(results: Sequence[ExperimentResult]) -> Finding:
             ends = [row.outcome == Outcome.CONVERGED.key for row in rows]
             harmed.append(ends[-1] and not ends[0])
     return all(harmed) if harmed else None, " ".join(details)
+
+
+@claim("4.2.1", "A small delta is no problem for the direct solver of local Newton-Raphson.")
+def direct_solver(results: Sequence[ExperimentResult]) -> Finding:
+    """4.2.1, Table 4.3: judged from bridge-sharp's start with inverted hexes, at the least delta."""
+    found = [result for result in of_mesh(results, "bridge-sharp", "laplacian") if result.experiment.delta is not None]
+    for result, row in with_rows(sorted(found, key=lambda result: result.experiment.delta), "local-nr"):
+        if (reached := reached_optimum(result, row)) is not None:
+            left = f"{row.after.inverted:,} of {result.start.inverted:,} inverted hexes left"
+            return reached, f"With delta {result.experiment.delta:g} {ending(row)}, {left}."
+    return None, "It was not run, or had too little time."
 
 
 @claim("4.2.1", "A large delta moves the optimum so far that an optimiser may converge and leave hexes inverted.")
@@ -52,9 +63,8 @@ def delta_idle(results: Sequence[ExperimentResult]) -> Finding:
             delta, first = known.setdefault(key, (result.experiment.delta, row))
             if delta != result.experiment.delta:
                 same = (first.iterations, first.after) == (row.iterations, row.after)
-                details = f"{row.method} with delta {delta:g} and {result.experiment.delta:g}: "
-                details += "the same" if same else f"{ending(first)}, {ending(row)}"
-                cases.append((same, details))
+                ends = "the same" if same else f"{ending(first)}, {ending(row)}"
+                cases.append((same, f"{row.method} with delta {delta:g} and {result.experiment.delta:g}: {ends}"))
     return tally(cases, "No method ran with two values of delta from one valid start.")
 
 
@@ -70,14 +80,9 @@ def _left_inverted(results: Sequence[ExperimentResult], methods: Sequence[str]) 
 
 def _by_delta(results: Sequence[ExperimentResult], method: str) -> tuple[list[Row], str]:
     """Return the rows of a method on bridge-sharp after Laplacian smoothing by rising delta, and describe them."""
-    found = {
-        result.experiment.delta: result.rows[method]
-        for result in of_mesh(results, "bridge-sharp", "laplacian")
-        if rows_of(result, method)
-    }
-    details = "; ".join(
-        f"delta {delta:g}: {ending(row)}, {row.after.inverted:,} inverted" for delta, row in sorted(found.items())
-    )
+    start = of_mesh(results, "bridge-sharp", "laplacian")
+    found = {result.experiment.delta: row for result, row in with_rows(start, method)}
     if len(found) < 2:
         return [], f"Of {method} there is no pair of runs with two values of delta."
-    return [found[delta] for delta in sorted(found)], f"With {details}."
+    ends = (f"delta {delta:g}: {ending(row)}, {row.after.inverted:,} inverted" for delta, row in sorted(found.items()))
+    return [found[delta] for delta in sorted(found)], f"With {'; '.join(ends)}."

@@ -13,9 +13,10 @@ from hexmend.study.claims.queries import (
     optimal_runs,
     published,
     reached_optimum,
-    rows_of,
     seconds_of,
     title,
+    with_optimal,
+    with_rows,
 )
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
@@ -31,15 +32,67 @@ _NEAR = 3e-3
 _COMPETITIVE = 3.0
 
 
+@claim("4.3.1", "Of the global methods Newton-Raphson is the superior one.")
+def newton_best_of_global(results: Sequence[ExperimentResult]) -> Finding:
+    """4.3.1, on five-side: by the seconds of those that arrive, in most cases, as in the thesis's own tables."""
+    cases = [
+        (found[0].method == "global-nr", f"{title(result)}: {seconds_of(found)}")
+        for result, _ in with_rows(of_mesh(results, "five-side"), "global-nr")
+        if (found := optimal_runs(result, "global-"))
+    ]
+    return tally(cases, "On five-side no global method converged.", most=True)
+
+
+@claim("4.3.1", "Making the global Hessian positive definite is of negligible advantage.")
+def modified_global(results: Sequence[ExperimentResult]) -> Finding:
+    """4.3.1: an advantage is to arrive where Newton-Raphson does not, or clearly sooner."""
+    cases = []
+    for result, newton, modified in with_rows(published(results), "global-nr", "global-mnr"):
+        reached = reached_optimum(result, newton), reached_optimum(result, modified)
+        if None not in reached and any(reached):
+            sooner = modified.seconds < (1 - _NEGLIGIBLE) * newton.seconds
+            advantage = reached[1] and (not reached[0] or sooner)
+            runs = (f"{ending(row)}, {row.seconds:.3g} s" for row in (modified, newton))
+            cases.append((not advantage, f"{title(result)}: {'; '.join(runs)}"))
+    unknown = "In no experiment did global-nr or global-mnr converge while the other had time enough."
+    return tally(cases, unknown, most=True)
+
+
+@claim("4.1.3", "Moving all nodes at once, Newton-Raphson converges in fewer iterations than node by node.")
+def fewer_iterations(results: Sequence[ExperimentResult]) -> Finding:
+    """4.1.3, "No Artificial Barriers": judged where both arrive."""
+    cases = []
+    for result, global_, local in with_optimal(published(results), "global-nr", "local-nr"):
+        details = f"{title(result)}: {global_.iterations:,} iterations, node by node {local.iterations:,}"
+        cases.append((global_.iterations < local.iterations, details))
+    return tally(cases, "In no experiment did global-nr and local-nr both converge.")
+
+
+@claim("5.1", "Global methods are competitive with second order search directions only.")
+def competitive(results: Sequence[ExperimentResult]) -> Finding:
+    """5.1: competitive is to arrive within a few times the seconds of the fastest local method."""
+    first, second, details = 0, 0, []
+    for result, _ in with_rows(published(results), "global-sd"):
+        if local := optimal_runs(result, "local-"):
+            global_ = optimal_runs(result, "global-")
+            near = {row.method for row in global_ if row.seconds <= _COMPETITIVE * local[0].seconds}
+            first += "global-sd" in near
+            second += bool(near - {"global-sd"})
+            details.append(f"{title(result)}: {seconds_of([local[0], *global_[:1]])}")
+    if not details:
+        return None, "In no experiment did a local and a global method converge."
+    counts = f"second order in {second}, steepest descent in {first}"
+    counts = f"Within {_COMPETITIVE:g} times a local method's seconds: {counts}"
+    return second > 0 and first == 0, f"{counts} of {len(details)} experiments. {'. '.join(details)}."
+
+
 @claim("4.1.3", "Global steepest descent is slow or stuck.")
 def global_sd_slow(results: Sequence[ExperimentResult]) -> Finding:
     """4.1.3: judged where another optimiser shows, within the same limits, that the optimum can be reached."""
     cases = []
-    for result in published(results):
-        rows = rows_of(result, "global-sd")
-        others = [row for row in optimal_runs(result) if row not in rows]
-        if rows and others:
-            (descent,), fastest = rows, min(others, key=lambda row: row.iterations)
+    for result, descent in with_rows(published(results), "global-sd"):
+        if others := [row for row in optimal_runs(result) if row is not descent]:
+            fastest = min(others, key=lambda row: row.iterations)
             slow = not reached_optimum(result, descent) or descent.iterations >= MUCH_SLOWER * fastest.iterations
             away = "" if is_near_best(result, descent) else " away from the optimum"
             cases.append((slow, f"{title(result)}: {ending(descent)}{away}; {ending(fastest)}"))
@@ -53,95 +106,32 @@ def global_sd_slow(results: Sequence[ExperimentResult]) -> Finding:
 def global_sd_smallest(results: Sequence[ExperimentResult]) -> Finding:
     """4.1.3; in Table 4.6 it stops at its iteration limit, so that whether it converged is not asked."""
     cases, sizes = [], set()
-    for result in published(results):
-        if (rows := rows_of(result, "global-sd")) and any(row not in rows for row in optimal_runs(result)):
-            reached, small = is_near_best(result, rows[0], _NEAR), result.experiment.table in ("4.5", "4.6")
+    for result, descent in with_rows(published(results), "global-sd"):
+        if any(row is not descent for row in optimal_runs(result)):
+            reached, small = is_near_best(result, descent, _NEAR), result.experiment.table in ("4.5", "4.6")
             sizes.add(small)
             cases.append((reached is small, f"{title(result)}: {'arrives' if reached else 'does not'}"))
-    return tally(
-        cases if len(sizes) > 1 else [], "Another optimiser did not converge on these two and on another mesh."
-    )
+    unknown = "Another optimiser did not converge on these two and on another mesh."
+    return tally(cases if len(sizes) > 1 else [], unknown)
 
 
 @claim("4.2.1", "Global steepest descent is unable to smooth bridge-sharp in any of the cases.")
 def global_sd_bridge(results: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Tables 4.1 to 4.4."""
-    cases = []
-    for result in of_mesh(results, "bridge-sharp"):
-        if (rows := rows_of(result, "global-sd")) and (reached := reached_optimum(result, rows[0])) is not None:
-            cases.append((not reached, f"{title(result)}: {ending(rows[0])}, q norm {rows[0].after.q_norm:.4f}"))
-    return tally(cases, "It was not run, or had too little time.")
-
-
-@claim("4.3.1", "Of the global methods Newton-Raphson is the superior one.")
-def newton_best_of_global(results: Sequence[ExperimentResult]) -> Finding:
-    """4.3.1, on five-side: by the seconds of those that arrive, in most cases, as in the thesis's own tables."""
     cases = [
-        (found[0].method == "global-nr", f"{title(result)}: {seconds_of(found)}")
-        for result in of_mesh(results, "five-side")
-        if (found := optimal_runs(result, "global-")) and rows_of(result, "global-nr")
+        (not reached, f"{title(result)}: {ending(row)}, q norm {row.after.q_norm:.4f}")
+        for result, row in with_rows(of_mesh(results, "bridge-sharp"), "global-sd")
+        if (reached := reached_optimum(result, row)) is not None
     ]
-    return tally(cases, "On five-side no global method converged.", most=True)
-
-
-@claim("4.3.1", "Making the global Hessian positive definite is of negligible advantage.")
-def modified_global(results: Sequence[ExperimentResult]) -> Finding:
-    """4.3.1: an advantage is to arrive where Newton-Raphson does not, or clearly sooner."""
-    cases = []
-    for result in published(results):
-        if rows := rows_of(result, "global-nr", "global-mnr"):
-            newton, modified = rows
-            reached = reached_optimum(result, newton), reached_optimum(result, modified)
-            if None not in reached and any(reached):
-                sooner = modified.seconds < (1 - _NEGLIGIBLE) * newton.seconds
-                advantage = reached[1] and (not reached[0] or sooner)
-                runs = (f"{ending(row)}, {row.seconds:.3g} s" for row in (modified, newton))
-                details = f"{title(result)}: {'; '.join(runs)}"
-                cases.append((not advantage, details))
-    return tally(
-        cases, "In no experiment did global-nr or global-mnr converge while the other had time enough.", most=True
-    )
-
-
-@claim("4.1.3", "Moving all nodes at once, Newton-Raphson converges in fewer iterations than node by node.")
-def fewer_iterations(results: Sequence[ExperimentResult]) -> Finding:
-    """4.1.3, "No Artificial Barriers": judged where both arrive."""
-    cases = []
-    for result in published(results):
-        if rows := rows_of(result, "global-nr", "local-nr"):
-            global_, local = rows
-            if reached_optimum(result, global_) and reached_optimum(result, local):
-                details = f"{title(result)}: {global_.iterations:,} iterations, node by node {local.iterations:,}"
-                cases.append((global_.iterations < local.iterations, details))
-    return tally(cases, "In no experiment did global-nr and local-nr both converge.")
-
-
-@claim("5.1", "Global methods are competitive with second order search directions only.")
-def competitive(results: Sequence[ExperimentResult]) -> Finding:
-    """5.1: competitive is to arrive within a few times the seconds of the fastest local method."""
-    first, second, details = 0, 0, []
-    for result in published(results):
-        rows, local = rows_of(result, "global-sd"), optimal_runs(result, "local-")
-        if rows and local:
-            near = [row for row in optimal_runs(result, "global-") if row.seconds <= _COMPETITIVE * local[0].seconds]
-            first += any(row.method == "global-sd" for row in near)
-            second += any(row.method != "global-sd" for row in near)
-            global_ = optimal_runs(result, "global-")
-            details.append(f"{title(result)}: {seconds_of([local[0], *global_[:1]])}")
-    if not details:
-        return None, "In no experiment did a local and a global method converge."
-    counts = (
-        f"Within {_COMPETITIVE:g} times a local method's seconds: second order in {second}, steepest descent in {first}"
-    )
-    return second > 0 and first == 0, f"{counts} of {len(details)} experiments. {'. '.join(details)}."
+    return tally(cases, "It was not run, or had too little time.")
 
 
 @claim("4.3.1", "MINRES solves well conditioned global Hessians effectively, without a preconditioner.")
 def minres_suffices(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: judged on five-side from valid starts, in most of which the thesis's Newton-Raphson arrives."""
-    cases = []
-    for result in of_mesh(results, "five-side"):
-        rows = rows_of(result, "global-nr") if result.start.inverted == 0 else []
-        if rows and (reached := reached_optimum(result, rows[0])) is not None:
-            cases.append((reached, f"{title(result)}: {ending(rows[0])}, {rows[0].seconds:.3g} s"))
+    cases = [
+        (reached, f"{title(result)}: {ending(row)}, {row.seconds:.3g} s")
+        for result, row in with_rows(of_mesh(results, "five-side"), "global-nr")
+        if result.start.inverted == 0 and (reached := reached_optimum(result, row)) is not None
+    ]
     return tally(cases, "On five-side global-nr was not run from a valid start, or had too little time.", most=True)

@@ -9,46 +9,20 @@ import numpy as np
 
 from hexmend.quality import measure
 from hexmend.study.claims.claim import Finding, claim, tally
-from hexmend.study.claims.queries import converged_runs, of_mesh, optimal_runs, published, rows_of, seconds_of, title
+from hexmend.study.claims.queries import converged_runs, of_mesh, optimal_runs, published, seconds_of, title, with_rows
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
 #: "An order of magnitude".
 _ORDER = 10.0
 
 
-@claim("4.2, 4.4.1", "Laplacian smoothing inverts hexes on bridge-sharp and on plane.")
-def laplacian_inverts(results: Sequence[ExperimentResult]) -> Finding:
-    """4.2, 4.4.1: judged by the hexes that were valid before, on the largest of the meshes."""
-    found: dict[str, tuple[int, int]] = {}
-    for result in itertools.chain(of_mesh(results, "bridge-sharp"), of_mesh(results, "plane")):
-        if result.initial.hexes > found.get(result.experiment.mesh, (0, 0))[0] and (
-            rows := rows_of(result, "laplacian")
-        ):
-            before, after = (measure(mesh.points, mesh.hexes).inverted for mesh in (result.mesh, rows[0].mesh))
-            found[result.experiment.mesh] = result.initial.hexes, int(np.count_nonzero(after & ~before))
-    details = "; ".join(f"{mesh}, {hexes:,} hexes: {count:,} valid ones" for mesh, (hexes, count) in found.items())
-    if len(found) < 2:
-        return None, f"Only one of them was measured. {details}".strip() if details else "Neither was measured."
-    return all(count > 0 for _, count in found.values()), f"It inverts on {details}."
-
-
-@claim("4.4.1", "On plane Laplacian smoothing lowers the mean quality.")
-def laplacian_lowers_mean(results: Sequence[ExperimentResult]) -> Finding:
-    """4.4.1, Table 4.14."""
-    for result in of_mesh(results, "plane", "initial"):
-        if rows := rows_of(result, "laplacian"):
-            before, after = result.initial.q_mean, rows[0].after.q_mean
-            return after < before, f"It was {before:.4f} and is {after:.4f}."
-    return None, "It was not run on plane."
-
-
 @claim("4.4.1", "On plane GETMe raises the least and the mean quality, but not as much as optimisation.")
 def getme_between(results: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.14."""
-    for result in of_mesh(results, "plane", "initial"):
-        if (rows := rows_of(result, "getme")) and (found := converged_runs(result)):
+    for result, getme in with_rows(of_mesh(results, "plane", "initial"), "getme"):
+        if found := converged_runs(result):
             top = found[0]
-            three = result.initial, rows[0].after, top.after
+            three = result.initial, getme.after, top.after
             least, mean = [summary.q_min for summary in three], [summary.q_mean for summary in three]
             details = (
                 f"q min is {least[0]:.4f} at the start, {least[1]:.4f} by getme, {least[2]:.4f} by {top.method} "
@@ -65,13 +39,37 @@ def getme_between(results: Sequence[ExperimentResult]) -> Finding:
 )
 def heuristics_faster(results: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.15."""
-    for result in of_mesh(results, "plane", "initial"):
-        if (rows := rows_of(result, "laplacian", "getme")) and (found := optimal_runs(result)):
+    for result, *rows in with_rows(of_mesh(results, "plane", "initial"), "laplacian", "getme"):
+        if found := optimal_runs(result):
             slowest, fastest = max(row.seconds for row in rows), found[0]
             ratio = fastest.seconds / slowest
             details = f"{seconds_of([*rows, *found])}: the fastest optimiser takes {ratio:.2g} times as long."
             return fastest.method == "local-sd" and fastest.seconds > _ORDER * slowest, details
     return None, "The heuristics and an optimiser that converges were not all run on plane."
+
+
+@claim("4.2, 4.4.1", "Laplacian smoothing inverts hexes on bridge-sharp and on plane.")
+def laplacian_inverts(results: Sequence[ExperimentResult]) -> Finding:
+    """4.2, 4.4.1: judged by the hexes that were valid before, on the largest of the meshes."""
+    found: dict[str, tuple[int, int]] = {}
+    meshes = itertools.chain(of_mesh(results, "bridge-sharp"), of_mesh(results, "plane"))
+    for result, row in with_rows(meshes, "laplacian"):
+        if result.initial.hexes > found.get(result.experiment.mesh, (0, 0))[0]:
+            before, after = (measure(mesh.points, mesh.hexes).inverted for mesh in (result.mesh, row.mesh))
+            found[result.experiment.mesh] = result.initial.hexes, int(np.count_nonzero(after & ~before))
+    details = "; ".join(f"{mesh}, {hexes:,} hexes: {count:,} valid ones" for mesh, (hexes, count) in found.items())
+    if len(found) < 2:
+        return None, f"Only one of them was measured. {details}".strip() if details else "Neither was measured."
+    return all(count > 0 for _, count in found.values()), f"It inverts on {details}."
+
+
+@claim("4.4.1", "On plane Laplacian smoothing lowers the mean quality.")
+def laplacian_lowers_mean(results: Sequence[ExperimentResult]) -> Finding:
+    """4.4.1, Table 4.14."""
+    for result, row in with_rows(of_mesh(results, "plane", "initial"), "laplacian"):
+        before, after = result.initial.q_mean, row.after.q_mean
+        return after < before, f"It was {before:.4f} and is {after:.4f}."
+    return None, "It was not run on plane."
 
 
 @claim(
@@ -82,17 +80,13 @@ def heuristics_faster(results: Sequence[ExperimentResult]) -> Finding:
 def getme_against_laplacian(results: Sequence[ExperimentResult]) -> Finding:
     """4.2: judged by the time of an iteration wherever both ran, and by q norm wherever that is higher."""
     slower, higher, details = [], [], []
-    for result in published(results):
-        if rows := rows_of(result, "laplacian", "getme"):
-            laplacian, getme = rows
-            if laplacian.iterations and getme.iterations:
-                ratio = getme.seconds_per_iteration / laplacian.seconds_per_iteration
-                slower.append(ratio > 1)
-                higher.append(getme.after.q_norm > laplacian.after.q_norm)
-                details.append(
-                    f"{title(result)}: {ratio:.2g} times the time, q norm {getme.after.q_norm:.4f} against "
-                    f"{laplacian.after.q_norm:.4f}"
-                )
+    for result, laplacian, getme in with_rows(published(results), "laplacian", "getme"):
+        if laplacian.iterations and getme.iterations:
+            ratio = getme.seconds_per_iteration / laplacian.seconds_per_iteration
+            slower.append(ratio > 1)
+            higher.append(getme.after.q_norm > laplacian.after.q_norm)
+            norms = f"{getme.after.q_norm:.4f} against {laplacian.after.q_norm:.4f}"
+            details.append(f"{title(result)}: {ratio:.2g} times the time, q norm {norms}")
     if not details:
         return None, "They were not both run on a mesh."
     return all(slower) and any(higher), f"Higher in {sum(higher)} of {len(higher)} experiments. {'. '.join(details)}."
@@ -102,13 +96,12 @@ def getme_against_laplacian(results: Sequence[ExperimentResult]) -> Finding:
 def getme_cheaper(results: Sequence[ExperimentResult]) -> Finding:
     """4.2: GETMe's whole time against that of the optimisers that arrive from the same mesh."""
     cases = {}
-    for result in published(results):
-        for other in of_mesh(results, result.experiment.mesh, "initial"):
-            same = other.initial.hexes == result.initial.hexes
-            if same and (rows := rows_of(result, "getme")) and (found := optimal_runs(other)):
-                key = result.experiment.mesh, result.initial.hexes
-                details = f"{key[0]}, {key[1]:,} hexes: {seconds_of([*rows, found[0]])}"
-                cases[key] = rows[0].seconds < found[0].seconds, details
+    for result, getme in with_rows(published(results), "getme"):
+        key = name, hexes = result.experiment.mesh, result.initial.hexes
+        for other in of_mesh(results, name, "initial"):
+            if other.initial.hexes == hexes and (found := optimal_runs(other)):
+                details = f"{name}, {hexes:,} hexes: {seconds_of([getme, found[0]])}"
+                cases[key] = getme.seconds < found[0].seconds, details
     return tally(list(cases.values()), "GETMe and an optimiser that converges were not both run on a mesh.")
 
 
@@ -116,8 +109,7 @@ def getme_cheaper(results: Sequence[ExperimentResult]) -> Finding:
 def sequential_raises_minimum(results: Sequence[ExperimentResult]) -> Finding:
     """3.1.2: confirmed there of meshes without figures, judged here from each start that it was given."""
     cases = []
-    for result in published(results):
-        for row in rows_of(result, "getme-sequential"):
-            before, after = result.start.q_min, row.after.q_min
-            cases.append((after > before, f"{title(result)}: {before:.4f} to {after:.4f}"))
+    for result, row in with_rows(published(results), "getme-sequential"):
+        before, after = result.start.q_min, row.after.q_min
+        cases.append((after > before, f"{title(result)}: {before:.4f} to {after:.4f}"))
     return tally(cases, "It was not run.")

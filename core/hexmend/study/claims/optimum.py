@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
+import numpy as np
+
 from hexmend.study.claims.claim import Finding, claim, tally
 from hexmend.study.claims.queries import (
     SAME_OBJECTIVE,
@@ -20,6 +22,7 @@ from hexmend.study.claims.queries import (
     published,
     rows_of,
     title,
+    with_rows,
 )
 from hexmend.study.thesis.experiment_result import ExperimentResult
 
@@ -82,30 +85,23 @@ def one_quality(results: Sequence[ExperimentResult]) -> Finding:
     for result in of_mesh(results, "plane"):
         rows = converged_runs(result)
         if len(rows) > 1:
-            spans = [
-                max(values) - min(values)
-                for values in ([row.after.q_min for row in rows], [row.after.q_mean for row in rows])
-            ]
-            details = (
-                f"{title(result)}: q min of {len(rows)} methods within {spans[0]:.4f} and q mean within {spans[1]:.4f} "
-                f"(the same is taken as {_SAME_QUALITY:g})"
-            )
-            cases.append((max(spans) <= _SAME_QUALITY, details))
+            least, mean = (np.ptp([getattr(row.after, key) for row in rows]) for key in ("q_min", "q_mean"))
+            spans = f"q min of {len(rows)} methods within {least:.4f} and q mean within {mean:.4f}"
+            details = f"{title(result)}: {spans} (the same is taken as {_SAME_QUALITY:g})"
+            cases.append((bool(max(least, mean) <= _SAME_QUALITY), details))
     return tally(cases, "On plane fewer than two optimisers converged.")
 
 
 @claim("4.4.1", "On plane optimisation ends at a higher quality, least and mean, than any other method.")
 def optimum_is_best(results: Sequence[ExperimentResult]) -> Finding:
     """4.4.1, Table 4.14."""
-    for result in of_mesh(results, "plane", "initial"):
-        rows, found = rows_of(result, "laplacian", "getme"), converged_runs(result)
-        if rows and found:
+    for result, *rows in with_rows(of_mesh(results, "plane", "initial"), "laplacian", "getme"):
+        if found := converged_runs(result):
             top = found[0]
             others = {"initial": result.initial} | {row.method: row.after for row in rows}
             details = "; ".join(f"{name} {row.q_min:.4f}, {row.q_mean:.4f}" for name, row in others.items())
             higher = all(row.q_min < top.after.q_min and row.q_mean < top.after.q_mean for row in others.values())
-            left = f"{top.after.inverted:,} inverted"
-            mine = f"{top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f} ({left})"
+            mine = f"{top.method} {top.after.q_min:.4f}, {top.after.q_mean:.4f} ({top.after.inverted:,} inverted)"
             return higher, f"q min and q mean: {mine}; {details}."
     return None, "The heuristics and an optimiser that converges were not all run on plane."
 
@@ -117,19 +113,13 @@ def optimum_is_best(results: Sequence[ExperimentResult]) -> Finding:
 )
 def better_minimum(results: Sequence[ExperimentResult]) -> Finding:
     """The remark below Table 4.8."""
-    for result in published(results):
-        if (
-            result.experiment.table == "4.8"
-            and (descent := rows_of(result, "global-sd"))
-            and (others := optimal_runs(result))
-        ):
-            (stuck,) = descent
-            details = "; ".join(
-                f"{row.method} {row.after.q_min:.4f}, {row.after.q_norm:.4f}" for row in [stuck, *others]
+    for result, stuck in with_rows(published(results), "global-sd"):
+        if result.experiment.table == "4.8" and (others := optimal_runs(result)):
+            runs = (f"{row.method} {row.after.q_min:.4f}, {row.after.q_norm:.4f}" for row in [stuck, *others])
+            holds = all(  # not of itself, if it is among them
+                row.after.q_min < stuck.after.q_min and row.after.q_norm > stuck.after.q_norm for row in others
             )
-            higher = all(row.after.q_min < stuck.after.q_min for row in others if row is not stuck)
-            worse = all(row.after.q_norm > stuck.after.q_norm for row in others if row is not stuck)
-            return stuck not in others and higher and worse, f"q min and q norm: {details}."
+            return holds, f"q min and q norm: {'; '.join(runs)}."
     return None, "Table 4.8 was not run, or nothing in it converged."
 
 
@@ -141,12 +131,8 @@ def heuristics_not_optimal(results: Sequence[ExperimentResult]) -> Finding:
         top = best_known(results, result)
         for row in (row for method in ("laplacian", "getme") for row in rows_of(result, method)):
             if top is not None:
-                details = (
-                    f"{result.experiment.mesh}, {result.initial.hexes:,} hexes: {row.method} {row.after.q_norm:.4f} "
-                    f"against {top.after.q_norm:.4f}"
-                )
-                cases[result.experiment.mesh, result.initial.hexes, row.method] = (
-                    row.after.q_norm < top.after.q_norm,
-                    details,
-                )
+                name, hexes = result.experiment.mesh, result.initial.hexes
+                own, best = row.after.q_norm, top.after.q_norm
+                details = f"{name}, {hexes:,} hexes: {row.method} {own:.4f} against {best:.4f}"
+                cases[name, hexes, row.method] = own < best, details
     return tally(list(cases.values()), "On no mesh did a heuristic method and an optimiser end.")

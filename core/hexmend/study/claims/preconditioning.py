@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hexmend.study.claims.claim import Finding, claim, tally
-from hexmend.study.claims.queries import ending, of_mesh, reached_optimum, rows_of
+from hexmend.study.claims.queries import ending, of_mesh, reached_optimum, with_rows
 from hexmend.study.table_row import Row
 from hexmend.study.thesis.experiment_result import ExperimentResult
 from hexmend.study.thesis.experiments import INITIAL
@@ -30,21 +30,19 @@ class _StartPair:
     @property
     def details(self) -> str:
         """The figures in a sentence."""
-        return (
-            f"From the mesh as it is {ending(self.alone)}, {self.alone.seconds:.3g} s; from that of "
-            f"{self.heuristic.method}, which takes {self.heuristic.seconds:.3g} s, {ending(self.after)}, "
-            f"{self.after.seconds:.3g} s"
-        )
+        alone, after = (f"{ending(row)}, {row.seconds:.3g} s" for row in (self.alone, self.after))
+        heuristic = f"{self.heuristic.method}, which takes {self.heuristic.seconds:.3g} s"
+        return f"From the mesh as it is {alone}; from that of {heuristic}, {after}"
 
 
 @claim("4.2.1", "On bridge-sharp local steepest descent converges faster from Laplacian smoothing's result or GETMe's.")
 def preconditioning_speeds(results: Sequence[ExperimentResult]) -> Finding:
     """4.2.1, Tables 4.1 to 4.3: judged by iterations, which cost the same from any start."""
-    pairs = _pairs(results, "bridge-sharp")
-    return tally(
-        [(pair.optimal and pair.after.iterations < pair.alone.iterations, pair.details) for pair in pairs],
-        _UNKNOWN,
-    )
+    cases = [
+        (pair.optimal and pair.after.iterations < pair.alone.iterations, pair.details)
+        for pair in _pairs(results, "bridge-sharp")
+    ]
+    return tally(cases, _UNKNOWN)
 
 
 @claim("4.4.1", "On bridge-sharp the time of preconditioning is made up for by a faster optimisation.")
@@ -70,12 +68,11 @@ def preconditioning_in_vain(results: Sequence[ExperimentResult]) -> Finding:
 
 def _pairs(results: Sequence[ExperimentResult], mesh: str) -> list[_StartPair]:
     runs: dict[tuple[str, int], tuple[Row | None, Row, bool | None]] = {}
-    for result in of_mesh(results, mesh):
-        start, delta = result.experiment.start, result.experiment.delta or 0
-        if delta < _LARGE and (rows := rows_of(result, "local-sd")):
-            runs.setdefault(
-                (start, result.initial.hexes), (result.rows.get(start), rows[0], reached_optimum(result, rows[0]))
-            )
+    for result, row in with_rows(of_mesh(results, mesh), "local-sd"):
+        start = result.experiment.start
+        if (result.experiment.delta or 0) < _LARGE:
+            run = result.rows.get(start), row, reached_optimum(result, row)
+            runs.setdefault((start, result.initial.hexes), run)
     pairs = []
     for (start, hexes), (heuristic, after, optimal) in runs.items():
         _, alone, known = runs.get((INITIAL, hexes), (None, after, None))

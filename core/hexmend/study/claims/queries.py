@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -50,6 +51,16 @@ def rows_of(result: ExperimentResult, *names: str) -> list[Row]:
     return rows if len(rows) == len(names) else []
 
 
+def with_rows(results: Iterable[ExperimentResult], *names: str) -> Iterator[tuple[Any, ...]]:
+    """Yield each experiment in which all these methods ran, followed by their rows."""
+    return ((result, *rows) for result in results if (rows := rows_of(result, *names)))
+
+
+def with_optimal(results: Iterable[ExperimentResult], *names: str) -> Iterator[tuple[Any, ...]]:
+    """Yield each experiment in which all these methods reached the optimum, followed by their rows."""
+    return (one for one in with_rows(results, *names) if all(reached_optimum(one[0], row) for row in one[1:]))
+
+
 def optimiser_runs(result: ExperimentResult, scope: str = "") -> list[Row]:
     """Return the runs of optimisers, of all or of one scope ("local-", "global-")."""
     rows = (row for row in result.rows.values() if row.method.startswith(scope) and row.after is not None)
@@ -63,7 +74,7 @@ def converged_valid(row: Row) -> bool:
 
 def objective(row: Row) -> float | None:
     """Return the objective (3.3) with p and offset of the run, at delta = 0; None if a hex is inverted."""
-    return row.objective_by(row.power or SQUARES)
+    return row.objective_by(row.norm or SQUARES)
 
 
 def is_near_best(result: ExperimentResult, row: Row, share: float = SAME_OBJECTIVE) -> bool:

@@ -30,12 +30,10 @@ def several_fail(results: Sequence[ExperimentResult]) -> Finding:
     """4.3.1: of methods that had as much time as another took to the optimum."""
     found = list(of_mesh(results, "five-side"))
     judged = [result for result in found if optimal_runs(result) and optimiser_runs(result, "global-")]
-    failures = {
-        title(result): [
-            ending(row) for row in optimiser_runs(result, "global-") if reached_optimum(result, row) is False
-        ]
-        for result in judged
-    }
+    failures: dict[str, list[str]] = {}
+    for result in judged:
+        failed = (row for row in optimiser_runs(result, "global-") if reached_optimum(result, row) is False)
+        failures[title(result)] = list(map(ending, failed))
     details = ". ".join(f"{mesh}: {', '.join(ends) or 'none'}" for mesh, ends in failures.items())
     if len(judged) < _SEVERAL:
         return None, f"Fewer than {_SEVERAL} sizes were measured."
@@ -49,12 +47,10 @@ def unsuitable_on_plane(results: Sequence[ExperimentResult]) -> Finding:
     cases = []
     for result in of_mesh(results, "plane"):
         rows = [row for method in ("global-sd", "global-nr") for row in rows_of(result, method)]
-        known = [(row, reached) for row in rows if (reached := reached_optimum(result, row)) is not None]
-        if optimal_runs(result, "local-"):
-            cases += [
-                (not reached, f"{title(result)}: {ending(row)}, {row.after.inverted:,} inverted")
-                for row, reached in known
-            ]
+        for row in rows if optimal_runs(result, "local-") else ():
+            if (reached := reached_optimum(result, row)) is not None:
+                details = f"{title(result)}: {ending(row)}, {row.after.inverted:,} inverted"
+                cases.append((not reached, details))
     return tally(cases, "On plane no local method converged, or no global one had time enough.")
 
 

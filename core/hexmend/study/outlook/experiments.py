@@ -88,19 +88,18 @@ class Variant:
     def record(self, optimum: float | None) -> dict[str, Any]:
         """Return the run for JSON, with its arrival as `near_iterations`, `near_evaluations`, `near_seconds`."""
         point = self.arrival(optimum) if optimum is not None else None
+        row, after = self.row, self.row.after
         return {
-            "method": self.row.method,
+            "method": row.method,
             **self.values,
             "near_iterations": point and point.iteration,
             "near_evaluations": point and point.evaluations,
             "near_seconds": point and point.seconds,
-            "iterations": self.row.iterations,
+            "iterations": row.iterations,
             "evaluations": self.history[-1].evaluations if self.history else None,
-            "seconds": self.row.seconds,
-            "objective": self.row.after and self.row.after.objective,
-            "inverted": self.row.after and self.row.after.inverted,
-            "outcome": self.row.outcome,
-            "message": self.row.message,
+            "seconds": row.seconds,
+            **{key: after and getattr(after, key) for key in ("objective", "inverted")},
+            **{key: getattr(row, key) for key in ("outcome", "message")},
         }
 
 
@@ -133,17 +132,14 @@ class TrialResult:
 
     def record(self) -> dict[str, Any]:
         """Return the experiment for JSON."""
-        outlook = self.outlook
+        optimum = self.optimum
         return {
-            "section": outlook.section,
-            "title": outlook.title,
-            "mesh": outlook.mesh,
-            "hexes": self.initial.hexes,
-            "free_nodes": self.initial.free_nodes,
-            "optimum": self.optimum,
+            **{key: getattr(self.outlook, key) for key in ("section", "title", "mesh")},
+            **{key: getattr(self.initial, key) for key in ("hexes", "free_nodes")},
+            "optimum": optimum,
             "near": NEAR,
-            "vary": list(outlook.vary),
-            "runs": [variant.record(self.optimum) for variant in self.variants],
+            "vary": list(self.outlook.vary),
+            "runs": [variant.record(optimum) for variant in self.variants],
         }
 
 
@@ -189,7 +185,7 @@ class _HistoryRecorder:
     evaluations: int = 0
 
     def __call__(self, run: Run) -> Any:
-        counts = [run.last.diagnostics.get(key) for key in ("energies", "derivatives")]
+        counts = [run.last.diagnostics.get(key) for key in ("energy_evaluations", "derivative_evaluations")]
         evaluations = None
         if None not in counts:
             self.evaluations += sum(counts)
@@ -201,14 +197,9 @@ class _HistoryRecorder:
 
 def outlooks(entries: Sequence[Mapping[str, Any]]) -> tuple[Outlook, ...]:
     """Make outlooks of the tables of a TOML file."""
-    return tuple(
-        Outlook(
-            **{
-                **entry,
-                "methods": tuple(entry["methods"]),
-                "vary": {name: tuple(values) for name, values in entry["vary"].items()},
-                "additional": tuple(entry.get("additional", ())),
-            }
-        )
-        for entry in entries
-    )
+    found = []
+    for entry in entries:
+        vary = {name: tuple(values) for name, values in entry["vary"].items()}
+        lists = {key: tuple(entry.get(key, ())) for key in ("methods", "additional")}
+        found.append(Outlook(**entry | lists | {"vary": vary}))
+    return tuple(found)

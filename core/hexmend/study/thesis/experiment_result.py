@@ -8,7 +8,7 @@ from typing import Any
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import Summary
-from hexmend.study.table_row import Row, common_power, initial_record
+from hexmend.study.table_row import Row, common_norm, initial_record
 from hexmend.study.thesis.experiments import INITIAL, Experiment
 
 
@@ -40,20 +40,15 @@ class ExperimentResult:
 
     def record(self) -> dict[str, Any]:
         """Return the experiment for JSON, with measured figures as "columns" and those of the thesis as "published"."""
-        experiment, power = self.experiment, common_power(self.rows.values())
-        columns = {name: row.record(power) for name, row in self.rows.items()}
+        experiment, norm = self.experiment, common_norm(self.rows.values())
+        columns = {name: row.record(norm) for name, row in self.rows.items()}
         if experiment.start == INITIAL:
-            columns = {INITIAL: initial_record(self.mesh, self.initial, power)} | columns
+            columns = {INITIAL: initial_record(self.mesh, self.initial, norm)} | columns
         return {
-            "table": experiment.table,
-            "thesis_mesh": experiment.thesis_mesh,
-            "mesh": experiment.mesh,
-            "start": experiment.start,
-            "delta": experiment.delta,
-            "hexes": self.initial.hexes,
-            "free_nodes": self.initial.free_nodes,
+            **{key: getattr(experiment, key) for key in ("table", "thesis_mesh", "mesh", "start", "delta")},
+            **{key: getattr(self.initial, key) for key in ("hexes", "free_nodes")},
             "inverted": self.start.inverted,
-            "thesis": {"hexes": experiment.hexes, "free_nodes": experiment.free_nodes, "inverted": experiment.inverted},
+            "thesis": {key: getattr(experiment, key) for key in ("hexes", "free_nodes", "inverted")},
             "columns": columns,
             "published": {name: dict(figures) for name, figures in experiment.published.items()},
         }

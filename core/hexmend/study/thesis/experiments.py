@@ -13,10 +13,10 @@ from typing import Any
 
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import declared
 from hexmend.run import StoppingCriteria
-from hexmend.smoothers import Smoother
+from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.outlook.experiments import Outlook, outlooks
-from hexmend.study.thesis.settings import Settings
 
 #: Start from the mesh as generated.
 INITIAL = "initial"
@@ -70,8 +70,8 @@ class Experiments:
         Most seconds of a run in the quick study, by method, where they differ.
     outlooks : tuple of Outlook
         Experiments of section 5.2.
-    settings : Settings
-        Values of parameters of the methods.
+    settings : mapping
+        Values of parameters, for the methods that declare them.
     move, tolerance : str, float
         Criteria of convergence, see `StoppingCriteria`.
     tolerance_of : mapping
@@ -83,15 +83,17 @@ class Experiments:
     seconds: Mapping[str, float]
     quick_seconds: Mapping[str, float] = field(default_factory=dict)
     outlooks: tuple[Outlook, ...] = ()
-    settings: Settings = field(default_factory=Settings)
+    settings: Mapping[str, Any] = field(default_factory=dict)
     move: str = StoppingCriteria().move
     tolerance: float = StoppingCriteria().tolerance
     tolerance_of: Mapping[str, float] = field(default_factory=dict)
 
     def smoother(self, experiment: Experiment, name: str) -> Smoother:
         """Make a method with the settings of the study and the delta of the experiment, as far as it declares them."""
-        delta = {} if experiment.delta is None else {"delta": experiment.delta}
-        return self.settings.of(name, **delta, **experiment.settings_of.get(name, {}))
+        values = {**self.settings, "delta": experiment.delta, **experiment.settings_of.get(name, {})}
+        cls = METHODS[name]
+        known = {parameter.name for parameter in declared(cls)}
+        return cls(**{key: value for key, value in values.items() if key in known and value is not None})
 
     def with_max_seconds(self, seconds: float) -> Experiments:
         """Return a copy with another limit of the time of every run."""
@@ -128,18 +130,9 @@ def load(source: Path | Traversable | None = None) -> Experiments:
     """
     source = source or files("hexmend.study.thesis") / "thesis.toml"
     data = tomllib.loads(source.read_text(encoding="utf-8"))
-    experiments = tuple(_experiment(entry) for entry in data["experiment"])
-    return Experiments(
-        experiments,
-        data["iterations"],
-        data["seconds"],
-        data.get("quick_seconds", {}),
-        outlooks(data.get("outlook", ())),
-        Settings(data.get("settings", {})),
-        data.get("move", StoppingCriteria().move),
-        data.get("tolerance", StoppingCriteria().tolerance),
-        data.get("tolerance_of", {}),
-    )
+    data["experiments"] = tuple(map(_experiment, data.pop("experiment")))
+    data["outlooks"] = outlooks(data.pop("outlook", ()))
+    return Experiments(**data)
 
 
 def _experiment(entry: Mapping[str, Any]) -> Experiment:
@@ -150,4 +143,4 @@ def _experiment(entry: Mapping[str, Any]) -> Experiment:
             if not math.isnan(value):
                 published[column][figure] = value
     additional = tuple(entry.get("additional", ()))
-    return Experiment(**{**entry, "columns": columns, "additional": additional, "published": published})
+    return Experiment(**entry | {"columns": columns, "additional": additional, "published": published})

@@ -1,7 +1,7 @@
 // Newton's system of a patch with several free nodes: H s = -g.
 //
 // Up to MAX_DIRECT_UNKNOWNS it is solved by an envelope Cholesky decomposition, larger ones by matrix-free conjugate
-// gradients.
+// gradients. In a header, because a sweep takes a tenth longer if it is a translation unit of its own.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@ class NewtonSystem {
     NewtonSystem(Hexes slots, std::int64_t nodes)
         : gradient(3 * nodes), slots_(slots), values_(slots.size()), diagonal_(nodes) {}
 
-    // Add lane i of the gradient, and the values of the Hessian (see `hex_hessian`), of hex h.
+    // Add lane i of the gradient, and the values of the Hessian (see `weigh_hessian`), of hex h.
     void add(std::int64_t h, const Corners<Lanes> &g, int i, const double (&values)[HEX_STRIDE]) {
         std::copy(values, values + HEX_STRIDE, values_[h].begin());
         for (int a = 0; a < 8; ++a) {

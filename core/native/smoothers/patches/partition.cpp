@@ -1,4 +1,4 @@
-#include "smoothers/patches/partition.hpp"
+#include "smoothers/patches/patches.hpp"
 
 #include <algorithm>
 
@@ -6,9 +6,10 @@
 
 namespace hexmend {
 
-std::tuple<OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>, OwnedArray<std::int32_t>,
-           OwnedArray<std::int32_t, 8>>
-partition(const HexMesh &mesh, std::span<const bool> free, std::int64_t size, int overlap) {
+std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> partition(const HexMesh &mesh,
+                                                                                          std::span<const bool> free,
+                                                                                          std::int64_t size,
+                                                                                          int overlap) {
     const Hexes hexes = mesh.hexes;
     const std::int64_t n = free.size();
     std::vector<std::int32_t> node_start(1), nodes, hex_start(1), patch_hexes;

@@ -1,4 +1,4 @@
-#include "smoothers/patches/patch_sweep.hpp"
+#include "smoothers/patches/patches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -69,9 +69,8 @@ class MultiNodePatch {
         double total = 0;
         for (std::int64_t b = 0; b < blocks(); ++b) {
             x_[b] = gather_corners<Lanes>(points_, hexes_, b * LANES, count(b));
-            Lanes lengths{};
             for (auto &corner : x_[b].at) corner = corner - origin;
-            for (auto &[from, to] : EDGES) lengths += length(x_[b].at[to] - x_[b].at[from]);
+            Lanes lengths = edge_lengths(x_[b]);
             for (int i = 0; i < count(b); ++i) total += lengths[i];
         }
         double factor = total > 0 ? 12 * static_cast<double>(hexes_.size()) / total : 0.0;
@@ -134,8 +133,8 @@ class MultiNodePatch {
 
 }  // namespace
 
-EvaluationCount sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
-                      const PatchStepSettings &settings) {
+EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
+                            const PatchStepSettings &settings) {
     const Indices hex_start = partition.hex_start;
     std::vector<EvaluationCount> counts(patches.size());
     for (std::size_t g = 0; g + 1 < groups.size(); ++g)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtGui import QGuiApplication
 
-from hexmend_app.state.scene import camera_from
+from hexmend_app.picture import camera_from
 
 
 def test_a_camera_that_is_copied_is_pasted_as_it_was(window):

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QInputDialog, QLabel, QLineEdit, QMenu, QMessageBo
 
 from hexmend.cli.main import main
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
-from hexmend_app.state.scene import Camera, Scene, read_scene, write_scene
-from hexmend_app.state.scene.carried import read_carried
+from hexmend_app.picture import Camera, Scene, read_scene, write_scene
+from hexmend_app.picture.picture_metadata import read_metadata
 from tests.app.driving import open_and_wait
 from tests.patience import PATIENCE
 
@@ -51,7 +51,7 @@ def menu_of(window):
 
 
 def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatch):
-    cameras, asked = window.session.cameras, []
+    cameras, asked = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *given: asked.append(given[4]) or (" front ", True))
     window.action("keep_camera").trigger()
     first = Camera.at(window.canvas.stand)
@@ -99,7 +99,7 @@ def test_the_dialog_goes_to_cameras_and_deletes_them(window, kept, dialog, qtbot
     button(dialog, "&Delete").click()
     qtbot.waitUntil(lambda: not names(dialog), timeout=PATIENCE)
     assert not button(dialog, "&Go to").isEnabled()
-    assert window.session.cameras.all == {}
+    assert window.session.saved_cameras.all == {}
 
 
 def type_name(dialog, row, text):
@@ -112,19 +112,19 @@ def type_name(dialog, row, text):
 
 
 def test_the_dialog_renames(window, kept, dialog, qtbot):
-    camera = window.session.cameras.all["top"]
+    camera = window.session.saved_cameras.all["top"]
     type_name(dialog, 1, "from above")
     qtbot.waitUntil(lambda: names(dialog) == ["front & side", "from above"], timeout=PATIENCE)
-    assert window.session.cameras.all["from above"] == camera
+    assert window.session.saved_cameras.all["from above"] == camera
     type_name(dialog, 0, "from above")
-    said = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "What is wrong")
+    said = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
     qtbot.waitUntil(lambda: "already" in said.text(), timeout=PATIENCE)
-    assert names(dialog) == list(window.session.cameras.all) == ["front & side", "from above"]
+    assert names(dialog) == list(window.session.saved_cameras.all) == ["front & side", "from above"]
 
 
 @pytest.mark.slow
 def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtbot, mesh_file):
-    save, cameras = window.features["save"], window.session.cameras
+    save, cameras = window.features["save"], window.session.saved_cameras
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
     dialog.camera.setCurrentText("top")
@@ -134,7 +134,7 @@ def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtb
     assert list(dialog.scene().cameras) == [*kept, "top (2)", "left"]
     assert save.picture(tmp_path / "p.png", (200, 150))
     mine = dict(cameras.all)
-    assert read_carried(tmp_path / "p.png").scene.cameras == mine
+    assert read_metadata(tmp_path / "p.png").scene.cameras == mine
     for name in mine:
         cameras.remove(name)
     open_and_wait(qtbot, window, tmp_path / "p.png")

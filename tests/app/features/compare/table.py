@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QPushButton, QTableView, QWidget
 
 from hexmend.report.comparison import LINES
 from hexmend.run import StoppingCriteria
-from hexmend_app.canvas.captions import CaptionRow
+from hexmend_app.canvas.view_captions import CaptionRow
 from hexmend_app.features.compare.comparison_table import METHOD
 from tests.app.driving import LEFT, choose, named
 

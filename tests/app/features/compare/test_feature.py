@@ -18,7 +18,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare
 from hexmend_app.features.compare.comparison_table import VIEW
-from hexmend_app.widgets.style import WORSE
+from hexmend_app.theme.style import WORSE
 from tests.app.driving import LEFT, choose, key, named, open_and_wait, press
 from tests.app.features.compare.table import (
     COLUMN,
@@ -46,7 +46,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
         assert record["inverted"] == one.after.inverted
         assert record["iterations"] == 4
     assert [one.name for one in model(compared).entries[:4]] == ["initial", "getme", "laplacian", "local-sd"]
-    corner = compared.docks.drawer.cornerWidget(Qt.Corner.TopRightCorner)
+    corner = compared.statusBar()
     assert named(corner, QLabel, "Counts").isVisible()  # the table leaves the counts their place
     best = min(expected.rows, key=lambda one: one.after.inverted).method
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
@@ -159,7 +159,7 @@ def test_another_mesh_ends_the_work_and_empties_everything(compared, qtbot, mesh
     open_and_wait(qtbot, compared, mesh_file)
     assert not compared.session.comparison.busy
     assert not any(one.record for one in model(compared).entries)
-    assert compared.session.views.all == ()
+    assert compared.session.side_views.all == ()
     assert captions(compared) == []
     assert len(compared.canvas.panes.all) == 1
 

@@ -10,9 +10,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
 
 from hexmend_app.features.compare.comparison_table import VIEW, title_of
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.document import State
-from hexmend_app.state.look import ColourScale, RangeMode
+from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.state.mesh.document import State
 from tests.app.driving import LEFT, click, drag, key, pixels, press, seen_at
 from tests.app.features.compare.table import button, captions, model, row, tick
 from tests.patience import PATIENCE
@@ -23,7 +23,7 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
         tick(compared, name, VIEW)
         assert len(compared.canvas.panes.all) == count
     assert captions(compared) == ["now", title_of("getme"), title_of("laplacian"), title_of("local-sd")]
-    assert [one.name for one in compared.session.kept.all] == [
+    assert [one.name for one in compared.session.snapshots.all] == [
         title_of("getme"),
         title_of("laplacian"),
         title_of("local-sd"),
@@ -51,28 +51,28 @@ def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
     press(next(cross for cross in crosses if cross.isVisible()))
     assert captions(compared) == ["now", title_of("getme"), title_of("local-sd")]
     assert not model(compared).entries[row(compared, "laplacian")].shown
-    assert [one.name for one in compared.session.kept.all] == [title_of("getme"), title_of("local-sd")]
+    assert [one.name for one in compared.session.snapshots.all] == [title_of("getme"), title_of("local-sd")]
     key(compared, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
     assert captions(compared) == []
-    assert compared.session.kept.all == ()
+    assert compared.session.snapshots.all == ()
 
 
 def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
     first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
-    compared.session.views.show("iteration 7", first)
+    compared.session.side_views.show("iteration 7", first)
     compared.refresh()
     assert captions(compared) == ["now", "iteration 7"]
-    compared.session.views.show("iteration 7", second)
+    compared.session.side_views.show("iteration 7", second)
     compared.refresh()
     assert captions(compared) == ["now", "iteration 7"]
     assert compared.canvas.panes.all[1].frame.mesh.points is second.mesh.points
-    assert [one.points for one in compared.session.kept.all] == [second.mesh.points]
+    assert [one.points for one in compared.session.snapshots.all] == [second.mesh.points]
 
 
 @pytest.mark.slow
 def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
     mesh = compared.session.document.now.mesh
-    compared.session.views.show("mine", State.of(mesh.with_points(mesh.points)))
+    compared.session.side_views.show("mine", State.of(mesh.with_points(mesh.points)))
     tick(compared, "getme", VIEW)
     tick(compared, "initial", VIEW)
     assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
@@ -120,7 +120,7 @@ def test_cut_and_colours_are_those_of_all_views(compared):
     for view in others:
         np.testing.assert_array_equal(view.kept(), first.kept())
         assert (view.colouring.low, view.colouring.high) == (first.colouring.low, first.colouring.high)
-    states = [compared.session.document.now, *(one.state for one in compared.session.views.all)]
+    states = [compared.session.document.now, *(one.state for one in compared.session.side_views.all)]
     q = [one.figures.q[~one.figures.inverted] for one in states]
     assert (first.colouring.low, first.colouring.high) == (min(map(np.min, q)), max(map(np.max, q)))
     bar = compared.canvas.colour_bar
@@ -150,10 +150,10 @@ def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(com
 def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared, qtbot, arranged):
     tick(compared, "getme", VIEW)
     if arranged != "side by side":
-        compared.session.views.set_wiping(True)
-        compared.session.views.move_wipe(0.9 if arranged == "wipe" else 0.1)
+        compared.session.side_views.set_wiping(True)
+        compared.session.side_views.move_wipe(0.9 if arranged == "wipe" else 0.1)
     if arranged == "wipe, the mesh at the right":
-        compared.session.views.choose_wiped(1, 0)
+        compared.session.side_views.choose_wiped(1, 0)
     centre = compared.session.document.now.mesh.points.mean(axis=0)
     compared.session.view.set_clip(PlaneClip.at((0, 0, 1), tuple(centre)))
     compared.refresh()
@@ -172,7 +172,7 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
 @pytest.mark.slow
 def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
     tick(compared, "getme", VIEW)
-    with qtbot.waitSignal(compared.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(compared.session.run.ended, timeout=PATIENCE):
         click(compared, "Run")
     compared.refresh()
     first, second = compared.canvas.panes.all

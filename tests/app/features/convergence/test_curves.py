@@ -7,8 +7,8 @@ from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning, thinned
-from hexmend_app.state.document import State
-from hexmend_app.state.history import History, Moment, Record
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from tests.core.grids import grid, scrambled
 
 START = State.of(scrambled(grid(4), 0.4))
@@ -41,12 +41,12 @@ def test_columns_hold_what_the_rows_hold_and_gaps_elsewhere(method):
             if key == "largest_move":
                 expected[0] = None
             np.testing.assert_array_equal(found, [np.nan if one is None else one for one in expected])
-            assert columns.told(key) == np.isfinite(found).any()
-    assert columns.told("gradient_norm") == (method in ("global-nr", "mend"))
+            assert columns.reports(key) == np.isfinite(found).any()
+    assert columns.reports("gradient_norm") == (method in ("global-nr", "mend"))
 
 
 def test_columns_grow_with_the_run_however_long_it_is():
-    record = Record("a", "A", START, None)
+    record = RunRecord("a", "A", START, None)
     columns = Columns(record)
     for length in (1, 63, 64, 65, 500):
         while len(record.rows) < length:
@@ -60,8 +60,8 @@ def test_columns_grow_with_the_run_however_long_it_is():
 
 def test_a_branch_begins_where_it_left_its_parent():
     trunk = recorded("laplacian")
-    branch = recorded("local-sd", 4, Moment(trunk, 3))
-    twig = recorded("getme", 2, Moment(branch, 2))
+    branch = recorded("local-sd", 4, RecordedIteration(trunk, 3))
+    twig = recorded("getme", 2, RecordedIteration(branch, 2))
     assert beginning(trunk) == (0, 0)
     assert beginning(twig)[0] == 5
     assert beginning(twig)[1] == trunk.rows[3]["seconds"] + branch.rows[2]["seconds"]

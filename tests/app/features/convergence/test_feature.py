@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import end_run
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, phase, press
 from tests.patience import PATIENCE
 
@@ -27,10 +27,10 @@ def panel(window, qtbot):
 
 def run(window, qtbot, method="local-sd", iterations=8):
     choose(window, method, StoppingCriteria(max_iterations=iterations, tolerance=0))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     window.refresh()
-    return window.session.smoothing.record
+    return window.session.run.record
 
 
 def click_at(panel, key, x):
@@ -86,7 +86,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
     assert drawn == sorted(drawn)
     assert drawn[-1] > drawn[0]
     end_run(window.session)
-    qtbot.waitUntil(lambda: drawn[-1] == window.session.smoothing.record.newest + 1, timeout=3000)
+    qtbot.waitUntil(lambda: drawn[-1] == window.session.run.record.newest + 1, timeout=3000)
 
 
 @pytest.mark.slow

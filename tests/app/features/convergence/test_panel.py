@@ -8,9 +8,9 @@ from PySide6.QtTest import QTest
 from hexmend_app.features.convergence.charts import CHARTS
 from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.convergence.words import describe
-from hexmend_app.state.document import State
-from hexmend_app.state.history import Moment, Record
+from hexmend_app.features.convergence.point_texts import describe
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import RecordedIteration, RunRecord
 from tests.app.driving import move, turn
 from tests.core.grids import grid
 
@@ -19,7 +19,7 @@ START = State.of(grid(2))
 
 
 def record(name, count, parent=None, **more):
-    made = Record(name, name.title(), START, parent)
+    made = RunRecord(name, name.title(), START, parent)
     made.rows = [
         {
             "iteration": k,
@@ -44,7 +44,7 @@ def curve(record, slot=0, begins=(0.0, 0.0), shown=True, current=True, going=Fal
 
 
 TRUNK = record("getme", 21)
-BRANCH = record("local-sd", 9, Moment(TRUNK, 8), delta=0.01)
+BRANCH = record("local-sd", 9, RecordedIteration(TRUNK, 8), delta=0.01)
 BOTH = (curve(TRUNK, kept=range(0, 21, 4)), curve(BRANCH, 1, (8.0, 0.8), current=False))
 
 

@@ -9,9 +9,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, QStyleOptionSlider, QTabBar
 from superqt import QRangeSlider
 
-from hexmend_app.features.cut.clip_panel import ClipPanel
-from hexmend_app.state.clip import BoxClip, PlaneClip
-from hexmend_app.widgets.segmented import Segmented
+from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton

@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QPushButton, QSlider
 
-from hexmend_app.state.clip import BoxClip, PlaneClip
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
 
 

@@ -11,16 +11,16 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QPushButton, QSli
 
 from hexmend import gallery, io
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.shell.program import application
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Isolation, Look, ValueRange
-from hexmend_app.state.run import Phase
-from hexmend_app.widgets.slider_box import SliderBox
+from hexmend_app.picture.appearance import Isolation, Look, ValueRange
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.shell.start.program import application
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.widgets.inputs.slider_box import SliderBox
 from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, tick
 from tests.patience import PATIENCE
 
 PEEL, SHRINK, RINGS = "Layers peeled from the boundary", "Shrink the hexes", "Rings around what is isolated"
-BUTTONS = ("Show all", "Undo digging", "Put back")
+BUTTONS = ("Show all", "Undo digging", "Restore all")
 
 
 @pytest.fixture
@@ -123,7 +123,7 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
     heard = []
     panel.all_requested.connect(lambda: heard.append("all"))
     panel.undo_requested.connect(lambda: heard.append("undo"))
-    panel.put_back_requested.connect(lambda: heard.append("put back"))
+    panel.restore_requested.connect(lambda: heard.append("put back"))
     for button in buttons:
         QTest.mouseClick(button, LEFT)
     assert heard == ["all", "undo", "put back"]
@@ -173,7 +173,7 @@ def test_digging_undoing_and_putting_back(window):
     assert not {0, 1, 2} & set(faces(window))
     press(named(panel, QPushButton, "Undo digging"))
     assert view.look.dug == {0, 1}
-    press(named(panel, QPushButton, "Put back"))
+    press(named(panel, QPushButton, "Restore all"))
     assert not view.look.dug
     view.dig(7)
     view.undig_last()
@@ -215,7 +215,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     before = window.canvas.viewport.body.faces
     choose(window, "laplacian")
     click(window, "Step")
-    qtbot.waitUntil(lambda: window.session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.run.phase is Phase.PAUSED, timeout=PATIENCE)
     window.refresh()
     drawn = window.canvas.viewport
     assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
@@ -226,7 +226,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
 
 
 def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.skin.WHOLE", 500)
+    monkeypatch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 500)
     window.session.view.change(shrink=0.3)
     layers = window.session.document.now.mesh.topology.layers
     assert set(faces(window)) == set(np.flatnonzero(layers == 0))

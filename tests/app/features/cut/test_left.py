@@ -13,8 +13,8 @@ from hexmend.cli.main import main
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.scene import Cut, Page, write_scene
+from hexmend_app.picture import Cut, Page, write_scene
+from hexmend_app.picture.cut_planes import PlaneClip
 from tests.app.driving import open_and_wait
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -30,7 +30,7 @@ def moved(window, qtbot, tmp_path):
     window.session.view.set_clip(CLIP)
     window.refresh()
     kept = window.canvas.viewport.kept()
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5, tolerance=0)))
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), kept)

@@ -10,8 +10,8 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.state.document import State
-from hexmend_app.state.run import Phase
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import press
 from tests.patience import PATIENCE
 
@@ -31,7 +31,7 @@ def panel(window, qtbot):
     panel = window.features["doctor"].panel
     qtbot.waitUntil(panel.isVisible)
     window.refresh()
-    qtbot.waitUntil(lambda: len(buttons(panel, "Mend")) == 2, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 2, timeout=PATIENCE)
     return panel
 
 
@@ -64,11 +64,11 @@ def mend(qtbot, session, button):
 def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
-    mend(qtbot, session, buttons(panel, "Mend")[0])
+    mend(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.summary.inverted == 0
     assert session.document.undo_title == "mend mirrored parts"
-    qtbot.waitUntil(lambda: len(buttons(panel, "Mend")) == 1, timeout=PATIENCE)
-    mend(qtbot, session, buttons(panel, "Mend")[0])
+    qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
+    mend(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
     session.commands.undo()
     session.commands.undo()
@@ -79,12 +79,12 @@ def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
 
 @pytest.mark.slow
 def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel, qtbot):
-    press(buttons(panel, "Mend all")[0])
+    press(buttons(panel, "Repair all")[0])
     window.refresh()
-    qtbot.waitUntil(lambda: "Nothing is wrong" in said(panel), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: "No problems found" in said(panel), timeout=PATIENCE)
     session = window.session
     assert session.document.start.mesh is session.document.now.mesh
-    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
         session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
     session.commands.reset()
     assert session.document.now.mesh.n_nodes == 112
@@ -93,7 +93,7 @@ def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel,
 def test_a_finding_is_shown_while_a_run_is_paused_too(window, panel, qtbot):
     session = window.session
     session.commands.step(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=30, tolerance=0)), 1)
-    qtbot.waitUntil(lambda: session.smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: session.run.phase is Phase.PAUSED, timeout=PATIENCE)
     press(buttons(panel, "Show")[0])
     assert set(range(27, 54)) == set(session.view.look.isolation.hexes)
     end_run(session)

@@ -14,7 +14,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.cli import figure_set
 from hexmend_app.features.figures.shown import shown_in
-from hexmend_app.state.scene import read_scene
+from hexmend_app.picture import read_scene
 from tests.app.driving import LEFT
 from tests.app.features.timeline.test_feature import stepped
 from tests.patience import PATIENCE

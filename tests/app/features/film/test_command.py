@@ -58,7 +58,7 @@ def test_a_film_for_slides_plays(mesh_file, tmp_path):
 
 
 def test_without_what_writes_it_a_film_for_slides_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("hexmend_app.scene.export.movie.find_spec", lambda name: None)
+    monkeypatch.setattr("hexmend_app.scene.film.movie.find_spec", lambda name: None)
     assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.mp4"), "--method", "laplacian"]) == 3
     assert 'pip install "hexmend[film]"' in capsys.readouterr().err
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
-from hexmend_app.scene.values import within
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.scene.colour.value_range import within
 from tests.core.grids import grid, scrambled
 
 MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "tangled": scrambled(grid(4), 0.9), "flat": None}

@@ -8,7 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import BINS, distribute, round_up
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
 
 Q = Axis("q")
 _QUALITIES = arrays(np.float64, st.integers(0, 200), elements=st.floats(0, 1))

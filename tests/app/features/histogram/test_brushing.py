@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
 from tests.app.driving import LEFT, move
 from tests.app.features.histogram.brushing import ends, nothing_waits, place
 from tests.patience import PATIENCE

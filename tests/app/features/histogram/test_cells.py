@@ -11,10 +11,10 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import distribute
 from hexmend_app.features.histogram.cells import Cells
-from hexmend_app.scene.filters import Filters
-from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.values import within
-from hexmend_app.state.look import Look, ValueRange
+from hexmend_app.picture.appearance import Look, ValueRange
+from hexmend_app.scene.colour.value_range import within
+from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.views.frame import Frame
 from tests.core.grids import grid, scrambled
 
 AXES = (

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QPushButton
 
 from hexmend.quality import METRICS
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, drag, key, named, open_and_wait, phase, pixels, press, walk_to
 from tests.patience import PATIENCE
 
@@ -42,7 +42,7 @@ def brush(window, qtbot, low, high):
 def colour_by(window, metric):
     """Choose what the colours show, in the panel of the look."""
     window.show_panel("look")
-    walk_to(window, named(window.features["look"].panel, QComboBox, "Metric"), metric)
+    walk_to(window, named(window.features["appearance"].panel, QComboBox, "Metric"), metric)
 
 
 @pytest.mark.slow
@@ -107,7 +107,7 @@ def keep(window, histogram):
 
 @pytest.mark.slow
 def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(window, qtbot, histogram, mesh_file):
-    kept = window.session.kept
+    kept = window.session.snapshots
     choose(window, "local-sd")
     start = window.session.document.now
     click(window, "Step")
@@ -131,7 +131,7 @@ def test_distributions_are_kept_under_the_name_of_the_moment_for_any_metric(wind
     press(histogram.legend.entries[1].cross)
     assert second not in [one.name for one in kept.all]
     assert histogram.head.keep.isEnabled()
-    window.session.smoothing.stop()
+    window.session.run.stop()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     click(window, "Reset")
     keep(window, histogram)

@@ -8,7 +8,7 @@ import pytest
 from hexmend.gallery import make
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.features.histogram.file import write_histogram
+from hexmend_app.features.histogram.histogram_file import write_histogram
 
 BLUE = "#0072b2"
 

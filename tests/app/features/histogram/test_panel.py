@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.state.look import ValueRange
+from hexmend_app.picture.appearance import ValueRange
 from tests.app.driving import LEFT, turn
 from tests.app.features.histogram.brushing import place
 from tests.patience import PATIENCE

@@ -13,11 +13,11 @@ from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.scene.export.film import pictures
-from hexmend_app.scene.export.shots import shots
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Arrows, RangeMode, Since
-from hexmend_app.state.record import Moment
+from hexmend_app.picture.appearance import Arrows, RangeMode, Since
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.film.film import pictures
+from hexmend_app.scene.film.film_frames import film_frames
+from hexmend_app.state.mesh.run_record import RecordedIteration
 from tests.app.driving import open_and_wait, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
@@ -32,9 +32,9 @@ def panel(window, qtbot):
 
 @pytest.fixture
 def record(window, qtbot):
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
-        window.session.smoothing.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=6, tolerance=0))
-    return window.session.smoothing.record
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
+        window.session.run.start(METHODS["laplacian"](), StoppingCriteria(max_iterations=6, tolerance=0))
+    return window.session.run.record
 
 
 def press(segmented, key):
@@ -85,7 +85,7 @@ def test_the_histogram_goes_on_counting_quality(window, record, panel):
 
 
 def test_movements_are_offered_among_the_colours(window, record, qtbot):
-    colours = window.features["look"].panel
+    colours = window.features["appearance"].panel
     combo, maps = (
         next(one for one in colours.findChildren(QComboBox) if one.accessibleName() == name)
         for name in ("Metric", "Colour map")
@@ -164,7 +164,7 @@ def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
     for number in range(1, len(inverted)):
         go(window, record, number)
         press(panel.since, "iteration")
-        movement = window.session.references.movement(Since.ITERATION)
+        movement = window.session.comparison_bases.movement(Since.ITERATION)
         assert panel.show_newly.isEnabled() == (movement.counts.newly_inverted > 0)
         if panel.show_newly.isEnabled():
             break
@@ -207,7 +207,7 @@ def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
     press(panel.since, "iteration")
     seen = set()
     window.session.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
-    window.session.smoothing.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
+    window.session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
     qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
     end_run(window.session)
     assert all(title.startswith("mean edge lengths moved since") for title in seen)
@@ -218,7 +218,7 @@ def test_a_film_compares_each_picture_with_the_one_before(window, record, panel)
     history, mesh = window.session.history, window.session.document.now.mesh
     press(panel.colours, "q-change")
     press(panel.since, "iteration")
-    taken = list(shots(record, [0, 2, 5], lambda number: history.state(Moment(record, number), mesh)))
+    taken = list(film_frames(record, [0, 2, 5], lambda number: history.state(RecordedIteration(record, number), mesh)))
     look, movement = window.session.view.look, window.canvas.viewport.frame.movement
     frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
     assert len(frames) == 3

@@ -15,10 +15,10 @@ from hexmend import gallery, io
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
-from hexmend_app.state import opener
-from hexmend_app.state.recent import MOST
-from hexmend_app.state.run import Phase
-from hexmend_app.state.task import running
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.settings.recent_files import MOST
+from hexmend_app.state.tasks import mesh_opener
+from hexmend_app.state.tasks.task import running
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
 
@@ -117,7 +117,7 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
     open_and_wait(qtbot, window, mesh_file)
-    assert not window.session.smoothing.busy
+    assert not window.session.run.busy
     assert window.session.document.undo_title is None
 
 
@@ -127,13 +127,13 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
 @pytest.fixture
 def slow_read(monkeypatch):
     """Reading waits until it is let go on."""
-    go_on, read = threading.Event(), opener.read
+    go_on, read = threading.Event(), mesh_opener.read
 
     def reading(path):
         go_on.wait(PATIENCE / 1000)
         return read(path)
 
-    monkeypatch.setattr(opener, "read", reading)
+    monkeypatch.setattr(mesh_opener, "read", reading)
     yield go_on
     go_on.set()
 

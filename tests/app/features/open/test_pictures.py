@@ -12,8 +12,8 @@ from hexmend.cli.main import main
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import ColourScale, Structure
+from hexmend_app.picture.appearance import ColourScale, Structure
+from hexmend_app.picture.cut_planes import PlaneClip
 from tests.app.driving import open_and_wait
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -65,14 +65,14 @@ def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_pat
 def test_what_ran_comes_back_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     stage = Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(stage)
     window.refresh()
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     window.session.commands.reset()
     open_and_wait(qtbot, window, tmp_path / "p.png")
     assert "shows it after “Laplacian" in said(window)[-1]
-    assert window.session.chain.stages == (stage,)
+    assert window.session.recipe_draft.stages == (stage,)
 
 
 def test_a_picture_of_the_command_line_is_opened_too(window, qtbot, mesh, tmp_path):

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 
 from hexmend import gallery, io
 from hexmend.iteration import StoppingCriteria
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, key, open_and_wait, phase
 from tests.app.driving import press as press_button
 from tests.core.boundary.solids import slid, wavy
@@ -80,12 +80,12 @@ def test_a_suggestion_is_chosen_not_run_and_helps(window, qtbot):
     left = window.session.document.now.summary.inverted
     assert left > 0
     press(window, "Choose: Mend")
-    assert window.session.order.method == "mend"
-    assert window.session.order.stage.stop == StoppingCriteria()  # or one iteration would not help either
+    assert window.session.run_setup.method == "mend"
+    assert window.session.run_setup.stage.stop == StoppingCriteria()  # or one iteration would not help either
     assert window.features["smooth"].panel.stage.stop.values() == StoppingCriteria().values()
-    assert window.session.smoothing.phase is Phase.FINISHED
+    assert window.session.run.phase is Phase.FINISHED
     click(window, "Run")
-    qtbot.waitUntil(lambda: window.session.smoothing.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.run.busy, timeout=PATIENCE)
     window.refresh()
     assert not button(window, "Choose: Mend").isEnabled()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
@@ -137,7 +137,7 @@ def test_what_begins_before_the_run_goes_back_there(window, qtbot, tmp_path):
     assert "Worse than at the start: inverted 0 → 12" in said(window)
     press(window, "Choose: Undo, then Smart Laplacian")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, start)
-    assert window.session.order.method == "smart-laplacian"
+    assert window.session.run_setup.method == "smart-laplacian"
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     assert window.session.document.now.summary.inverted == 0
@@ -175,7 +175,7 @@ def test_hexes_whose_corners_limit_the_least_are_shown_before_the_camera(window,
     io.write(tmp_path / "wavy.vtu", wavy(scrambled(grid(3), 0.3, 1), 0.2, 2))
     open_and_wait(qtbot, window, tmp_path / "wavy.vtu")
     ended = []
-    window.session.smoothing.ended.connect(ended.append)
+    window.session.run.ended.connect(ended.append)
     choose(window, "mend", goal="scaled-jacobian")
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)

@@ -23,8 +23,8 @@ def said(host, qtbot):
     """What the panel says once a run of eight iterations has ended."""
     feature = FeatureOutcome(host)
     qtbot.addWidget(feature.panel)
-    with qtbot.waitSignal(host.session.smoothing.ended, timeout=PATIENCE):
-        host.session.smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
+    with qtbot.waitSignal(host.session.run.ended, timeout=PATIENCE):
+        host.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
 
     def say():
         feature.refresh()

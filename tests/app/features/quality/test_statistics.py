@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QMenu, QTableWidget
 
 from hexmend.quality.summary import Summary
 from hexmend_app.features.quality.statistics import ROWS, StatisticsTable, change
-from hexmend_app.widgets.style import BETTER, MUTED, WORSE
+from hexmend_app.theme.style import BETTER, MUTED, WORSE
 from tests.app.driving import named
 
 _START = {

@@ -12,8 +12,8 @@ from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import METHODS
-from hexmend_app.state.chain import Chain
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.recipe_draft import RecipeDraft
+from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.section import Section
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
 from tests.patience import PATIENCE
@@ -70,7 +70,7 @@ def type_value(window, name, text):
 
 
 def test_a_chain_is_stages_in_order():
-    chain, (a, b, c) = Chain(), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
+    chain, (a, b, c) = RecipeDraft(), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
     assert chain.recipe is None
     for stage in (a, b, c):
         chain.add(stage)
@@ -101,15 +101,15 @@ def test_stages_are_added_with_their_values_ordered_and_removed(window, panel):
         "3  Mend (Guard on)",
     ]
     press(button(panel, "Move up"))  # the one added last is chosen
-    assert [stage.smoother.name for stage in window.session.chain.stages] == ["getme", "mend", "local-sd"]
+    assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend", "local-sd"]
     click_on(panel, 0)
     assert not button(panel, "Move up").isEnabled()
     press(button(panel, "Remove the stage"))
-    assert [stage.smoother.name for stage in window.session.chain.stages] == ["mend", "local-sd"]
+    assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["mend", "local-sd"]
     click_on(panel, 1)
     choose(window, "laplacian")
     press(button(panel, "Replace the stage"))
-    assert window.session.chain.stages[1].smoother == METHODS["laplacian"]()
+    assert window.session.recipe_draft.stages[1].smoother == METHODS["laplacian"]()
 
 
 def test_enter_shows_a_stage_above(window, panel):
@@ -117,7 +117,7 @@ def test_enter_shows_a_stage_above(window, panel):
     add(window, panel, "mend", stop=StoppingCriteria())
     click_on(panel, 0)
     QTest.keyClick(panel.findChild(QListWidget), Qt.Key.Key_Return)
-    assert window.session.order.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
+    assert window.session.run_setup.stage == Stage(METHODS["local-sd"](p=4.0), SHORT)
     shown = window.features["smooth"].panel
     assert named(shown, QComboBox, "Method").currentText() == METHODS["local-sd"].title
     assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
@@ -138,13 +138,13 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
     mesh = window.session.document.now.mesh
     add(window, panel, "getme")
     add(window, panel, "local-sd")
-    recipe = window.session.chain.recipe
+    recipe = window.session.recipe_draft.recipe
     seen = set()
-    window.session.smoothing.iterated.connect(lambda frame: seen.add(said(window)))
+    window.session.run.iterated.connect(lambda frame: seen.add(said(window)))
     press(button(panel, "Run recipe"))
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     np.testing.assert_array_equal(window.session.document.now.mesh.points, smooth(mesh, recipe).mesh.points)
-    assert [row["method"] for row in window.session.smoothing.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
+    assert [row["method"] for row in window.session.run.record.rows[1:]] == ["getme"] * 3 + ["local-sd"] * 3
     assert window.session.document.undo_title == recipe.title
     assert "Stage 1, GETMe" in said(window)
     key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
@@ -156,7 +156,7 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
     add(window, panel, "getme", stop=StoppingCriteria(max_iterations=100_000, tolerance=0))
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
-    window.session.smoothing.pause()
+    window.session.run.pause()
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
@@ -176,23 +176,26 @@ def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=3, tolerance=0))
     choose(window, "laplacian")
-    window.session.smoothing.break_at(Breakpoints(node=free_node(window), move=0.0))
+    window.session.run.break_at(Breakpoints(node=free_node(window), move=0.0))
     press(button(panel, "Run recipe"))
     qtbot.waitUntil(lambda: paused_after(window, 1), timeout=PATIENCE)
     window.refresh()
-    assert window.session.order.method == "local-sd"  # the stage at work, not what was shown before
+    assert window.session.run_setup.method == "local-sd"  # the stage at work, not what was shown before
     for number in (2, 3):
         click(window, "Resume")
         qtbot.waitUntil(lambda number=number: paused_after(window, number))
     window.refresh()
     type_value(window, "p", "4")
-    with qtbot.waitSignal(window.session.smoothing.ended) as ended:
-        window.session.smoothing.break_at(Breakpoints())
+    with qtbot.waitSignal(window.session.run.ended) as ended:
+        window.session.run.break_at(Breakpoints())
         click(window, "Resume")
     assert [(one.stage, one.parameters["p"], one.iterations) for one in ended.args[0].stages] == [
         (1, 2, 2), (2, 2, 1), (2, 4, 2),
     ]  # fmt: skip
-    assert [stage.smoother.p for stage in window.session.chain.stages] == [2, 2]  # the recipe itself is as it was
+    assert [stage.smoother.p for stage in window.session.recipe_draft.stages] == [
+        2,
+        2,
+    ]  # the recipe itself is as it was
 
 
 def free_node(window):
@@ -200,7 +203,7 @@ def free_node(window):
 
 
 def paused_after(window, number):
-    return window.session.smoothing.phase is Phase.PAUSED and window.session.smoothing.record.newest == number
+    return window.session.run.phase is Phase.PAUSED and window.session.run.record.newest == number
 
 
 def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatch):
@@ -218,25 +221,25 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     press(button(panel, "Save"))
     assert window.messages.messages()[-1][1] == f"Recipe saved to {path}"
     saved = read_recipe(path)
-    assert saved == window.session.chain.recipe
+    assert saved == window.session.recipe_draft.recipe
     assert saved.title == "Mine"
-    window.session.chain.take(Recipe.of("laplacian"))
+    window.session.recipe_draft.take(Recipe.of("laplacian"))
     window.window_actions["recipe_load"].trigger()
-    assert window.session.chain.recipe == saved
+    assert window.session.recipe_draft.recipe == saved
     window.refresh()
     assert title.text() == "Mine"
 
 
 def test_a_file_that_is_no_recipe_is_said_and_the_recipe_stays(window, panel, tmp_path):
     add(window, panel, "getme")
-    before = window.session.chain.recipe
+    before = window.session.recipe_draft.recipe
     path = tmp_path / "wrong.toml"
     path.write_text('format = 1\n[[stage]]\nmethod = "mned"')
     window.features["recipe"].load(path)
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("error", "The recipe was not loaded")
     assert "wrong.toml: stage 1: there is no method 'mned': did you mean mend?" in text
-    assert window.session.chain.recipe == before
+    assert window.session.recipe_draft.recipe == before
     window.features["recipe"].save(tmp_path / "no" / "such.toml")
     assert window.messages.messages()[-1][1] == "The recipe was not saved"
 
@@ -245,7 +248,7 @@ def test_recipes_of_hexmend_are_offered_by_title(window, panel):
     offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
     assert "GETMe, then mend" in offered
     offered["GETMe, then mend"].trigger()
-    assert [stage.smoother.name for stage in window.session.chain.stages] == ["getme", "mend"]
+    assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend"]
 
 
 def test_the_recipe_outlives_the_mesh(window, panel, qtbot, mesh_file):

@@ -14,9 +14,9 @@ from PySide6.QtWidgets import QFileDialog
 
 from hexmend import io
 from hexmend_app.bench.windows import save_and_wait
-from hexmend_app.state.look import Structure
-from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Lines, Page, write_scene
+from hexmend_app.picture import LineStyle, Page, write_scene
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import key, open_and_wait, phase
 from tests.patience import PATIENCE
 
@@ -24,7 +24,7 @@ from tests.patience import PATIENCE
 def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    window.session.smoothing.stop()
+    window.session.run.stop()
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     window.refresh()
     assert window.isWindowModified()
@@ -67,8 +67,8 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
     window.action("cut").trigger()
     session.view.change(structure=Structure(sharp=True), shrink=0.1)
     if views != 1:
-        session.views.show("as it was", session.document.now)
-        session.views.set_wiping(views == "wipe")
+        session.side_views.show("as it was", session.document.now)
+        session.side_views.set_wiping(views == "wipe")
     window.refresh()
     window.canvas.roll(10)
     save_and_wait(session, tmp_path / "mesh.vtu")
@@ -108,4 +108,4 @@ def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch)
 def test_edges_that_are_off_in_the_view_are_off_in_the_picture(window):
     window.session.view.change(edges=False)
     window.refresh()
-    assert window.canvas.scene(Page()).lines == Lines(0.0)
+    assert window.canvas.scene(Page()).lines == LineStyle(0.0)

@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QDialogButtonBox, QLabel, QLineEdit, QMessageBox
 
 from hexmend.errors import ParameterError
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.scene.export.sheet import draw_sheet
-from hexmend_app.scene.export.subject import Subject
-from hexmend_app.state.scene import Bar, Camera, Page, Panel, Place, Scene, read_scene, write_scene
-from hexmend_app.widgets.questions import folder, remember_folder
+from hexmend_app.picture import Camera, ColourBarStyle, Page, PicturePanel, Scene, TextPlace, read_scene, write_scene
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.widgets.dialogs.questions import folder, remember_folder
 from tests.core.grids import grid
 from tests.patience import PATIENCE
 
@@ -119,8 +119,8 @@ def test_it_begins_in_the_folder_of_the_other_dialogs_and_they_go_on_in_its(dial
 def test_what_is_not_touched_stays_as_it_is(qtbot):
     scene = Scene(
         page=Page(170, 90, dpi=450, background="#102030", margin=2.5, crop=True, font_size=7.5),
-        bar=Bar(Place.RIGHT, (0.0, 0.25), "title"),
-        panels=(Panel(caption="one"), Panel(mesh=2, caption="two")),
+        bar=ColourBarStyle(TextPlace.RIGHT, (0.0, 0.25), "title"),
+        panels=(PicturePanel(caption="one"), PicturePanel(mesh=2, caption="two")),
     )
     assert made(qtbot, scene, views=("one", "two")).scene() == scene
     assert made(qtbot).scene() == Scene(page=Page(pixels=(640, 480)))
@@ -173,25 +173,25 @@ def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
 
 @pytest.mark.slow
 def test_the_preview_is_the_picture_in_small(qtbot):
-    subject = Subject.of(grid(3))
-    dialog = made(qtbot, draw=lambda scene: draw_sheet(scene, [subject]))
+    subject = PageMesh.of(grid(3))
+    dialog = made(qtbot, draw=lambda scene: draw_page(scene, [subject]))
     qtbot.waitUntil(lambda: not dialog.preview.picture.isNull(), timeout=PATIENCE)
     whole = dialog.scene()
     qtbot.waitUntil(lambda: dialog.preview.picture.width() > 300, timeout=PATIENCE)
     small = dialog.preview.picture.toImage().convertToFormat(dialog.preview.picture.toImage().Format.Format_RGB888)
     seen = np.frombuffer(small.constBits(), np.uint8).reshape(small.height(), small.bytesPerLine())
     seen = seen[:, : 3 * small.width()].reshape(small.height(), small.width(), 3)
-    image = draw_sheet(whole, [subject]).image().resize((small.width(), small.height()), Image.Resampling.BOX)
+    image = draw_page(whole, [subject]).image().resize((small.width(), small.height()), Image.Resampling.BOX)
     assert np.abs(np.asarray(image).astype(int) - seen).mean() < 12
     dialog.size_form.width_box.setValue(320)
     qtbot.waitUntil(lambda: dialog.preview.picture.height() > dialog.preview.picture.width(), timeout=PATIENCE)
 
 
 def test_a_page_too_small_for_its_panels_is_said(qtbot):
-    subject = Subject.of(grid(2))
-    scene = Scene(panels=(Panel(),) * 12, page=Page(pixels=(64, 30), columns=1))
+    subject = PageMesh.of(grid(2))
+    scene = Scene(panels=(PicturePanel(),) * 12, page=Page(pixels=(64, 30), columns=1))
     with pytest.raises(ParameterError, match="too few for 12 panels"):
-        draw_sheet(scene, [subject])
-    dialog = made(qtbot, scene, lambda scene: draw_sheet(scene, [subject]), [""] * 12)
+        draw_page(scene, [subject])
+    dialog = made(qtbot, scene, lambda scene: draw_page(scene, [subject]), [""] * 12)
     qtbot.waitUntil(lambda: bool(said(dialog)), timeout=PATIENCE)
     assert "too few for 12 panels" in said(dialog)[0]

@@ -14,7 +14,7 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.film.film_dialog import FilmDialog
 from hexmend_app.features.save.picture_dialog import PictureDialog
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, phase
 from tests.patience import PATIENCE
 
@@ -24,6 +24,7 @@ ENDLESS = StoppingCriteria(max_iterations=100_000, tolerance=0)
 UNTOLD = {
     "panel_*": "lays out the window",
     "panels": "lays out the window",
+    "reset_layout": "lays out the window",
     "drawer": "lays out the window",
     "theme_*": "is the window's own",
     "about": "helps",
@@ -33,6 +34,7 @@ UNTOLD = {
     "script": "writes the script",
     "copy_camera": "copies",
     "cameras": "shows a dialog, from which a camera is looked through",
+    "console": "shows a panel",
     "doctor": "shows a panel",
     "why": "shows a panel",
     "explain_node": "shows a panel, and in the view what no scene holds",
@@ -88,18 +90,20 @@ def others(window, qtbot, tmp_path, monkeypatch):
         session.selection.choose(h, int(session.document.now.mesh.hexes[h][0]))
 
     def idle():
-        qtbot.waitUntil(lambda: not session.smoothing.busy, timeout=PATIENCE)
+        qtbot.waitUntil(lambda: not session.run.busy, timeout=PATIENCE)
 
     def paused():
         session.commands.step(Stage(METHODS["local-sd"](), ENDLESS), 3)
         qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-        session.smoothing.stop()
+        session.run.stop()
         idle()
 
     def short(method):
         idle()
         choose(window, method, StoppingCriteria(max_iterations=2, tolerance=0))
-        session.chain.take(Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0))))
+        session.recipe_draft.take(
+            Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0)))
+        )
 
     return {
         "view_x": lambda: window.action("copy_camera").trigger(),
@@ -134,10 +138,10 @@ def rest(window, qtbot):
     qtbot.waitUntil(
         lambda: (
             not (
-                window.canvas.travel.under_way
+                window.canvas.travel.active
                 or session.opener.busy
                 or session.timeline.playing
-                or session.smoothing.phase in (Phase.PREPARING, Phase.RUNNING, Phase.STOPPING)
+                or session.run.phase in (Phase.PREPARING, Phase.RUNNING, Phase.STOPPING)
                 or features["film"].going_on
                 or features["figures"].going_on
             )

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QPlainTextEdit, QPushBu
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.bench.windows import save_and_wait
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, click, named, phase, press
 from tests.patience import PATIENCE
 
@@ -37,7 +37,7 @@ def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
     choose(window, "local-sd", StoppingCriteria(max_iterations=2, tolerance=0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    done = before.partition("# What is seen now")[0].rstrip()
+    done = before.partition("# Current view")[0].rstrip()
     assert shown(window, panel).startswith(done)
     assert "hx.smooth(" in shown(window, panel)[len(done) :]
 
@@ -45,17 +45,20 @@ def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
 def test_it_begins_anew_with_the_mesh_as_it_is(window, panel, tmp_path):
     save_and_wait(window.session, tmp_path / "out.vtu")
     assert "out.vtu" in shown(window, panel)
-    press(named(panel, QPushButton, "Begin the script anew"))
+    press(named(panel, QPushButton, "Restart the script"))
     assert "hx.write(" not in shown(window, panel)
     save_and_wait(window.session, tmp_path / "more.vtu")
     assert "mesh_0 = " in shown(window, panel)
     assert "more.vtu" in shown(window, panel)
 
 
-def test_it_is_copied(window, panel):
-    QApplication.clipboard().clear()
-    press(named(panel, QPushButton, "Copy the script"))
-    assert QApplication.clipboard().text() == window.features["script"].script.text
+def test_it_is_copied(window, qtbot, panel):
+    def copied():
+        QApplication.clipboard().clear()
+        press(named(panel, QPushButton, "Copy the script"))
+        return QApplication.clipboard().text() == window.features["script"].script.text
+
+    qtbot.waitUntil(copied, timeout=PATIENCE)  # the camera fits the view anew after its panel has opened
 
 
 @pytest.mark.slow

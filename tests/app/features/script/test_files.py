@@ -15,9 +15,9 @@ from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.film.film_dialog import FilmChoice
-from hexmend_app.state.history import Moment
-from hexmend_app.state.look import Arrows, Since, Traces
-from hexmend_app.state.run import Phase
+from hexmend_app.picture.appearance import Arrows, Since, Traces
+from hexmend_app.state.mesh.history import RecordedIteration
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose, open_and_wait, phase
 from tests.patience import PATIENCE
 
@@ -117,7 +117,7 @@ def test_charts_of_a_run_and_its_branch(window, qtbot, script, tmp_path):
     run(window, qtbot)
     at(window, 2)
     window.session.commands.branch(Stage(METHODS["laplacian"](), SHORT))
-    qtbot.waitUntil(lambda: not window.session.smoothing.busy, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.session.run.busy, timeout=PATIENCE)
     window.show_panel("convergence")
     window.refresh()
     paths = [tmp_path / f"runs{suffix}" for suffix in (".csv", ".png")]
@@ -130,10 +130,10 @@ def test_charts_of_a_run_and_its_branch(window, qtbot, script, tmp_path):
 
 def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
     window.session.commands.pin(np.arange(30), True)
-    window.session.chain.take(Recipe.of(Stage(METHODS["laplacian"](), SHORT), Stage(METHODS["mend"]())))
+    window.session.recipe_draft.take(Recipe.of(Stage(METHODS["laplacian"](), SHORT), Stage(METHODS["mend"]())))
     window.refresh()
     paths = [tmp_path / name for name in ("worst.csv", "recipe.toml", "scene.toml")]
-    assert window.features["inspect"].save(paths[0])
+    assert window.features["hex_inspector"].save(paths[0])
     window.features["recipe"].save(paths[1])
     dialog = window.features["save"].picture_dialog()
     dialog.keep(str(paths[2]))
@@ -174,10 +174,10 @@ def test_a_picture_of_all_that_is_shown(window, qtbot, script, tmp_path, view):
         window.refresh()
     run(window, qtbot)
     if view in ("beside", "wipe"):
-        session.views.show("as it was", session.document.start)
+        session.side_views.show("as it was", session.document.start)
         at(window, 2)
-        session.views.show("between", session.document.now)
-        session.views.set_wiping(view == "wipe")
+        session.side_views.show("between", session.document.now)
+        session.side_views.set_wiping(view == "wipe")
     if view == "movement":
         session.view.colour_by("moved-most")
         session.view.change(traces=Traces(Since.RUN, Arrows.ALL, 2.0))
@@ -198,7 +198,7 @@ def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path
     open_and_wait(qtbot, window, tmp_path / "both.png")
     script.begin_anew()
     window.refresh()
-    assert len(session.views.all) == 1
+    assert len(session.side_views.all) == 1
     path = tmp_path / "again.png"
     assert window.features["save"].picture(path, (400, 300))
     (both,) = again(script, tmp_path, path)
@@ -248,7 +248,7 @@ def test_what_a_session_has_kept_is_read_from_it(window, qtbot, script, tmp_path
     (record,) = session.history.records
     session.timeline.go(record, 3)
     window.refresh()
-    assert session.history.moment_of(session.document.now) == Moment(record, 3)
+    assert session.history.moment_of(session.document.now) == RecordedIteration(record, 3)
     save_and_wait(session, tmp_path / "third.vtu")
     paths = [tmp_path / name for name in ("third.vtu", "quality.csv", "runs.csv", "table.csv", "run.gif")]
     assert window.features["histogram"].save(paths[1])

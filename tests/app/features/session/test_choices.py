@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableV
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
-from hexmend_app.state.choices import CHARTS
-from hexmend_app.state.clip import BoxClip, PlaneClip
-from hexmend_app.state.scene import Camera
+from hexmend_app.picture import Camera
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.state.view.panel_settings import CHARTS
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, made
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
@@ -24,8 +24,8 @@ pytestmark = pytest.mark.slow
 #: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
-    "session.classer", "session.order.begun", "session.smoothing.record", "session.smoothing.advice", "session.smoothing.work",
-    "session.smoothing.phase", "action panel", "action drawer",
+    "session.boundary_classifier", "session.run_setup.begun", "session.run.record", "session.run.advice", "session.run.work",
+    "session.run.phase", "action panel", "action drawer",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
 _UNSEEN = ("Explain", "View at the left", "View at the right")
@@ -75,14 +75,15 @@ def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window,
     table.model().setData(ticked, Qt.CheckState.Checked, Qt.ItemDataRole.CheckStateRole)
     for record in window.session.history.records[:1]:
         window.features["convergence"].panel.toggled.emit(record, False)
+    saved(window, tmp_path)  # the camera fits the view anew beneath the message
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
-    choices, journey = window.session.choices.given(), window.session.eye.travelled()
+    choices, journey = window.session.panel_settings.to_data(), window.session.camera_request.travelled()
     before = seen(window, qtbot)
     open_and_wait(qtbot, other, path)
     at_rest(other, qtbot)
-    assert other.session.eye.travelled() == journey
-    assert other.session.choices.given() == choices
+    assert other.session.camera_request.travelled() == journey
+    assert other.session.panel_settings.to_data() == choices
     assert [r.plotted for r in other.session.history.records] == [r.plotted for r in window.session.history.records]
     assert [r.slot for r in other.session.history.records] == [r.slot for r in window.session.history.records]
     assert seen(other, qtbot) == before
@@ -126,7 +127,7 @@ def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qt
 
 def test_the_patch_of_a_node_stays_alone_and_goes_with_the_node(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_D)
-    panel = window.features["node"].panel
+    panel = window.features["node_step"].panel
     box = named(panel, QCheckBox, "Patch alone")
     qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
     tick(box)
@@ -171,17 +172,17 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
     _, data = read_archive(path, "Hexmend session", VERSION)
     for mesh in data["meshes"]:
         del mesh["target"]
-    for name in ("choices", "journey", "cameras"):
+    for name in ("panel_settings", "pose_history", "cameras"):
         del data["window"][name]
-    del data["window"]["view"]["look"]["left"]
+    del data["window"]["view"]["look"]["left"], data["window"]["view"]["look"]["structure"]["extra"]
     for record in data["window"]["history"]["records"]:
         del record["slot"], record["plotted"]
     write_archive(path, "Hexmend session", 1, data)
     window.features["convergence"].panel.head.log.setChecked(False)
-    choices = window.session.choices.given()
+    choices = window.session.panel_settings.to_data()
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
-    assert window.session.choices.given() == choices
+    assert window.session.panel_settings.to_data() == choices
     assert [(record.slot, record.plotted) for record in window.session.history.records] == [(0, True)]
     assert not window.canvas.can_go_back
     write_archive(path, "Hexmend session", VERSION, data)
@@ -192,11 +193,12 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
 def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    del data["window"]["cameras"], data["window"]["view"]["look"]["left"]
+    look = data["window"]["view"]["look"]
+    del data["window"]["cameras"], look["left"], look["structure"]["extra"]
     write_archive(path, "Hexmend session", 2, data)
-    window.session.cameras.keep("of another", Camera("+x"))
+    window.session.saved_cameras.keep("of another", Camera("+x"))
     open_and_wait(qtbot, window, path)
-    assert window.session.cameras.all == {}
+    assert window.session.saved_cameras.all == {}
 
 
 @pytest.mark.parametrize(("part", "field", "value", "said"), [
@@ -204,14 +206,14 @@ def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_pat
     ("worst", "metric", "taste", "there is no metric 'taste'"),
     ("compare", "ticked", ["taste"], "there is no method 'taste'"),
     ("compare", "sorted_by", "taste", "there is no column 'taste'"),
-    ("histogram", "bins", "many", "the window.choices.histogram.bins is of another kind"),
+    ("histogram", "bins", "many", "the window.panel_settings.histogram.bins is of another kind"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
-    ("cut", "colour", 1, "the window.choices.cut has an unknown field 'colour'"),
+    ("cut", "colour", 1, "the window.panel_settings.cut has an unknown field 'colour'"),
 ])  # fmt: skip
 def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, field, value, said):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["choices"][part][field] = value
+    data["window"]["panel_settings"][part][field] = value
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
@@ -221,7 +223,7 @@ def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, f
 def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["choices"]["steps"] = 10**20
+    data["window"]["panel_settings"]["steps"] = 10**20
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
@@ -233,7 +235,7 @@ def test_the_charts_of_sessions_are_those_that_are_offered(window):
 
 
 def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):
-    listed = window.features["inspect"].worst_list
+    listed = window.features["hex_inspector"].worst_list
     window.show_panel("worst")
     box = named(listed, QComboBox, "Worst by")
     walk_to(window, box, "volume")

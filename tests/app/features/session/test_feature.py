@@ -15,11 +15,11 @@ from hexmend.run.breakpoints import Breakpoints
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
-from hexmend_app.shell.starting import Starting
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Arrows, ColourScale, Structure, Traces, ValueRange
-from hexmend_app.state.run import Phase
-from hexmend_app.state.scene import Camera
+from hexmend_app.picture import Camera
+from hexmend_app.picture.appearance import Arrows, ColourScale, Structure, Traces, ValueRange
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.shell.start.window_start import Starting
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
 
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.slow
 
 
 def run(window, qtbot, method, iterations=4):
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(Stage(METHODS[method](), StoppingCriteria(max_iterations=iterations, tolerance=0)))
     window.refresh()
 
@@ -39,14 +39,14 @@ def work(window, qtbot):
     session.commands.tag("bad corner", [3, 5, 8])
     session.commands.pin(17, True)
     run(window, qtbot, "local-sd", 3)
-    session.kept.keep("a kept moment", session.document.now)
+    session.snapshots.keep("a kept moment", session.document.now)
     with qtbot.waitSignal(session.comparison.changed, timeout=PATIENCE):
         session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=2))
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
     session.timeline.go(session.history.records[0], 2)
-    session.order.choose(Stage(METHODS["getme"](relaxation=0.6), StoppingCriteria(max_iterations=77)), "a reason")
-    session.chain.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
-    session.chain.rename("two of them")
+    session.run_setup.choose(Stage(METHODS["getme"](relaxation=0.6), StoppingCriteria(max_iterations=77)), "a reason")
+    session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=5)))
+    session.recipe_draft.rename("two of them")
     window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
     session.view.change(
         clip=PlaneClip.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
@@ -57,8 +57,8 @@ def work(window, qtbot):
         traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
     )
     session.view.counted = "volume"
-    session.cameras.keep("from below", Camera("-z"))
-    session.cameras.keep("as it is", Camera.at(window.canvas.stand))
+    session.saved_cameras.keep("from below", Camera("-z"))
+    session.saved_cameras.keep("as it is", Camera.at(window.canvas.stand))
     session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
     window.refresh()
     window.canvas.look_along("-x")
@@ -69,12 +69,15 @@ def seen(window, qtbot):
     """The picture of the view when all that is looked for is found and nothing moves."""
     session = window.session
     window.refresh()
-    qtbot.waitUntil(lambda: session.finder.structure is not None and not session.classer.busy, timeout=PATIENCE)
+    qtbot.waitUntil(
+        lambda: session.structure_finder.structure is not None and not session.boundary_classifier.busy,
+        timeout=PATIENCE,
+    )
     window.refresh()
     window.canvas.draw_still()
     pixels(window)
     body, lighting = window.canvas.viewport.body, window.canvas.lighting
-    qtbot.waitUntil(lambda: body.light is not None and not lighting.under_way, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: body.light is not None and not lighting.active, timeout=PATIENCE)
     return pixels(window)
 
 
@@ -100,12 +103,12 @@ def tables(window):
         "compared": [(one.row.method, one.row.message, one.row.after) for one in session.comparison.results],
         "look": session.view.look,
         "counted": window.features["histogram"].metric,
-        "kept": [(one.slot, one.name) for one in session.kept.all],
-        "cameras": list(session.cameras.all.items()),
+        "kept": [(one.slot, one.name) for one in session.snapshots.all],
+        "cameras": list(session.saved_cameras.all.items()),
         "chosen": (session.selection.hex, session.selection.node),
-        "order": (session.order.stage, session.order.why),
-        "chain": session.chain.given(),
-        "breakpoints": session.smoothing.breakpoints,
+        "order": (session.run_setup.stage, session.run_setup.reason),
+        "chain": session.recipe_draft.to_data(),
+        "breakpoints": session.run.breakpoints,
         "form": window.features["smooth"].panel.breakpoint_form.breakpoints(),
         "tags": {name: members.tolist() for name, members in session.document.now.mesh.hex_sets.items()},
         "pins": np.flatnonzero(session.document.now.mesh.pinned).tolist(),
@@ -153,7 +156,7 @@ def test_what_is_restored_goes_on(window, qtbot, tmp_path):
     session.timeline.choose(first)
     assert (session.timeline.moment.record, session.timeline.moment.number) == (first, first.result)
     session.view.change(peel=0)
-    session.smoothing.break_at(Breakpoints())
+    session.run.break_at(Breakpoints())
     run(window, qtbot, "laplacian", 2)
     assert [record.name for record in session.history.records][-1] == "Laplacian (2)"
     assert session.history.records[-1].parent.record is first
@@ -235,7 +238,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     before = tables(window)
     stand = window.canvas.stand
-    with qtbot.waitSignal(bare_window.furnished, timeout=PATIENCE):
+    with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
         Starting(bare_window, tmp_path / "work.hexmend")
     bare_window.refresh()
     assert tables(bare_window) == before

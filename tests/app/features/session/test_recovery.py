@@ -15,8 +15,8 @@ from PySide6.QtWidgets import QPushButton
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state import session_data
-from hexmend_app.state.places import VARIABLE
+from hexmend_app.state.session import session_data
+from hexmend_app.state.settings.paths import VARIABLE
 from tests.app.driving import open_and_wait, press
 from tests.patience import PATIENCE
 
@@ -29,13 +29,13 @@ from pathlib import Path
 from hexmend.run.recipe import Stage
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
-from hexmend_app.shell.program import application
+from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
 
 app = application()
 window = Window()
 window.show()
-window.furnish()
+window.build_features()
 window.build_canvas()
 session, feature = window.session, window.features["session"]
 
@@ -85,7 +85,7 @@ def choice(window, word):
 
 
 def run(window, qtbot):
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
 
 
@@ -163,7 +163,7 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
     """Be it that a window was killed while it wrote all that is in it anew."""
     run(fresh_window, qtbot)
     (own_state / "1-left").mkdir(parents=True)
-    session_data.write(own_state / "1-left" / name, fresh_window.session.given())
+    session_data.write(own_state / "1-left" / name, fresh_window.session.to_data())
     if name != "session.hexmend":
         (own_state / "1-left/session.hexmend/arrays").mkdir(parents=True)
         (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
@@ -185,7 +185,7 @@ def test_of_another_mesh_nothing_is_left_that_was_being_written_anew(fresh_windo
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
     (own,) = own_state.iterdir()
-    session_data.write(own / "earlier.hexmend", fresh_window.session.given())
+    session_data.write(own / "earlier.hexmend", fresh_window.session.to_data())
     open_and_wait(qtbot, fresh_window, mesh_file)
     assert [one.name for one in own.iterdir()] == ["lock"]
     recovery.end()
@@ -198,8 +198,8 @@ def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
         run(fresh_window, qtbot)
     program = (
         "from PySide6.QtCore import QCoreApplication\n"
-        "from hexmend_app.state.recovery import Recovery\n"
-        "from hexmend_app.state.session import Session\n"
+        "from hexmend_app.state.session.recovery import Recovery\n"
+        "from hexmend_app.state.session.session import Session\n"
         "app = QCoreApplication([])\n"
         "recovery = Recovery(Session())\n"
         "recovery.begin()\n"
@@ -219,7 +219,7 @@ def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
     feature.guard()
     feature.guard()
     (warning,) = fresh_window.messages.messages()
-    assert "not kept safe" in warning[1]
+    assert "Autosave failed" in warning[1]
     assert not feature.recovery.watching
 
 

@@ -12,7 +12,7 @@ from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
         Breakpoints(),
         Breakpoints(inverts=True, q_min_falls=True),
         Breakpoints(node=3, move=0.25),
-        Breakpoints(hex=7, change=0.5, cuts=9),
+        Breakpoints(hex=7, change=0.5, backtracks=9),
     ],
 )
 def test_what_is_set_is_told_and_read_back(qtbot, breakpoints):

@@ -11,9 +11,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMessageBox
 
 from hexmend.run import StoppingCriteria
-from hexmend_app.state import worker
-from hexmend_app.state.run import Phase
-from hexmend_app.state.task import running
+from hexmend_app.state.run import worker
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.tasks.task import running
 from hexmend_app.widgets.section import Section
 from tests.app.driving import choose, click, key, named, phase, pixels
 from tests.patience import PATIENCE
@@ -65,7 +65,7 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
 
 def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
     choose(window, "mend", StoppingCriteria(tolerance=1e-2))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         key(window, Qt.Key.Key_F5)
     assert window.session.document.start.summary.inverted > 0
     assert window.session.document.now.summary.inverted == 0
@@ -76,7 +76,7 @@ def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
 def test_what_is_said_of_a_run_goes_as_its_result_does_and_comes_back_with_it(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     after, said, progress = counts(window), sentence(window), named(panel, QLabel, "Progress").text()
     assert after != before
@@ -117,7 +117,7 @@ def test_a_method_with_a_wrong_value_is_not_started(window):
     line.selectAll()
     QTest.keyClicks(line, "0.1")
     click(window, "Run")
-    assert not window.session.smoothing.busy
+    assert not window.session.run.busy
     assert "Correct" in sentence(window)
 
 
@@ -138,10 +138,10 @@ def slow_method(monkeypatch):
 def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_method):
     before = window.session.document.now
     click(window, "Run")
-    assert window.session.smoothing.phase is Phase.PREPARING
+    assert window.session.run.phase is Phase.PREPARING
     assert "Preparing" in sentence(window)
     click(window, "Stop")
-    assert window.session.smoothing.phase is Phase.STOPPING
+    assert window.session.run.phase is Phase.STOPPING
     assert "as soon as the method is ready" in sentence(window)
     assert not window.action("stop").isEnabled()
     slow_method.set()
@@ -183,4 +183,4 @@ def test_cancelling_keeps_the_window_and_its_run(fresh_window, qtbot, monkeypatc
         patched.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Cancel)
         window.close()
         assert window.isVisible()
-        assert window.session.smoothing.phase is Phase.PAUSED
+        assert window.session.run.phase is Phase.PAUSED

@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QMessageBox
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
-from hexmend_app.state import commands
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session import commands
 from tests.app.driving import choose, click, key, phase
 from tests.patience import PATIENCE
 
@@ -42,7 +42,7 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
     choose(window, "mend", StoppingCriteria(max_iterations=2))
     for begin in (lambda: click(window, "Run"), lambda: click(window, "Step"), lambda: key(window, Qt.Key.Key_F5)):
         begin()
-        assert session.smoothing.phase is Phase.IDLE
+        assert session.run.phase is Phase.IDLE
         assert session.document.now is before
         assert not session.history.records
     assert len(asked) == 3
@@ -50,7 +50,7 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
     assert "80\u00a0MB are free" in asked[0]
     assert METHODS["local-sd"].title in asked[0] or METHODS["local-nr"].title in asked[0]
     asked.answer = YES
-    with qtbot.waitSignal(session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     assert session.document.now is not before
 
@@ -58,17 +58,17 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
 @pytest.mark.slow
 def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(max_iterations=2))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     assert not asked
 
 
 def test_a_recipe_and_a_comparison_ask_too(window, asked):
     session = window.session
-    session.chain.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
-    session.chain.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
+    session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
+    session.recipe_draft.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
     window.features["recipe"].run()
-    assert session.smoothing.phase is Phase.IDLE
+    assert session.run.phase is Phase.IDLE
     window.features["compare"].panel.run_requested.emit(["laplacian", "mend"])
     assert not session.comparison.busy
     assert len(asked) == 2
@@ -78,8 +78,8 @@ def test_a_branch_that_is_not_agreed_leaves_the_run_under_way(window, qtbot, ask
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
-    record = window.session.smoothing.record
+    record = window.session.run.record
     window.session.commands.branch(Stage(METHODS["mend"](), StoppingCriteria()))
     assert len(asked) == 1
-    assert window.session.smoothing.phase is Phase.PAUSED
-    assert window.session.smoothing.record is record
+    assert window.session.run.phase is Phase.PAUSED
+    assert window.session.run.record is record

@@ -9,7 +9,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
-from hexmend_app.state.order import Order
+from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
 
 _LEFT = Qt.MouseButton.LeftButton
@@ -28,7 +28,7 @@ _STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7
 @pytest.fixture
 def order(qapp):
     """What the panel sets: the method GETMe, scaling 0.25."""
-    order = Order()
+    order = RunSetup()
     order.choose(_STAGE)
     return order
 

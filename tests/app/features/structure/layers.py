@@ -27,7 +27,7 @@ KEYS = {
 def open_and_know(qtbot, window, path):
     """Open a mesh, and wait until its structure is found: not that of the mesh before."""
     open_and_wait(qtbot, window, path)
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
     window.refresh()
 
 

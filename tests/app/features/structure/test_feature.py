@@ -13,11 +13,11 @@ from hexmend.boundary import NodeClass
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import find_structure
-from hexmend_app.scene.layers.structure import KINDS, LOCKED, PINNED, VALENCES
-from hexmend_app.shell.palette import CommandPalette
-from hexmend_app.state.classer import PIN
-from hexmend_app.state.document import State
-from hexmend_app.state.look import Look, Structure
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.tasks.boundary_classifier import PIN
 from tests.app.driving import choose, click, open_and_wait, tick, turn
 from tests.app.features.structure.layers import count, open_and_know, pixels, press_key, texts
 from tests.core.boundary.solids import ball, slid
@@ -47,14 +47,14 @@ def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_an
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
     panel = five.features["structure"].panel
-    classes = five.session.classer.classes
+    classes = five.session.boundary_classifier.classes
     assert texts(panel, "kinds")[0] == f"{classes.count(NodeClass.CORNER)} corners"
     assert count(pixels(five), KINDS[NodeClass.PATCH]) > 100
     assert classes.count(NodeClass.CURVE)
-    with qtbot.waitSignal(five.session.classer.found, timeout=PATIENCE):
+    with qtbot.waitSignal(five.session.boundary_classifier.found, timeout=PATIENCE):
         choose(five, "mend", feature_angle=180)
     five.refresh()
-    assert five.session.classer.classes.count(NodeClass.CURVE) == 0
+    assert five.session.boundary_classifier.classes.count(NodeClass.CURVE) == 0
     assert not any("curves" in text for text in texts(panel, "kinds"))
     assert count(pixels(five), KINDS[NodeClass.CURVE]) == 0
 
@@ -62,11 +62,11 @@ def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_an
 def test_a_pin_makes_a_node_of_the_boundary_stay(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
-    node = int(np.flatnonzero(five.session.classer.classes.kinds == NodeClass.PATCH)[0])
+    node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
     five.session.commands.pin(node, True)
-    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == PIN, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == PIN, timeout=PATIENCE)
     five.session.commands.undo()
-    qtbot.waitUntil(lambda: five.session.classer.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == NodeClass.PATCH, timeout=PATIENCE)
 
 
 def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
@@ -74,9 +74,11 @@ def test_locked_hexes_that_sliding_frees_are_counted(window, qtbot, tmp_path):
     open_and_wait(qtbot, window, tmp_path / "ball.vtu")
     window.show_panel("show")
     window.refresh()
-    qtbot.waitUntil(lambda: window.session.classer.of(window.session.document.now.mesh) is not None, timeout=PATIENCE)
+    qtbot.waitUntil(
+        lambda: window.session.boundary_classifier.of(window.session.document.now.mesh) is not None, timeout=PATIENCE
+    )
     window.refresh()
-    classes = window.session.classer.classes
+    classes = window.session.boundary_classifier.classes
     said = texts(window.features["structure"].panel, "locked")
     assert said == [f"of {classes.locked} hexes", f"{classes.freed} freed by sliding"]
 
@@ -85,15 +87,15 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
     five.refresh()
-    assert window.canvas.viewport.extras.original.shown
+    assert window.canvas.viewport.extras.optional["original"].shown
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points * 1.2)
     window.session.commands.take("grow", State.of(moved))
     five.refresh()
-    places = window.canvas.viewport.extras.original.places
+    places = window.canvas.viewport.extras.optional["original"].places
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
     press_key(five, "original")
-    assert not window.canvas.viewport.extras.original.shown
+    assert not window.canvas.viewport.extras.optional["original"].shown
 
 
 def test_a_mesh_without_them_offers_no_irregular_edges(five):
@@ -202,18 +204,18 @@ def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):
     open_and_know(qtbot, window, tmp_path / "mixed.exo")
     (message,) = window.messages.messages()
     assert "1 pyramid cell next to the hexes" in message[1]
-    assert window.canvas.viewport.extras.others.shown
+    assert window.canvas.viewport.extras.optional["others"].shown
     layer = window.features["structure"].panel.layers["others"]
     assert layer.box.isVisibleTo(window.features["structure"].panel)
     assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
     press_key(window, "others")
     window.refresh()
-    assert not window.canvas.viewport.extras.others.shown
+    assert not window.canvas.viewport.extras.optional["others"].shown
     press_key(window, "others")
     window.refresh()
-    assert window.canvas.viewport.extras.others.shown
+    assert window.canvas.viewport.extras.optional["others"].shown
     io.write(tmp_path / "plain.exo", bare)
     open_and_know(qtbot, window, tmp_path / "plain.exo")
     assert window.messages.messages() == []
-    assert not window.canvas.viewport.extras.others.shown
+    assert not window.canvas.viewport.extras.optional["others"].shown
     assert not layer.box.isVisibleTo(window.features["structure"].panel)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from hexmend import gallery, io
-from hexmend_app.scene.layers.structure import SHARP, VALENCES
-from hexmend_app.state.document import State
-from hexmend_app.state.look import Structure
-from hexmend_app.state.task import running
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.scene.layers.optional.structure import SHARP, VALENCES
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.tasks.task import running
 from tests.app.driving import open_and_wait, turn
 from tests.app.features.structure.layers import count, pixels, press_key, texts
 from tests.core.grids import grid
@@ -17,23 +17,23 @@ from tests.patience import PATIENCE
 
 def begin_searching(window):
     """Not waited for: a small mesh's search may be over between two looks at it."""
-    window.session.finder.search()
-    assert window.session.finder.busy
+    window.session.structure_finder.search()
+    assert window.session.structure_finder.busy
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("searching", [False, True])
 def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
     window = fresh_window
-    if window.session.finder.structure is None:
-        qtbot.waitSignal(window.session.finder.found, timeout=PATIENCE).wait()
+    if window.session.structure_finder.structure is None:
+        qtbot.waitSignal(window.session.structure_finder.found, timeout=PATIENCE).wait()
     window.session.document.replace(window.session.document.start, mesh_file)
     if searching:
         begin_searching(window)
     window.close()
     qtbot.waitUntil(lambda: running() == (), timeout=PATIENCE)
     turn()
-    assert window.session.finder.structure is None
+    assert window.session.structure_finder.structure is None
 
 
 def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(window, qtbot):
@@ -41,8 +41,8 @@ def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(w
     window.session.document.replace(first, None)
     begin_searching(window)
     window.session.document.replace(last, None)
-    qtbot.waitUntil(lambda: window.session.finder.structure is not None, timeout=PATIENCE)
-    assert len(window.session.finder.structure.sharp) == 24
+    qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
+    assert len(window.session.structure_finder.structure.sharp) == 24
 
 
 def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five, qtbot, tmp_path):
@@ -50,9 +50,9 @@ def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five,
     press_key(five, "irregular")
     io.write(tmp_path / "cube.vtu", grid(3))
     open_and_wait(qtbot, five, tmp_path / "cube.vtu")
-    assert five.session.finder.structure is None
+    assert five.session.structure_finder.structure is None
     assert not five.canvas.viewport.frame.look.structure.edges  # the view does not wait for them
-    qtbot.waitUntil(lambda: five.session.finder.structure is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.session.structure_finder.structure is not None, timeout=PATIENCE)
     five.refresh()
     assert five.canvas.viewport.frame.look.structure == Structure(irregular=True, sharp=True)
     assert texts(five.features["structure"].panel, "sharp") == ["36"]

@@ -11,8 +11,9 @@ from PySide6.QtWidgets import QLabel
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import find_structure
 from hexmend_app.features.structure.structure_panel import StructurePanel
-from hexmend_app.shell.program import application
-from hexmend_app.state.look import Structure
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.scene.layers.optional.original_surface import OriginalSurface
+from hexmend_app.shell.start.program import application
 from tests.app.driving import turn
 from tests.app.features.structure.layers import press, texts
 from tests.core.grids import grid
@@ -35,6 +36,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     panel.set_found(None)
     panel.set_classes(None)
     panel.set_nodes(8, 1, 3, 2)
+    panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked", "kinds", "original"]
     assert texts(panel, "irregular") == ["counting…"]
     assert "Being counted" in panel.layers["sharp"].box.toolTip()
@@ -55,7 +57,7 @@ def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
 def test_edges_are_counted_by_valence(panel):
     panel.set_found(find_structure(tetrahedron()))
     assert texts(panel, "irregular") == ["4 of 3", "1 node"]
-    assert "120° at three" in panel.layers["irregular"].box.toolTip()
+    assert "120° or 72°" in panel.layers["irregular"].box.toolTip()
     mesh = grid(8)
     p = mesh.points / 4 - 1
     size = np.maximum(np.linalg.norm(p, axis=1, keepdims=True), 1e-9)
@@ -77,6 +79,7 @@ def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
 def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
     panel.set_found(find_structure(grid(2)))
     panel.set_nodes(26, 0, 1, 0)
+    panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert panel.offered() == {
         "irregular": False, "boundary": False, "sharp": True, "fixed": True, "free": True, "locked": False,
         "kinds": False, "others": False, "original": True,

@@ -33,7 +33,7 @@ def listed(panel):
 
 def seen(window):
     window.refresh()
-    return [label.text() for label in window.features["inspect"].panel.findChildren(QLabel)]
+    return [label.text() for label in window.features["hex_inspector"].panel.findChildren(QLabel)]
 
 
 def tags(window):
@@ -77,7 +77,7 @@ def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, pan
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "worst")
     press(button(panel, "Worst"))
-    assert tags(window)["worst"] == sorted(window.features["inspect"].worst_list.elements.tolist())
+    assert tags(window)["worst"] == sorted(window.features["hex_inspector"].worst_list.elements.tolist())
     table = panel.findChild(QTableWidget)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
     press(button(panel, "Isolate"))
@@ -125,7 +125,7 @@ def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, pan
 def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot):
     window.session.commands.tag("kept", [5])
     choose(window, "laplacian")
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     assert tags(window) == {"kept": [5]}
     window.session.commands.tag("later", [6])
@@ -136,7 +136,7 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
 
 def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, qtbot):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     shown = named(window, QLabel, "Iteration shown")
     window.refresh()
@@ -151,5 +151,5 @@ def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
     window.session.commands.tag("lost", [5])
     assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")
     kind, title, text = window.messages.messages()[-1]
-    assert (kind, title) == ("warning", "Not all is in it")
+    assert (kind, title) == ("warning", "Some data was not saved")
     assert "lost" in text

@@ -7,7 +7,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.features.tags.feature import FeatureTags
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.hosting import PlainHost, action
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -77,7 +77,7 @@ def host(qtbot):
 def test_the_key_says_why_nothing_is_tagged_while_a_run_is_paused(host, qtbot):
     feature = FeatureTags(host)
     tag = action(feature, "tag")
-    smoothing = host.session.smoothing
+    smoothing = host.session.run
     host.session.selection.choose(5)
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0), 1)
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QDoubleSpinBox, QLabel, QSpi
 
 from hexmend.run import StoppingCriteria
 from hexmend_app.features.timeline.track_slider import TrackSlider
-from hexmend_app.state.run import Phase
+from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, choose_by_keys, click, drag, key, open_and_wait, phase, pixels
 from tests.app.driving import press as press_button
 from tests.patience import PATIENCE
@@ -34,7 +34,7 @@ def stepped(window, qtbot, iterations=12, method="local-sd"):
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     window.refresh()
-    return window.session.smoothing.record
+    return window.session.run.record
 
 
 def press(window, name):
@@ -93,12 +93,8 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.q_mean == pytest.approx(record.rows[3]["q_mean"], abs=1e-6)
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
-    assert (
-        named(window.docks.drawer.cornerWidget(), QLabel, "Counts")
-        .text()
-        .endswith(f"{state.summary.inverted:,} inverted")
-    )
-    assert state.figures.inverted[window.features["inspect"].worst_list.elements[0]]
+    assert named(window.statusBar(), QLabel, "Counts").text().endswith(f"{state.summary.inverted:,} inverted")
+    assert state.figures.inverted[window.features["hex_inspector"].worst_list.elements[0]]
     assert state is not newest
 
 
@@ -126,7 +122,7 @@ def test_buttons_and_playing(window, qtbot):
     press(window, "first")
     assert at(window, 0)()
     press(window, "play")
-    assert window.features["timeline"].panel.button("play").accessibleName() == "Hold"
+    assert window.features["timeline"].panel.button("play").accessibleName() == "Pause"
     qtbot.waitUntil(lambda: not window.session.timeline.playing, timeout=PATIENCE)
     assert at(window, 12)()
     press(window, "back")
@@ -143,10 +139,10 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     first = stepped(window, qtbot)
     go(window, qtbot, 4)
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):  # of the run that is left
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):  # of the run that is left
         key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
-    second = window.session.smoothing.record
+    second = window.session.run.record
     assert (second.name, second.parent.record, second.parent.number, second.newest) == ("Laplacian", first, 4, 3)
     window.refresh()
     runs = named(window.features["timeline"].panel, QComboBox, "Run")
@@ -166,7 +162,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     window.features["smooth"].panel.show_break_points()
     check(window, "A hex inverts")
     choose(window, "laplacian", ENDLESS)
-    with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
+    with qtbot.waitSignal(window.session.run.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     frame = hit.args[0]
@@ -178,7 +174,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
 
 
 @pytest.mark.parametrize(
-    ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search cuts", "global-sd", False)]
+    ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
 def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
     window.features["smooth"].panel.show_break_points()
@@ -192,7 +188,7 @@ def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, me
     named(form, QSpinBox, "Most cuts of the line search").setValue(0)
     window.session.selection.choose(None)
     choose(window, method)
-    with qtbot.waitSignal(window.session.smoothing.hit, timeout=PATIENCE) as hit:
+    with qtbot.waitSignal(window.session.run.hit, timeout=PATIENCE) as hit:
         click(window, "Run")
     assert hit.args[0].hit.sentence in said(window)
     assert window.session.selection.node == (node if chooses else None)
@@ -202,7 +198,7 @@ def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
     from hexmend import io
 
     record = stepped(window, qtbot)
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Stop")
     go(window, qtbot, 5)
     path = Path(tmp_path) / "five.vtu"
@@ -229,7 +225,7 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     window.refresh()
     assert "Positions are kept of 5 of them" in slider(window).toolTip()
     assert not choices["Forget this run"].isEnabled()  # it is under way
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Stop")
     window.refresh()
     choices["Forget this run"].trigger()
@@ -254,13 +250,13 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
     qtbot.waitUntil(lambda: at(window, 8)() and phase(window, Phase.PAUSED)(), timeout=PATIENCE)
     window.refresh()
     choose_by_keys(window, "laplacian")
-    assert window.session.order.method == "laplacian"
+    assert window.session.run_setup.method == "laplacian"
     click(window, "Step")
     qtbot.waitUntil(at(window, 12), timeout=PATIENCE)
     assert [row["method"] for row in record.rows[1:]] == ["local-sd"] * 8 + ["laplacian"] * 4
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=15))
-    with qtbot.waitSignal(window.session.smoothing.ended, timeout=PATIENCE) as ended:
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE) as ended:
         click(window, "Resume")
     assert ended.args[0].iterations == 15
     assert "After iteration 8" in said(window)
@@ -287,12 +283,12 @@ def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(w
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_V)
     key(window, Qt.Key.Key_Period)
-    (shown,) = window.session.views.all
+    (shown,) = window.session.side_views.all
     assert (shown.name, shown.state) == ("Local steepest descent 2", kept)
     assert window.session.document.now is not kept
     for _ in range(2):
         assert window.window_actions["beside"].isEnabled()
         key(window, Qt.Key.Key_V)
         key(window, Qt.Key.Key_Period)
-    assert [one.name for one in window.session.views.all] == [f"Local steepest descent {k}" for k in (2, 3, 4)]
+    assert [one.name for one in window.session.side_views.all] == [f"Local steepest descent {k}" for k in (2, 3, 4)]
     assert not window.window_actions["beside"].isEnabled()

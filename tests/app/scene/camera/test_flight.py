@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from vtkmodules.vtkRenderingCore import vtkCamera
 
+from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.scene.camera.flight import Flight
-from hexmend_app.scene.camera.pose import Pose
+from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 
 VECTORS = st.tuples(*[st.floats(-10, 10)] * 3)
 
@@ -22,12 +23,12 @@ def poses(draw):
     up = np.cross(way, np.cross(up, way))  # at a right angle, as a camera has it after a drag
     up = tuple(float(c) for c in up / np.linalg.norm(up))
     position = tuple(float(c) for c in np.add(focal, way))
-    return Pose(position, focal, up, False, draw(st.floats(0.1, 10)))
+    return CameraPose(position, focal, up, False, draw(st.floats(0.1, 10)), "z")
 
 
 def camera_in(pose):
     camera = vtkCamera()
-    pose.give(camera)
+    apply_pose(camera, pose)
     return camera
 
 
@@ -39,7 +40,7 @@ def test_a_flight_begins_where_the_camera_is_and_ends_in_the_very_pose(start, go
     np.testing.assert_allclose(camera.GetPosition(), start.position, atol=1e-6)
     np.testing.assert_allclose(camera.GetViewUp(), start.up, atol=1e-6)
     flight.at(1.0)
-    assert Pose.of(camera).looks_like(goal)
+    assert pose_of(camera).looks_like(goal)
 
 
 @given(poses(), poses(), st.floats(0.05, 0.95))
@@ -56,16 +57,16 @@ def test_on_its_way_it_is_between_both_and_stays_a_camera(start, goal, share):
 
 
 def test_it_turns_the_shorter_way_round():
-    start = Pose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0)
-    goal = Pose((0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0)
+    start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
+    goal = CameraPose((0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     camera = camera_in(start)
     Flight(camera, goal).at(0.5)
     np.testing.assert_allclose(camera.GetPosition(), (0.5**0.5, -(0.5**0.5), 0), atol=1e-9)
 
 
 def test_the_projection_is_that_of_the_goal():
-    start = Pose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0)
+    start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     camera = camera_in(start)
-    Flight(camera, Pose(start.position, start.focal, start.up, True, 4.0)).at(0.5)
+    Flight(camera, CameraPose(start.position, start.focal, start.up, True, 4.0, "z")).at(0.5)
     assert camera.GetParallelProjection()
     assert camera.GetParallelScale() == pytest.approx(2.0)

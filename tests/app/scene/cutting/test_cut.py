@@ -6,13 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hexmend.quality import measure
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
 from hexmend_app.scene.cutting import cut
-from hexmend_app.scene.filters import Filters
-from hexmend_app.scene.frame import Frame
+from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.geometry.skin import Skin
 from hexmend_app.scene.layers.surface import quads
-from hexmend_app.scene.skin import Skin
-from hexmend_app.state.clip import BoxClip, ClipPlane, PlaneClip
-from hexmend_app.state.look import Look
+from hexmend_app.scene.views.frame import Frame
 from tests.core.grids import grid
 
 MESH = grid(4, 3, 2)

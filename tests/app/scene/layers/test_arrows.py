@@ -7,13 +7,13 @@ import pytest
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.quality import measure
-from hexmend_app.scene.frame import Frame
+from hexmend_app.picture.appearance import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.picture.cut_planes import PlaneClip
 from hexmend_app.scene.layers import arrows as layer
-from hexmend_app.scene.pane import Pane
-from hexmend_app.scene.stage import Stage
-from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid, scrambled
 
 MESH = grid(6)
@@ -111,7 +111,7 @@ def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewpor
     bad = scrambled(MESH, 1.2).points
     figures = measure(bad, MESH.hexes)
     move(viewport, bad, figures)
-    assert [(name, count) for name, count, _ in viewport.colours.apart] == [
+    assert [(name, count) for name, count, _ in viewport.colours.special_counts] == [
         ("newly inverted", figures.n_inverted),
         ("still inverted", 0),
         ("mended", 0),

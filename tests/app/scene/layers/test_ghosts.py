@@ -1,18 +1,21 @@
 """Elements around what is isolated stand as ghosts, through which it is seen."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.quality import measure
-from hexmend_app.scene.camera.pose import Pose
-from hexmend_app.scene.frame import Frame
+from hexmend_app.picture.appearance import Isolation, Look
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.camera.vtk_pose import apply_pose
 from hexmend_app.scene.layers.ghosts import Ghosts
-from hexmend_app.scene.pane import Pane
-from hexmend_app.scene.stage import Stage
-from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.clip import PlaneClip
-from hexmend_app.state.look import Isolation, Look
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid
 
 MESH = grid(5)
@@ -66,7 +69,7 @@ def test_nothing_isolated_leaves_no_ghosts(viewport):
 
 def test_what_was_looked_for_is_seen_through_its_ghosts(stage, viewport):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), 1), outline=False))
-    Pose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0).give(viewport.camera)
+    apply_pose(viewport.camera, CameraPose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0, "z"))
     viewport.layers[0].ResetCameraClippingRange()
     ghostly = stage.picture().astype(int)
     middle = ghostly[80:100, 110:130].reshape(-1, 3).mean(axis=0)
@@ -77,7 +80,7 @@ def test_what_was_looked_for_is_seen_through_its_ghosts(stage, viewport):
 
 
 def test_ghosts_follow_the_nodes():
-    ghosts, keep = Ghosts(vtkRenderer()), np.zeros(MESH.n_hexes, bool)
+    ghosts, keep = Ghosts(SimpleNamespace(renderer=vtkRenderer())), np.zeros(MESH.n_hexes, bool)
     keep[MIDDLE] = True
     around = MESH.topology.hexes_around([MIDDLE], 1) & ~keep
     ghosts.draw(frame(), around, keep)

@@ -6,8 +6,8 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import sharp_edges
+from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.layers.silhouette import Silhouette, form_lines
-from hexmend_app.state.look import Look
 from tests.core.grids import grid
 from tests.core.mesh.test_topology import closed
 

@@ -10,8 +10,9 @@ from hexmend.gallery.blocks import extrude
 from hexmend.gallery.pentagon import fan, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
-from hexmend_app.scene.frame import Frame
-from hexmend_app.scene.layers.structure import (
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
     IRREGULAR_NODE,
@@ -23,12 +24,11 @@ from hexmend_app.scene.layers.structure import (
     VALENCES,
     valence_colours,
 )
-from hexmend_app.scene.pane import Pane
-from hexmend_app.scene.stage import Stage
-from hexmend_app.scene.viewport import Viewport
-from hexmend_app.state.classer import WHISKER
-from hexmend_app.state.clip import BoxClip, PlaneClip
-from hexmend_app.state.look import Look, Structure
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from hexmend_app.state.tasks.boundary_classifier import WHISKER
 from tests.core.grids import grid
 from tests.core.mesh.test_structure import tetrahedron
 
@@ -163,7 +163,7 @@ def test_marks_follow_the_nodes_shrunk_elements_too(draw):
 
 
 def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
-    monkeypatch.setattr("hexmend_app.scene.layers.structure._MANY", 5)
+    monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
     draw(FIVE, Structure(irregular=True))
     layers = draw.viewport.extras.structure
     assert not layers.layer.GetDraw()

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES
-from hexmend.optimise.maxmin.corner_values import corner_jacobians, gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.maxmin.corner_values import corner_jacobians, gradients, scaled_jacobians
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled
 

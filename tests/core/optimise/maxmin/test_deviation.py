@@ -33,7 +33,7 @@ def test_followed_distances_bound_those_that_are_looked_up_anew(seed):
         anew = DeviationTracker(sliding, points)
         assert (tracker.distances >= anew.distances - 1e-12).all()
         if not step:  # what is closest to a place at first is that place
-            went = np.isin(sliding.midpoints, moved).any(axis=1)
+            went = np.isin(sliding.samples, moved).any(axis=1)
             np.testing.assert_allclose(tracker.distances[went], anew.distances[went], atol=1e-12)
 
 
@@ -54,7 +54,7 @@ def test_a_boundary_leaves_its_room_where_something_is_further_than_before(seed,
 
 
 def both_ways(sliding, points):
-    return sliding.boundary_deviation(points, np.arange(len(sliding.midpoints))), sliding.surface_deviation(points)
+    return sliding.boundary_deviation(points, np.arange(len(sliding.samples))), sliding.surface_deviation(points)
 
 
 @settings(max_examples=10)
@@ -66,8 +66,8 @@ def test_only_what_nodes_could_bring_out_of_the_room_is_bounded(seed, reach):
     for points, moved in wandering(mesh, sliding.nodes, seed):
         tracker = DeviationTracker(sliding, mesh.points).after_move(points, moved)
         moves = np.zeros(mesh.n_nodes)
-        assert len(tracker.bounds(moves, room).above) == 0
+        assert len(tracker.bounds(moves, room).slack) == 0
         moves[moved] = reach
-        assert (tracker.bounds(moves, room).above < reach).all()
-        bounded += len(tracker.bounds(moves + 2 * room, room).above)
+        assert (tracker.bounds(moves, room).slack < reach).all()
+        bounded += len(tracker.bounds(moves + 2 * room, room).slack)
     assert bounded

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hexmend.boundary import NodeClass, SlidingBoundary
-from hexmend.optimise.maxmin.corner_values import shortest_edges
+from hexmend.mesh.edge_length import shortest_edges
 from hexmend.optimise.maxmin.directions import step_directions
 from tests.core.boundary.solids import ball, cylinder, slid
 from tests.core.grids import grid
@@ -15,9 +15,9 @@ def test_inside_there_are_both_senses_of_each_axis():
     nodes = np.flatnonzero(mesh.free)
     ways = step_directions(mesh.points[nodes], np.full(nodes.size, 0.5), 0.1, nodes, np.zeros(nodes.size, bool), None)
     for k in range(nodes.size):
-        own = {tuple(way) for way in ways.displacements[ways.owner == k].tolist()}
+        own = {tuple(way) for way in ways.displacements[ways.node_index == k].tolist()}
         assert own == {tuple(sign * 0.5 * axis) for axis in np.eye(3) for sign in (1, -1)}
-    np.testing.assert_array_equal(ways.effective, ways.displacements)
+    np.testing.assert_array_equal(ways.projected, ways.displacements)
 
 
 @pytest.mark.parametrize("mesh", [ball(3), cylinder(16, 3)], ids=["ball", "cylinder"])
@@ -27,12 +27,12 @@ def test_sliding_nodes_go_along_their_patch_or_curve_and_stay_on_it(mesh):
     nodes = np.flatnonzero(sliding.mesh.free)
     x, size = mesh.points[nodes], shortest_edges(mesh.points, mesh.hexes)[nodes]
     ways = step_directions(x, size, radius, nodes, sliding.slides(nodes), sliding)
-    assert (np.diff(ways.owner) >= 0).all()
+    assert (np.diff(ways.node_index) >= 0).all()
     count = {NodeClass.CURVE: 2, NodeClass.PATCH: 8}
     expected = [count.get(NodeClass(kind), 6) for kind in sliding.node_class[nodes]]
-    np.testing.assert_array_equal(np.bincount(ways.owner, minlength=nodes.size), expected)
-    on = np.flatnonzero(sliding.slides(nodes)[ways.owner])
-    of = ways.owner[on]
-    there = x[of] + radius * ways.effective[on]
+    np.testing.assert_array_equal(np.bincount(ways.node_index, minlength=nodes.size), expected)
+    on = np.flatnonzero(sliding.slides(nodes)[ways.node_index])
+    of = ways.node_index[on]
+    there = x[of] + radius * ways.projected[on]
     np.testing.assert_allclose(sliding.project(there, nodes[of]), there, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(ways.displacements[on], axis=1), size[of])

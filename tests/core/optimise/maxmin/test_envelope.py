@@ -30,7 +30,7 @@ def test_without_sliding_nothing_is_bounded():
     assert envelope.max_deviation == np.inf
     assert not envelope.slides(nodes).any()
     assert envelope.project(mesh.points, points, nodes) is points
-    assert envelope.bounds(points, np.ones(mesh.n_nodes)).above.size == 0
+    assert envelope.bounds(points, np.ones(mesh.n_nodes)).slack.size == 0
     assert not envelope.leaves_band(mesh.points, points, nodes)
     assert envelope.largest_deviation(points) == 0
 
@@ -38,7 +38,7 @@ def test_without_sliding_nothing_is_bounded():
 def test_sliding_nodes_are_put_back_and_lifted_ones_are_not(sliding):
     envelope, nodes = Envelope(sliding.mesh.n_nodes, sliding), sliding.nodes
     lifted = nodes[:1]
-    envelope.released[lifted] = True
+    envelope.release(lifted)
     assert (envelope.slides(nodes) == ~np.isin(nodes, lifted)).all()
     outside = pushed(sliding, nodes, 0.05)
     points = envelope.project(sliding.mesh.points, outside.copy(), nodes)
@@ -55,25 +55,26 @@ def test_the_boundary_leaves_its_room_where_it_is_further_than_that(sliding):
     assert not envelope.leaves_band(mesh.points, points, node)  # where there is no end of room
     far = envelope.largest_deviation(points)
     assert 0.2 * edge < far <= 0.3 * edge * (1 + 1e-9)
-    envelope.max_deviation = 0.99 * far
+    envelope.limit_to(0.99 * far)
     assert envelope.leaves_band(mesh.points, points, node)
-    assert node[0] in envelope.infeasible_nodes(points)
-    envelope.max_deviation = 1.01 * far
+    assert node[0] in envelope.nodes_outside_band(points)
+    envelope.limit_to(1.01 * far)
     assert not envelope.leaves_band(mesh.points, points, node)
-    assert envelope.infeasible_nodes(points).size == 0
+    assert envelope.nodes_outside_band(points).size == 0
 
 
 def test_what_is_followed_bounds_as_what_is_looked_at_anew(sliding):
     mesh, node = sliding.mesh, sliding.nodes[:1]
     followed, anew = (Envelope(mesh.n_nodes, sliding) for _ in range(2))
-    followed.max_deviation = anew.max_deviation = 0.2 * mesh.mean_edge_length
+    for envelope in (followed, anew):
+        envelope.limit_to(0.2 * mesh.mean_edge_length)
     points, moves = pushed(sliding, node, 0.1), np.zeros(mesh.n_nodes)
     moves[sliding.nodes] = 0.2 * mesh.mean_edge_length
     followed.track(mesh.points, points, node)
     one, other = (envelope.bounds(points, moves) for envelope in (followed, anew))
-    assert one.above.size
-    assert (one.rises == 0).all()
-    assert one.above.min() == pytest.approx(other.above.min())
+    assert one.slack.size
+    assert (one.has_gain == 0).all()
+    assert one.slack.min() == pytest.approx(other.slack.min())
 
 
 def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, monkeypatch):
@@ -86,7 +87,7 @@ def test_where_a_move_was_allowed_its_distances_are_not_looked_up_anew(sliding, 
 
     monkeypatch.setattr(envelopes, "DeviationTracker", Counted)
     envelope = Envelope(sliding.mesh.n_nodes, sliding)
-    envelope.max_deviation = sliding.mesh.mean_edge_length
+    envelope.limit_to(sliding.mesh.mean_edge_length)
     before, nodes = sliding.mesh.points, sliding.nodes[:3]
     after = pushed(sliding, nodes, 0.1)
     assert not envelope.leaves_band(before, after, nodes)

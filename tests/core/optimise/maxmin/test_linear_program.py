@@ -49,7 +49,7 @@ def test_nodes_that_need_not_move_stay():
 
 def test_two_corners_hold_each_other_where_they_want_opposite_ways():
     nodes, directions = along_x(5)
-    both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).joined(
+    both = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1)).concatenate(
         LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
     )
     found = solve(nodes, directions, both, 0.1)
@@ -61,17 +61,19 @@ def test_a_bound_limits_how_far_a_node_goes_whether_it_is_near_at_first_or_turns
     nodes, directions = along_x(5)
     corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, 1.0), np.ones(1))
     for room, slope in ((0.02, -1.0), (0.2, -4.0)):  # at a radius of 0.1 all that is nearer than 0.03 is taken at once
-        found = solve(nodes, directions, corner.joined(lower_bounds(ENDS, np.array([room]), slope_of(1, slope))), 0.1)
+        found = solve(
+            nodes, directions, corner.concatenate(lower_bounds(ENDS, np.array([room]), slope_of(1, slope))), 0.1
+        )
         np.testing.assert_allclose(found.lengths, [room / -slope, 0], atol=1e-9)
         assert found.gain == pytest.approx(room / -slope)
-    assert len(corner.joined(no_constraints()).ends) == 1
+    assert len(corner.concatenate(no_constraints()).nodes) == 1
 
 
 def test_the_least_falls_only_where_it_may():
     nodes, directions = along_x(5)
     corner = LinearConstraints(ENDS, np.zeros(1), slope_of(1, -1.0), np.ones(1))
-    beyond = corner.joined(lower_bounds(ENDS, np.array([-0.05]), slope_of(1, 1.0)))
+    beyond = corner.concatenate(lower_bounds(ENDS, np.array([-0.05]), slope_of(1, 1.0)))
     assert solve(nodes, directions, beyond, 0.1) is None
-    found = solve(nodes, directions, beyond, 0.1, falls=True)
+    found = solve(nodes, directions, beyond, 0.1, may_decrease=True)
     np.testing.assert_allclose(found.lengths, [0.05, 0], atol=1e-9)
     assert found.gain == pytest.approx(-0.05)

@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from hexmend.boundary import SlidingBoundary, surface_change
+from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
-from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians, shortest_edges
+from hexmend.optimise.maxmin.corner_values import gradients, scaled_jacobians
 from hexmend.optimise.maxmin.linear_program import MOVE_COST
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from tests.core.boundary.solids import ball, cylinder, slid
@@ -62,14 +63,14 @@ def with_locked_corner(mesh):
 def test_the_least_rises_from_step_to_step_and_fixed_nodes_stay(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     raising = MaxMinOptimiser(mesh, mesh.points)
-    least = raising.corners.least
+    least = raising.corners.active_minimum
     steps, limit = raised(raising)
     for step in steps:
         assert step.least > least
         least = step.least
         assert step.least == scaled_jacobians(step.points, mesh.hexes).min()  # that of the boundary's corners too
         np.testing.assert_array_equal(step.points[mesh.fixed], mesh.points[mesh.fixed])
-    assert limit.least == raising.corners.least == least
+    assert limit.least == raising.corners.active_minimum == least
     np.testing.assert_array_equal(raising.corners.values, scaled_jacobians(raising.points, mesh.hexes))
 
 
@@ -80,7 +81,7 @@ def test_a_scrambled_grid_is_raised_to_that_of_cubes(seed, amplitude):
     mesh = scrambled(grid(3), amplitude, seed)
     raising = MaxMinOptimiser(mesh, mesh.points)
     raised(raising)
-    assert raising.corners.least > 0.99
+    assert raising.corners.active_minimum > 0.99
 
 
 @settings(max_examples=20)
@@ -118,13 +119,13 @@ def test_settled_corners_do_not_fall_while_others_rise(seed):
     held = raising.corners.values[at]
     raising.freeze(first)
     assert raising.corners.frozen[at].all()
-    assert raising.corners.least >= first.least
+    assert raising.corners.active_minimum >= first.least
     _, second = raised(raising)
     assert second.least >= first.least
     np.testing.assert_array_equal(raising.corners.values[at], held)
-    assert raising.corners.least_of_all >= first.least
+    assert raising.corners.movable_minimum >= first.least
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
-    assert raising.corners.least_of_all == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
+    assert raising.corners.movable_minimum == scaled_jacobians(raising.points, mesh.hexes)[movable].min()
 
 
 def test_where_nothing_is_free_nothing_is_done():
@@ -132,7 +133,7 @@ def test_where_nothing_is_free_nothing_is_done():
     raising = MaxMinOptimiser(mesh, mesh.points)
     steps, limit = raised(raising)
     assert steps == []
-    assert raising.corners.least == limit.least == np.inf
+    assert raising.corners.active_minimum == limit.least == np.inf
     assert limit.hexes.size == 0
     np.testing.assert_array_equal(raising.points, mesh.points)
 
@@ -166,9 +167,9 @@ def test_coinciding_nodes_are_no_end(seed, one, other):
 def test_the_boundary_slides_in_its_room(seed, solid, share):
     mesh = slid({"ball": ball(3), "cylinder": cylinder(16, 3)}[solid], 0.25, seed)
     room = share * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, tolerance=room)
+    sliding = SlidingBoundary(mesh, max_deviation=room)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    before = raising.corners.least
+    before = raising.corners.active_minimum
     steps, _ = raised(raising)
     assert (np.diff([before, *(step.least for step in steps)]) > 0).all()
     assert raising.envelope.largest_deviation(raising.points) <= room * (1 + 1e-9)

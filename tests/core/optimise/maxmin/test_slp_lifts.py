@@ -16,7 +16,7 @@ from tests.core.optimise.maxmin.test_slp import raised
 def lifted(sliding, points, wide, times):
     """A boundary that has left its surface where that raises the least, up to so far, and as often as it has to."""
     raising = MaxMinOptimiser(sliding.mesh, points, sliding)
-    raising.envelope.max_deviation = wide
+    raising.envelope.limit_to(wide)
     for _ in range(times):
         _, limit = raised(raising, target=0.5)
         if not raising.release(limit):
@@ -38,7 +38,7 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
     assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
     assert surface_change(mesh, mesh.with_points(raising.points)).max <= 0.1 * (1 + 1e-5)
     assert raising.envelope.max_deviation == 0.1 * edge
-    least = raising.corners.least
+    least = raising.corners.active_minimum
     steps, _ = raised(raising)
     assert all(step.least > least for step in steps)
     assert raising.envelope.largest_deviation(raising.points) <= 0.1 * edge * (1 + 1e-5)
@@ -46,10 +46,10 @@ def test_lifted_nodes_leave_the_surface_and_are_brought_into_their_room():
 
 def test_nothing_is_lifted_off_a_surface_without_room():
     mesh = slid(ball(3), 0.3, 1)
-    sliding = SlidingBoundary(mesh, tolerance=0.0)
+    sliding = SlidingBoundary(mesh, max_deviation=0.0)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     _, limit = raised(raising)
-    raising.envelope.max_deviation = 0.0
+    raising.envelope.limit_to(0.0)
     assert not raising.release(limit)
     assert not raising.envelope.released.any()
     fixed = MaxMinOptimiser(mesh, mesh.points)
@@ -61,7 +61,7 @@ def test_a_real_mesh_is_brought_into_its_room_both_ways(real_mesh):
     room = 0.4 * mesh.mean_edge_length
     sliding = SlidingBoundary(mesh)
     raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    raising.envelope.max_deviation = 1.5 * mesh.mean_edge_length
+    raising.envelope.limit_to(1.5 * mesh.mean_edge_length)
     for _ in range(5):
         for step in itertools.islice(raising.steps(0.0), 10):
             limit = step
@@ -102,8 +102,8 @@ def test_fixed_nodes_are_let_go_where_they_hold_an_inverted_corner_and_nowhere_e
     """A corner of the solid, which has sharp edges, yields only where it would leave a hex without any volume."""
     mesh = grid(2)
     for least, yields in ((-0.1, True), (0.0, True), (0.1, False)):
-        sliding = SlidingBoundary(mesh, tolerance=0.5)
+        sliding = SlidingBoundary(mesh, max_deviation=0.5)
         raising = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-        raising.envelope.released[sliding.nodes] = True  # those of the edges and faces have left already
+        raising.envelope.release(sliding.nodes)  # those of the edges and faces have left already
         assert raising.release(ActiveCorners(least, np.array([0]), np.array([0]))) == yields
         assert raising.mesh.free[0] == raising.envelope.released[0] == yields

@@ -104,7 +104,7 @@ def test_simultaneous_ends_by_itself_and_untangles_a_scrambled_grid(weights):
 def test_weights_are_finite_and_grow_as_quality_falls():
     q = np.array([0.0, 1e-9, 0.2, 0.7, 1.0])
     for weights in ("quality", "paper"):
-        got = METHODS["getme"](weights=weights).weigh(q)
+        got = METHODS["getme"](weights=weights).hex_weights(q)
         assert np.isfinite(got).all()
         assert (got > 0).all()
         assert (np.diff(got) <= 0).all()

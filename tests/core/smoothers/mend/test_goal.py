@@ -80,28 +80,28 @@ def test_what_limits_the_least_is_told():
     movable = mesh.free[mesh.hexes[:, CORNER_TETRAHEDRA]].any(axis=2)
     least = scaled_jacobians(result.mesh.points, mesh.hexes)[movable].min()
     assert f"The least scaled Jacobian of the corners that can be moved is {least:.4f}" in result.message
-    held = np.unique(result.limits.hexes)
+    held = np.unique(result.active.hexes)
     assert held.size
-    assert ", ".join(f"{h}" for h in dict.fromkeys(result.limits.hexes[:8].tolist())) in result.message
+    assert ", ".join(f"{h}" for h in dict.fromkeys(result.active.hexes[:8].tolist())) in result.message
     values = scaled_jacobians(result.mesh.points, mesh.hexes)
-    corner = mesh.hexes[result.limits.hexes] == result.limits.nodes[:, None]
-    assert corner.sum() == result.limits.hexes.size
-    np.testing.assert_allclose(values[result.limits.hexes][corner], least, atol=1e-3)
-    assert (values[result.limits.locked].min(axis=1) < least).all()
+    corner = mesh.hexes[result.active.hexes] == result.active.nodes[:, None]
+    assert corner.sum() == result.active.hexes.size
+    np.testing.assert_allclose(values[result.active.hexes][corner], least, atol=1e-3)
+    assert (values[result.active.locked].min(axis=1) < least).all()
     shaped = smooth(mesh, Mend())
     assert "The least scaled Jacobian" not in shaped.message
-    assert shaped.limits is None
+    assert shaped.active is None
 
 
 @pytest.mark.parametrize("name", ["bridge-sharp", "plane"])
 def test_corners_that_are_apart_are_not_said_to_hold_each_other(name):
     mesh = make(name, size=500)
     result = smooth(mesh, Mend(goal="scaled-jacobian"))
-    limits = result.limits
+    limits = result.active
     corner = (mesh.hexes[limits.hexes] == limits.nodes[:, None]).argmax(axis=1)
     places = len(set(MovableCorners(mesh, result.mesh.points).groups(8 * limits.hexes + corner)))
     assert places > 1
-    assert f"{limits.hexes.size} of them can go no further there, in {places} separate places" in result.message
+    assert f"it is limited by {limits.hexes.size} corners at {places} separate places" in result.message
     assert "hold each other" not in result.message
 
 
@@ -111,7 +111,7 @@ def test_a_corner_that_is_locked_below_the_others_is_told():
     points[cube.topology.boundary & (points == 0).all(axis=1)] += 0.35  # the apex of a corner of the cube
     mesh = scrambled(cube.with_points(points), 0.2)
     result = smooth(mesh, Mend(goal="scaled-jacobian"))
-    assert result.limits.locked.tolist() == [0]
+    assert result.active.locked.tolist() == [0]
     values = scaled_jacobians(result.mesh.points, mesh.hexes)
     assert "One corner is locked below that" in result.message or "corners are locked below that" in result.message
     assert f"{values.min():.4f} at the lowest, in hex 0." in result.message

@@ -12,7 +12,6 @@ from hexmend.smoothers import METHODS
 from hexmend.smoothers.mend import untangling
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
-from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 from tests.core.boundary.solids import wavy
 from tests.core.grids import grid, scrambled
@@ -46,7 +45,7 @@ def untangled(mesh, energy, config=DEFAULT):
     """Untangle a mesh: the steps, and the result."""
     quality = measure(mesh.points, mesh.hexes)
     locked = locked_corners(mesh, quality)
-    walk, steps = untangle(mesh, energy, quality, locked, config, NewtonConfig()), []
+    walk, steps = untangle(mesh, energy, quality, locked, config), []
     while True:
         try:
             steps.append(next(walk))
@@ -89,7 +88,7 @@ def test_corners_that_resist_are_left_out_as_those_that_are_locked():
     points[points[:, 0] == 2, 0] = -1.0
     mesh = mesh.with_points(points)
     locked = locked_corners(mesh, measure(mesh.points, mesh.hexes))
-    _, result = untangled(mesh, MeshEnergy(mesh, left_out=locked))
+    _, result = untangled(mesh, MeshEnergy(mesh, omitted=locked))
     quality = measure(result.points, mesh.hexes)
     np.testing.assert_array_equal(result.quality.q, quality.q)
     inverted = inverted_corners(result.points, mesh.hexes, quality)

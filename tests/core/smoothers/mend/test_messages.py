@@ -10,8 +10,8 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
 from hexmend.quality.regressions import REGRESSION_KEYS
 from hexmend.smoothers import METHODS
-from hexmend.smoothers.mend.maxmin_stage import MAXMIN
-from hexmend.smoothers.mend.surface_return import MaxMinResult, release_from_surface
+from hexmend.smoothers.mend.maxmin import MAXMIN
+from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
 from tests.core.boundary.solids import ball, slid
 
 #: Every set of figures that can be worse.
@@ -35,12 +35,12 @@ def test_mend_advises_its_other_goal_or_its_guard_only_where_they_help():
 def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, tolerance=room)
+    sliding = SlidingBoundary(mesh, max_deviation=room)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     assert isinstance(limit, ActiveCorners)
     steps = list(
-        release_from_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, MaxMinResult(other, limit))
+        improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), room, MaxMinResult(other, limit))
     )
     assert steps
     assert all(step.intermediate for step in steps)
@@ -49,11 +49,11 @@ def test_while_nodes_are_off_the_surface_every_step_says_that_more_is_to_come():
 
 def test_what_is_no_better_off_the_surface_is_given_up():
     mesh = ball(3)
-    sliding = SlidingBoundary(mesh, tolerance=1e-9)
+    sliding = SlidingBoundary(mesh, max_deviation=1e-9)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     other.corners.values[:] = 1.0  # as good as can be: nothing is better
-    walk = release_from_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), 1e-9, MaxMinResult(other, limit))
+    walk = improve_off_surface(MaxMinOptimiser(sliding.mesh, mesh.points, sliding), 1e-9, MaxMinResult(other, limit))
     steps = []
     while True:
         try:
@@ -64,7 +64,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
     assert result.optimiser is other
     assert result.active is limit
     assert steps[-1].points is other.points
-    assert steps[-1].diagnostics == {"least": other.corners.least_of_all}
+    assert steps[-1].diagnostics == {"least": other.corners.movable_minimum}
     assert all(step.intermediate for step in steps)
 
 
@@ -72,7 +72,7 @@ def test_what_is_no_better_off_the_surface_is_given_up():
 def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(monkeypatch):
     mesh = slid(ball(3), 0.3, 1)
     room = 0.01 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, tolerance=room)
+    sliding = SlidingBoundary(mesh, max_deviation=room)
     other = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
     *_, limit = other.steps()
     config = replace(MAXMIN, acceptable=0.7)
@@ -81,7 +81,7 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
         MaxMinOptimiser, "return_to_band", lambda *given: (made.append(step.points) or step for step in into(*given))
     )
     optimiser = MaxMinOptimiser(sliding.mesh, mesh.points, sliding)
-    steps = list(release_from_surface(optimiser, room, MaxMinResult(other, limit), config))
+    steps = list(improve_off_surface(optimiser, room, MaxMinResult(other, limit), config))
     assert len(made) > MAXMIN.programs_per_iteration
     shown = [k for k, points in enumerate(made) if any(step.infeasible and step.points is points for step in steps)]
     assert shown == list(range(0, len(made), MAXMIN.programs_per_iteration))
@@ -90,10 +90,10 @@ def test_the_first_step_back_to_the_surface_is_shown_and_every_third_after_it(mo
 def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
     mesh = slid(ball(3), 0.3, 1)
     room = 0.1 * mesh.mean_edge_length
-    sliding = SlidingBoundary(mesh, tolerance=room)
+    sliding = SlidingBoundary(mesh, max_deviation=room)
     other, off = (MaxMinOptimiser(sliding.mesh, mesh.points, sliding) for _ in range(2))
-    limit = ActiveCorners(other.corners.least, np.array([0]), np.array([0]))
-    walk = release_from_surface(off, room, MaxMinResult(other, limit), replace(MAXMIN, acceptable=0.3))
+    limit = ActiveCorners(other.corners.active_minimum, np.array([0]), np.array([0]))
+    walk = improve_off_surface(off, room, MaxMinResult(other, limit), replace(MAXMIN, acceptable=0.3))
     while True:
         try:
             next(walk)
@@ -102,6 +102,6 @@ def test_what_is_better_off_the_surface_and_back_in_its_band_is_taken():
             break
     assert result.optimiser is off
     assert result.active is not limit
-    assert off.corners.least_of_all > other.corners.least_of_all
+    assert off.corners.movable_minimum > other.corners.movable_minimum
     assert 0.5 * room < off.envelope.largest_deviation(off.points) <= room * (1 + 1e-5)
     assert not off.envelope.flips_allowed

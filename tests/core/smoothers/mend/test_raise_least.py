@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinStep
-from hexmend.smoothers.mend.maxmin_stage import MAXMIN, raise_least
+from hexmend.smoothers.mend.maxmin import MAXMIN, maximise_minimum
 
 NOTHING = np.empty(0, np.int64)
 
@@ -19,7 +19,7 @@ class StandIn:
     """Makes some steps, then ends at the next of some limits; records what is done about each."""
 
     def __init__(self, limits, steps=0, releases=0):
-        self.points, self.corners = np.zeros((8, 3)), SimpleNamespace(least=-1.0)
+        self.points, self.corners = np.zeros((8, 3)), SimpleNamespace(active_minimum=-1.0)
         self._limits, self._steps, self._releases = iter(limits), steps, releases
         self.asked, self.frozen, self.released = [], [], []
 
@@ -38,7 +38,7 @@ class StandIn:
 
 
 def walked(raising, *given, **options):
-    steps, walk = [], raise_least(raising, *given, **options)
+    steps, walk = [], maximise_minimum(raising, *given, **options)
     while True:
         try:
             steps.append(next(walk))

@@ -128,6 +128,6 @@ def test_to_its_end_it_turns_no_quad_over_and_speaks_of_what_it_keeps(seed):
     assert result.after.inverted <= result.before.inverted
     assert not SlidingBoundary(mesh).flipped_quads(mesh.points, result.mesh.points).size
     assert surface_change(mesh, result.mesh).max <= 0.3 * (1 + 1e-4)
-    assert result.limits is None or result.kept == result.iterations
+    assert result.active is None or result.kept == result.iterations
     assert ("hold each other" in result.message) <= (result.kept == result.iterations)
     assert not (result.after.inverted and "rises instead" in result.message)

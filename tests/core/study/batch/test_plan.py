@@ -107,7 +107,7 @@ def test_the_boundary_applies_to_methods_without_their_own(folder):
     ('methods = ["mend"]\ntitle = 4', "title = 4 is no text"),
     ('methods = ["mend"]\n[boundary]\nsurface = 4', "surface = 4 is no text"),
     ('methods = ["mend"]\n[boundary]\nslide = true', "[boundary] has no key 'slide'"),
-    ('methods = ["mend"]\n[boundary]\nboundary = "fixed"\nsurface = "a.stl"', "it is fixed: say boundary = slide"),
+    ('methods = ["mend"]\n[boundary]\nboundary = "fixed"\nsurface = "a.stl"', "the boundary is fixed: set boundary = 'slide'"),
     ('methods = ["smart-laplacian", "getme-sequential"]\n[boundary]\nboundary = "up"', "boundary = 'up' is unknown"),
     (f'[[method]]\nmethod = "mend"\nparameters = {{ p = {[2] * 101} }}\nstop = {{ tolerance = {[0] * 101} }}',
      "more than 10,000 cases"),

@@ -127,7 +127,7 @@ JUDGED = {
         [table("4.1", {"local-nr": run(iterations=50), "local-mnr": run(iterations=40)})],
         [table("4.1", {"local-nr": stuck(), "local-mnr": run(iterations=40)})],
     ),
-    local_methods.direct_solver: (
+    delta.direct_solver: (
         [table("4.3", {"laplacian": run(), "local-nr": run()}), table("4.4", {"local-nr": stuck()})],
         [table("4.3", {"laplacian": run(), "local-nr": stuck(objective=None)})],
         [table("4.3", {"laplacian": run(), "local-nr": late()})],

@@ -4,28 +4,18 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.command import action
+from hexmend.cli.arguments.options import add_repeated
+from hexmend.cli.command import CoreCommand
+
+_PARTS = (
+    "kernels, processes, iterations, preconditioners, optima, tangled, boundaries, offsets, scaling, sizes, memory, "
+    "peers, start, viewer, filters, views or watching"
+)
 
 
-class Bench:
-    """Measure the sections of the benchmark."""
-
-    name = "bench"
-    help = "Measure speed and memory on this machine."
-
-    def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument(
-            "--only",
-            metavar="PART",
-            action="append",
-            default=[],
-            help="kernels, processes, iterations, preconditioners, optima, tangled, boundaries, offsets, scaling, "
-            "sizes, memory, peers, start, viewer, filters, views or watching; may be repeated",
-        )
-        parser.add_argument("--json", metavar="FILE", help="write the figures")
-
-    def run(self, args: argparse.Namespace) -> int:
-        return action("hexmend.cli.commands.bench.benchmarks")(args)
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    add_repeated(parser, "--only", "PART", f"{_PARTS}; may be repeated")
+    parser.add_argument("--json", metavar="FILE", help="write the figures")
 
 
-command = Bench()
+command = CoreCommand("bench", "Measure speed and memory on this machine.", _arguments, f"{__name__}.benchmarks")

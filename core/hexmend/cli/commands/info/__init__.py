@@ -17,9 +17,8 @@ class Info:
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
         add_mesh(parser)
-        parser.add_argument(
-            "--doctor", action="store_true", help="show where each problem is, and the command that repairs it"
-        )
+        text = "show where each problem is, and the command that repairs it"
+        parser.add_argument("--doctor", action="store_true", help=text)
         parser.add_argument("--metrics", action="store_true", help="add minimum, mean and maximum of every metric")
         parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 

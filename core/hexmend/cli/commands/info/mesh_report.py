@@ -15,13 +15,12 @@ from hexmend.quality import (
     MetricStatistics,
     SecondOrder,
     Summary,
-    locked,
+    locked_hexes,
     measure,
     metric_statistics,
     summarise,
     summarise_second_order,
 )
-from hexmend.quantity import format_count
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -72,11 +71,8 @@ def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
     """Print how many of the locked inverted hexes a sliding boundary frees."""
     from hexmend.boundary import freed_by_sliding  # loaded only for a mesh with locked hexes
 
-    freed = int(freed_by_sliding(mesh, locked(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)).sum())
-    print(
-        f"Locked: {format_count(freed)} can be freed by a sliding boundary (--boundary slide), "
-        f"{format_count(n_locked - freed)} cannot."
-    )
+    freed = int(freed_by_sliding(mesh, locked_hexes(mesh.points, mesh.hexes, mesh.fixed, quality.inverted)).sum())
+    print(f"Locked: {freed:,} can be freed by a sliding boundary (--boundary slide), {n_locked - freed:,} cannot.")
 
 
 def _print_problems(args: argparse.Namespace, mesh: Mesh) -> None:

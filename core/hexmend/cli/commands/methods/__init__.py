@@ -4,20 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.command import action
+from hexmend.cli.command import CoreCommand
+
+_HELP = "List the smoothing and untangling methods with their parameters."
 
 
-class Methods:
-    """List the registered methods."""
-
-    name = "methods"
-    help = "List the smoothing and untangling methods with their parameters."
-
-    def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("--json", action="store_true", help="print JSON for other programs")
-
-    def run(self, args: argparse.Namespace) -> int:
-        return action("hexmend.cli.commands.methods.method_list")(args)
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--json", action="store_true", help="print JSON for other programs")
 
 
-command = Methods()
+command = CoreCommand("methods", _HELP, _arguments, f"{__name__}.method_list")

@@ -4,28 +4,16 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.command import action
+from hexmend.cli.arguments.options import add_repeated
+from hexmend.cli.command import CoreCommand
+
+_HELP = "Repair what hexmend info --doctor finds: numbering, unmerged blocks, duplicates, unused nodes."
 
 
-class Repair:
-    """Apply the doctor's remedies to a file."""
-
-    name = "repair"
-    help = "Repair what hexmend info --doctor finds: numbering, unmerged blocks, duplicates, unused nodes."
-
-    def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("mesh", metavar="MESH", help="the mesh file")
-        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the repaired mesh to write")
-        parser.add_argument(
-            "--only",
-            metavar="KIND",
-            action="append",
-            default=[],
-            help="one kind of problem; may be repeated",
-        )
-
-    def run(self, args: argparse.Namespace) -> int:
-        return action("hexmend.cli.commands.repair.mesh_repair")(args)
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("mesh", metavar="MESH", help="the mesh file")
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the repaired mesh to write")
+    add_repeated(parser, "--only", "KIND", "one kind of problem; may be repeated")
 
 
-command = Repair()
+command = CoreCommand("repair", _HELP, _arguments, f"{__name__}.mesh_repair")

@@ -4,47 +4,25 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_surface
-from hexmend.cli.command import action
+from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_repeated, add_surface
+from hexmend.cli.command import CoreCommand
+
+_HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
 
 
-class Smooth:
-    """Run one method, or a recipe of several, on one mesh."""
-
-    name = "smooth"
-    help = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
-
-    def arguments(self, parser: argparse.ArgumentParser) -> None:
-        add_mesh(parser)
-        parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
-        add_method(parser)
-        add_surface(parser)
-        parser.add_argument(
-            "--fix",
-            metavar="SET",
-            action="append",
-            default=[],
-            help="fix the nodes of this set; may be repeated",
-        )
-        parser.add_argument(
-            "--only",
-            metavar="SET",
-            help="smooth only the hexes of this set, or 'inverted' ones",
-        )
-        parser.add_argument(
-            "--rings",
-            metavar="K",
-            type=int,
-            default=1,
-            help="with --only: also K rings of hexes around (default 1)",
-        )
-        add_force(parser)
-        parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")
-        parser.add_argument("--json", metavar="FILE", help="write a report")
-        parser.add_argument("--history", metavar="FILE.csv", help="write a table with a row for each iteration")
-
-    def run(self, args: argparse.Namespace) -> int:
-        return action("hexmend.cli.commands.smooth.smoothing")(args)
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    add_mesh(parser)
+    parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
+    add_method(parser)
+    add_surface(parser)
+    add_repeated(parser, "--fix", "SET", "fix the nodes of this set; may be repeated")
+    parser.add_argument("--only", metavar="SET", help="smooth only the hexes of this set, or 'inverted' ones")
+    text = "with --only: also K rings of hexes around (default 1)"
+    parser.add_argument("--rings", metavar="K", type=int, default=1, help=text)
+    add_force(parser)
+    parser.add_argument("--save-recipe", metavar="FILE.toml", help="write the methods and all values as a recipe")
+    parser.add_argument("--json", metavar="FILE", help="write a report")
+    parser.add_argument("--history", metavar="FILE.csv", help="write a table with a row for each iteration")
 
 
-command = Smooth()
+command = CoreCommand("smooth", _HELP, _arguments, f"{__name__}.smoothing")

@@ -70,7 +70,7 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
         print(result.surface.sentence)
     print(f"Written to {args.output}.")
     if advice is not None:
-        print(advice.left)
+        print(advice.state)
         for suggestion in advice.suggestions:
             print(f"Try next: {suggestion.text}")
             if line := suggested_command(suggestion, args.mesh, args.output):

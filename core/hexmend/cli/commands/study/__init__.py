@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force
+from hexmend.cli.arguments.options import add_force, add_repeated
 from hexmend.cli.command import action
 from hexmend.errors import ParameterError
 
@@ -19,43 +19,24 @@ class StudyCommand:
     help = "Run methods with lists of values on many meshes, from a recipe; or repeat the experiments of the thesis."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        parser.add_argument(
-            "study",
-            metavar="RECIPE.toml|thesis",
-            help="the recipe of a study of meshes; thesis: the tables of Chapter 4 and outlooks of 5.2",
-        )
+        text = "the recipe of a study of meshes; thesis: the tables of Chapter 4 and outlooks of 5.2"
+        parser.add_argument("study", metavar="RECIPE.toml|thesis", help=text)
         parser.add_argument("meshes", metavar="MESH", nargs="*", help="recipe: the meshes")
-        parser.add_argument(
-            "-o", "--output", metavar="DIR", help="folder of the report (recipe: its name if not given)"
-        )
-        parser.add_argument(
-            "--quick",
-            action="store_true",
-            help="thesis: small meshes and a few seconds per run: minutes in place of hours",
-        )
-        parser.add_argument(
-            "--max-seconds",
-            metavar="S",
-            help="thesis: time limit of a run in seconds (default 4 hours; with --quick 5 s, and 60 s for local-sd)",
-        )
-        parser.add_argument(
-            "--only",
-            metavar="TABLE",
-            action="append",
-            default=[],
-            help="thesis: a table, such as 4.1, or a section, such as 5.2.5; may be repeated",
-        )
+        text = "folder of the report (recipe: its name if not given)"
+        parser.add_argument("-o", "--output", metavar="DIR", help=text)
+        text = "thesis: small meshes and a few seconds per run: minutes in place of hours"
+        parser.add_argument("--quick", action="store_true", help=text)
+        text = "thesis: time limit of a run in seconds (default 4 hours; with --quick 5 s, and 60 s for local-sd)"
+        parser.add_argument("--max-seconds", metavar="S", help=text)
+        text = "thesis: a table, such as 4.1, or a section, such as 5.2.5; may be repeated"
+        add_repeated(parser, "--only", "TABLE", text)
         add_force(parser)
         parser.add_argument("--jobs", metavar="N", type=int, help="recipe: tasks at a time (default: number of cores)")
-        parser.add_argument(
-            "--scheduler",
-            metavar="ADDRESS",
-            help="recipe: run tasks on the workers of this Dask scheduler, such as tcp://host:8786",
-        )
+        text = "recipe: run tasks on the workers of this Dask scheduler, such as tcp://host:8786"
+        parser.add_argument("--scheduler", metavar="ADDRESS", help=text)
         parser.add_argument("--again", action="store_true", help="recipe: repeat tasks that are done")
-        parser.add_argument(
-            "--write-meshes", action="store_true", help="recipe: write the resulting meshes into DIR/meshes"
-        )
+        text = "recipe: write the resulting meshes into DIR/meshes"
+        parser.add_argument("--write-meshes", action="store_true", help=text)
 
     def run(self, args: argparse.Namespace) -> int:
         _check_options(args)

@@ -37,16 +37,9 @@ def run(args: argparse.Namespace) -> int:
     meshes_to = output_folder(folder / "meshes") if args.write_meshes else None
     with FinishWriting():
         with CleanExit() as signals, TaskProgress() as progress:
-            study = run_study(
-                plan,
-                [Path(mesh) for mesh in args.meshes],
-                store,
-                workers,
-                version=__version__,
-                again=args.again,
-                meshes_to=meshes_to,
-                watch=progress.show,
-            )
+            options = {"again": args.again, "meshes_to": meshes_to, "watch": progress.show}
+            meshes = [Path(mesh) for mesh in args.meshes]
+            study = run_study(plan, meshes, store, workers, version=__version__, **options)
         _write_report(folder, study)
     if study.interrupted:
         return signals.status

@@ -7,26 +7,11 @@ out.
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
-from hexmend.io.base.format import Capability, Format, register
-from hexmend.mesh.mesh import Mesh
+from hexmend.io.base.format import Capability, deferred, register
 
+_LOST = {Capability.NODE_DATA, Capability.HEX_DATA, Capability.FIELD_DATA}
 _FIRST_KEYWORDS = (b"HEADING", b"NODE", b"PART", b"PREPRINT", b"ELEMENT", b"ASSEMBLY", b"INCLUDE", b"PARAMETER")
-
-
-def read(path: Path) -> Mesh:
-    """Read the mesh of an input file: the nodes, elements, sets and surfaces of all instances of its parts."""
-    from hexmend.io.formats.abaqus import reader
-
-    return reader.read(path)
-
-
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write nodes, elements by type, sets and surfaces."""
-    from hexmend.io.formats.abaqus import writer
-
-    writer.write(path, mesh)
 
 
 def _matches(head: bytes) -> bool:
@@ -37,36 +22,15 @@ def _matches(head: bytes) -> bool:
     return found is not None and comments and found[1].strip().upper() in _FIRST_KEYWORDS
 
 
-def _limitations(mesh: Mesh) -> list[str]:
-    """List the data of a mesh that a file cannot hold, in words."""
-    from hexmend.io.formats.abaqus import writer
-
-    return writer.limitations(mesh)
-
-
 register(
-    Format(
-        name="abaqus",
-        title="Abaqus",
-        suffixes=(".inp",),
-        encodings=("ascii",),
-        read=read,
-        write=write,
-        capabilities=frozenset(
-            {
-                Capability.IDS,
-                Capability.NODE_SETS,
-                Capability.HEX_SETS,
-                Capability.CELL_SETS,
-                Capability.SIDE_SETS,
-                Capability.LOWER_CELLS,
-                Capability.VERTICES,
-                Capability.OTHER_CELLS,
-                Capability.SECOND_ORDER,
-            }
-        ),
-        stored_names=frozenset({"abaqus:type", "abaqus:types"}),
-        limitations=_limitations,
-        matches=_matches,
-    )
+    name="abaqus",
+    title="Abaqus",
+    suffixes=(".inp",),
+    encodings=("ascii",),
+    read=deferred("hexmend.io.formats.abaqus.reader:read"),
+    write=deferred("hexmend.io.formats.abaqus.writer:write"),
+    capabilities=frozenset(Capability) - _LOST - {Capability.EMPTY_SETS, Capability.FIXED_NODES},
+    stored_names=frozenset({"abaqus:type", "abaqus:types"}),
+    limitations=deferred("hexmend.io.formats.abaqus.writer:limitations"),
+    matches=_matches,
 )

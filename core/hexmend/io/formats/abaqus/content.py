@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 
 import numpy as np
@@ -67,16 +68,10 @@ def to_mesh(deck: Deck, instances: list[Instance], assembly: Part, notes: list[s
     n_unknown = sum(lookup.n_unknown for lookup in (*of_nodes, *of_elements))
     if n_unknown:
         notes.append(f"{n_unknown:,} members of sets that do not exist in the file are passed over.")
-    content = Content(
-        points,
-        tuple(elements.blocks(element_sets)),
-        {ID: np.concatenate(node_ids)},
-        node_sets,
-        side_sets,
-        field_data={TYPES: elements.types} if elements.types else {},
-        notes=tuple(notes),
-        unread={f"type {quoted(type)}": count for type, count in unread.items()},
-    )
+    blocks, node_data = tuple(elements.blocks(element_sets)), {ID: np.concatenate(node_ids)}
+    fields = {TYPES: elements.types} if elements.types else {}
+    unread = {f"type {quoted(type)}": count for type, count in unread.items()}
+    content = Content(points, blocks, node_data, node_sets, side_sets, None, fields, tuple(notes), unread)
     return mesh_of(deck.path, content)
 
 
@@ -151,9 +146,9 @@ class _Elements:
 
 def _unread(instances: list[Instance]) -> dict[str, int]:
     """Number of elements of each type that is not read."""
-    counts: dict[str, int] = {}
+    counts = Counter()
     for card in (card for instance in instances for card in instance.part.element_cards if card.kind is None):
-        counts[card.type] = counts.get(card.type, 0) + len(card.ids)
+        counts[card.type] += len(card.ids)
     return counts
 
 

@@ -139,6 +139,4 @@ def _split_keyword(head: str) -> tuple[str, dict[str, str]]:
 
 def _split_fields(line: str) -> list[str]:
     """Split a line at its commas outside of quotes."""
-    if '"' not in line:
-        return line.split(",")
-    return _FIELD.findall(line)
+    return _FIELD.findall(line) if '"' in line else line.split(",")

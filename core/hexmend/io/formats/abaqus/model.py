@@ -49,15 +49,11 @@ class Part:
 
     def merged(self, other: Part) -> Part:
         """Return a part with the data of both."""
-        return Part(
-            self.name,
-            self.node_ids + other.node_ids,
-            self.points + other.points,
-            self.element_cards + other.element_cards,
-            merged_sets(self.node_sets, other.node_sets),
-            merged_sets(self.element_sets, other.element_sets),
-            self.surfaces | {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()},
-        )
+        names = ("node_ids", "points", "element_cards")
+        lists = [getattr(self, name) + getattr(other, name) for name in names]
+        sets = [merged_sets(getattr(self, name), getattr(other, name)) for name in ("node_sets", "element_sets")]
+        surfaces = {name: self.surfaces.get(name, []) + rows for name, rows in other.surfaces.items()}
+        return Part(self.name, *lists, *sets, self.surfaces | surfaces)
 
 
 @dataclass(eq=False)
@@ -112,9 +108,8 @@ def placement(deck: Deck, lines: list[list[str]]) -> tuple[np.ndarray, np.ndarra
         translation[: len(values[0][:3])] = values[0][:3]
     if len(values) > 1:
         if len(values[1]) != 7:
-            raise deck.error(
-                f"an *INSTANCE has a rotation of {len(values[1])} numbers: expected two points and an angle"
-            )
+            problem = f"an *INSTANCE has a rotation of {len(values[1])} numbers"
+            raise deck.error(f"{problem}: expected two points and an angle")
         begin, end, angle = np.array(values[1][:3]), np.array(values[1][3:6]), np.deg2rad(values[1][6])
         axis = end - begin
         length = np.linalg.norm(axis)
@@ -138,10 +133,7 @@ def element_card(deck: Deck, card: Card, type: str, kind: str) -> ElementCard:
     numbers = deck.numbers(card, "*ELEMENT", np.int64)
     width = 1 + node_count(kind)
     if numbers.size % width:
-        raise deck.error(
-            f"*ELEMENT of type {quoted(type)} in line {card.line} holds {numbers.size} numbers: "
-            f"expected {width} an element, its number and {width - 1} nodes",
-            DAMAGED,
-        )
+        problem = f"*ELEMENT of type {quoted(type)} in line {card.line} holds {numbers.size} numbers"
+        raise deck.error(f"{problem}: expected {width} an element, its number and {width - 1} nodes", DAMAGED)
     rows = numbers.reshape(-1, width)
     return ElementCard(type, kind, rows[:, 0].copy(), rows[:, 1:])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -16,6 +17,7 @@ from hexmend.io.formats.abaqus.elements import kind_of
 from hexmend.io.formats.abaqus.model import ElementCard, Instance, Part, element_card, placement
 from hexmend.io.formats.abaqus.sets import SetDefinition, is_number, name_key, unquoted
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import count_phrase
 
 #: Cards that generate nodes or elements from others.
 _GENERATING = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL")
@@ -57,7 +59,7 @@ class _Reader:
         self.parts: dict[str, Part] = {}
         self.instances: list[Instance] = []
         self.part = self.assembly
-        self.other_cards: dict[str, int] = {}
+        self.other_cards = Counter()
 
     def model(self) -> tuple[list[Instance], Part, list[str]]:
         """Read all cards; return the instances, the assembly and notes."""
@@ -70,7 +72,7 @@ class _Reader:
             elif reader is not None:
                 reader(self, card)
             elif card.name not in _IGNORED:
-                self.other_cards[card.name] = self.other_cards.get(card.name, 0) + 1
+                self.other_cards[card.name] += 1
         if not count:
             raise self.deck.error("has no line that begins with *", "Is it an Abaqus file? Check its suffix.")
         notes = []
@@ -81,18 +83,16 @@ class _Reader:
         instances = self.instances or [Instance(part.name, part) for part in self.parts.values()]
         unused = sum(all(instance.part is not part for instance in instances) for part in self.parts.values())
         if unused:
-            verb = "s without an instance are" if unused > 1 else " without an instance is"
-            notes.append(f"{unused} part{verb} left out.")
+            phrase = count_phrase(unused, "part without an instance is", "parts without an instance are")
+            notes.append(f"{phrase} left out.")
         return [replace(one, part=one.part.merged(one.own)) for one in instances], self.assembly, notes
 
     def _refuse(self, card: Card) -> NoReturn:
         """Raise the error for a card whose data are elsewhere or have to be generated."""
         if card.name == "INCLUDE" or "INPUT" in card.options:
             where = quoted(card.options.get("INPUT", ""))
-            raise self.deck.error(
-                f"*{card.name} in line {card.line} reads its data from another file, {where}",
-                "Insert its content in place of the line: one file is read at a time.",
-            )
+            problem = f"*{card.name} in line {card.line} reads its data from another file, {where}"
+            raise self.deck.error(problem, "Insert its content in place of the line: one file is read at a time.")
         raise self.deck.error(f"*{card.name} in line {card.line} generates nodes or elements from others", _EXPAND)
 
     def read_node(self, card: Card) -> None:
@@ -127,16 +127,10 @@ class _Reader:
             continued = line.endswith(",")
         return np.array(ids, np.int64)
 
-    def read_node_set(self, card: Card) -> None:
-        """*NSET, NSET=..., GENERATE, INSTANCE=..."""
-        self._read_set(card, "NSET", self.part.node_sets)
-
-    def read_element_set(self, card: Card) -> None:
-        """*ELSET, ELSET=..., GENERATE, INSTANCE=..."""
-        self._read_set(card, "ELSET", self.part.element_sets)
-
-    def _read_set(self, card: Card, option: str, sets: dict[str, SetDefinition]) -> None:
-        name = card.options.get(option, "")
+    def read_set(self, card: Card) -> None:
+        """*NSET, NSET=..., GENERATE, INSTANCE=...; or *ELSET, ELSET=..."""
+        sets = self.part.node_sets if card.name == "NSET" else self.part.element_sets
+        name = card.options.get(card.name, "")
         if not name:
             raise self.deck.error(f"*{card.name} in line {card.line} has no name")
         definition = _definition(sets, name)
@@ -149,9 +143,8 @@ class _Reader:
                 continue
             numbers = [int(word) for word in row if is_number(word)]
             if len(numbers) != len(row) or not 2 <= len(numbers) <= 3 or 0 in numbers[2:]:
-                raise self.deck.error(
-                    f"*{card.name} in line {card.line} holds {quoted(', '.join(row))}: expected first, last and step"
-                )
+                problem = f"*{card.name} in line {card.line} holds {quoted(', '.join(row))}"
+                raise self.deck.error(f"{problem}: expected first, last and step")
             definition.ranges.append((*numbers, 1)[:3])
 
     def read_surface(self, card: Card) -> None:
@@ -163,7 +156,7 @@ class _Reader:
             rows = self.part.surfaces.setdefault(unquoted(name), [])
             rows += [(row[0], (row[1:] or [""])[0].upper()) for row in self.deck.fields(card) if row[0]]
         else:
-            self.other_cards[card.name] = self.other_cards.get(card.name, 0) + 1
+            self.other_cards[card.name] += 1
 
     def read_part(self, card: Card) -> None:
         """*PART, NAME=..."""
@@ -182,9 +175,8 @@ class _Reader:
         self.instances.append(Instance(name, part, translation, rotation, self.part))
         n_nodes = sum(len(ids) for instance in self.instances for ids in instance.part.node_ids)
         if n_nodes > _ALWAYS_ALLOWED + len(self.deck.data):
-            raise self.deck.error(
-                f"its {len(self.instances)} instances have more nodes than a file of its size can define"
-            )
+            problem = f"its {len(self.instances)} instances have more nodes than a file of its size can define"
+            raise self.deck.error(problem)
 
     def end(self, card: Card) -> None:
         """*END PART, *END INSTANCE: the next cards belong to the assembly."""
@@ -197,13 +189,7 @@ def _definition(sets: dict[str, SetDefinition], name: str) -> SetDefinition:
 
 
 _CARDS: dict[str, Callable[[_Reader, Card], None]] = {
-    "NODE": _Reader.read_node,
-    "ELEMENT": _Reader.read_element,
-    "NSET": _Reader.read_node_set,
-    "ELSET": _Reader.read_element_set,
-    "SURFACE": _Reader.read_surface,
-    "PART": _Reader.read_part,
-    "INSTANCE": _Reader.read_instance,
-    "END PART": _Reader.end,
-    "END INSTANCE": _Reader.end,
-}
+    "NODE": _Reader.read_node, "ELEMENT": _Reader.read_element, "NSET": _Reader.read_set, "ELSET": _Reader.read_set,
+    "SURFACE": _Reader.read_surface, "PART": _Reader.read_part, "INSTANCE": _Reader.read_instance,
+    "END PART": _Reader.end, "END INSTANCE": _Reader.end,
+}  # fmt: skip

@@ -24,15 +24,10 @@ _LABEL = re.compile(r"[A-Za-z_][A-Za-z0-9_\-]*\Z")
 _LINE_LENGTH = 16
 
 
-def write(path: Path, mesh: Mesh) -> None:
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write nodes, elements by type, sets and surfaces.
 
     Elements have the type that they were read with, else the default of their kind.
-
-    Parameters
-    ----------
-    path : Path
-    mesh : Mesh
     """
     content = from_mesh(mesh)
     node_ids = numbering.node_ids(dict(content.node_data), len(content.points))
@@ -55,7 +50,7 @@ def _write_elements(file: TextIO, content: Content, node_ids: np.ndarray, elemen
         for run in numbering.runs(which):
             index = int(which[run.start])
             file.write(f"*ELEMENT, TYPE={types[index] if index >= 0 else DEFAULT_TYPES[block.kind]}\n")
-            file.writelines(_element_lines(row) for row in rows[run].tolist())
+            file.writelines(",\n".join(_lines(row)) + "\n" for row in rows[run].tolist())
 
 
 def _write_sets(file: TextIO, content: Content, node_ids: np.ndarray, element_ids: list[np.ndarray]) -> None:
@@ -102,20 +97,13 @@ def _titles(sets: Iterable[str]) -> dict[str, str]:
     """Names as the file has them: quoted where they are no labels, or differ only in upper and lower case."""
     titles = make_unique(sets, _clean)
     upper = Counter(title.upper() for title in titles.values())
-    return {
-        name: title if _LABEL.match(title) and upper[title.upper()] == 1 else f'"{title}"'
-        for name, title in titles.items()
-    }
+    labels = {title for title in titles.values() if _LABEL.match(title) and upper[title.upper()] == 1}
+    return {name: title if title in labels else f'"{title}"' for name, title in titles.items()}
 
 
 def _clean(name: str, end: str) -> str:
     """Name without double quotes, with single spaces, and with an end."""
     return " ".join(name.replace('"', "'").split()) + end
-
-
-def _element_lines(row: list[int]) -> str:
-    """Data lines of an element, of which all but the last end with a comma."""
-    return ",\n".join(_lines(row)) + "\n"
 
 
 def _set_lines(numbers: np.ndarray) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import Format, register
+from hexmend.io.base.format import register
 from hexmend.mesh.mesh import Mesh
 
 #: Texts near the beginning of files of the two kinds.
@@ -23,9 +23,8 @@ def read(path: Path) -> Mesh:
     with open(path, "rb") as file:
         head = file.read(64)
     if ADF_MARK in head:
-        raise FileError(
-            path, "is a CGNS file of the ADF kind", "pip install hexmend[app] reads it; or adf2hdf converts it."
-        )
+        remedy = "pip install hexmend[app] reads it; or adf2hdf converts it."
+        raise FileError(path, "is a CGNS file of the ADF kind", remedy)
     return to_mesh(path, hdf5.read_content("hexmend.io.formats.cgns.reader:content", path))
 
 
@@ -34,13 +33,4 @@ def matches(head: bytes) -> bool:
     return head.startswith(hdf5.MAGIC) and any(mark in head for mark in HDF5_MARKS)
 
 
-register(
-    Format(
-        name="cgns",
-        title="CGNS",
-        suffixes=(".cgns",),
-        encodings=(),
-        read=read,
-        matches=matches,
-    )
-)
+register(name="cgns", title="CGNS", suffixes=(".cgns",), encodings=(), read=read, matches=matches)

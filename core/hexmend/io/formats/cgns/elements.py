@@ -7,8 +7,6 @@ its upper ones, and its faces are z-, y-, x+, y+, x-, z+::
     edges, faces      lower     vertical    upper     z- y- x+ y+ x- z+    inside
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 #: Kind and number of nodes of each ElementType_t that is read. A kind may have fewer nodes than its type: those of the

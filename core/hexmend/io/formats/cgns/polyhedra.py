@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend.errors import FileError
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
-from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.elements import NFACE, NGON
 from hexmend.io.formats.cgns.section import CellGroup, CGNSSection
 
@@ -31,17 +30,10 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
     """
     ngons = [section for section in sections if section.type == NGON]
     rows = [section.rows() for section in ngons]
-    faces = RaggedArray(
-        np.concatenate([[0], *(np.diff(lists.start) for lists in rows)]).cumsum(),
-        np.concatenate([np.empty(0, np.int64), *(lists.values for lists in rows)]) - 1,
-    )
-    nodes = faces.values
-    if nodes.size and (nodes.min() < 0 or nodes.max() >= n_nodes):
-        raise FileError(
-            ngons[0].node.path,
-            f"its faces use the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {n_nodes}",
-            DAMAGED,
-        )
+    start = np.concatenate([[0], *(lists.lengths for lists in rows)]).cumsum()
+    faces = RaggedArray(start, np.concatenate([np.empty(0, np.int64), *(lists.values for lists in rows)]) - 1)
+    if ngons:
+        check_numbers(ngons[0].node.path, "its faces use the nodes", faces.values, n_nodes)
     numbers = np.concatenate([np.empty(0, np.int64), *(np.arange(ngon.first, ngon.last + 1) for ngon in ngons)])
     n_cells, groups = np.zeros(len(faces), np.int64), []  # of each face
     for section in (section for section in sections if section.type == NFACE):
@@ -49,9 +41,8 @@ def polyhedra(sections: Sequence[CGNSSection], n_nodes: int, notes: list[str]) -
         index = np.searchsorted(numbers, np.abs(cells.values)).clip(0, max(0, len(numbers) - 1))
         if cells.values.size and (not len(numbers) or (numbers[index] != np.abs(cells.values)).any()):
             raise section.error("refers to faces that do not exist")
-        found = cells_from_faces(
-            faces, RaggedArray(cells.start, index), cells.values > 0
-        )  # the face's normal points out of the cell
+        outward = cells.values > 0  # the face's normal points out of the cell
+        found = cells_from_faces(faces, RaggedArray(cells.start, index), outward)
         n_other = len(section) - sum(len(which) for which, _ in found.values())
         if n_other:
             notes.append(f"{n_other:,} polyhedra of section {section.name!r} are left out.")
@@ -70,10 +61,8 @@ def _boundary_faces(section: CGNSSection, rows: RaggedArray, n_cells: np.ndarray
     widths, outer = rows.lengths, n_cells == 1
     n_other = int((n_cells == 0).sum() + (outer & (widths != 3) & (widths != 4)).sum())
     if n_other:
-        notes.append(
-            f"{n_other:,} polygons of section {section.name!r} that bound no polyhedron, or have more than 4 nodes, "
-            "are left out."
-        )
+        polygons = f"{n_other:,} polygons of section {section.name!r}"
+        notes.append(f"{polygons} that bound no polyhedron, or have more than 4 nodes, are left out.")
     groups = []
     for kind, width in (("triangle", 3), ("quad", 4)):
         which = np.flatnonzero(outer & (widths == width))

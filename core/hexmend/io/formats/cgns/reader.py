@@ -38,11 +38,9 @@ def content(path: Path) -> Content:
     number, kept, n_pairs = _merge_nodes(zones, points, first)
     notes += [note for zone in zones for note in zone.notes]
     if len(zones) > 1:
-        notes.append(
-            f"{len(zones)} zones are read as one mesh, joined at {len(points) - len(kept):,} nodes."
-            if n_pairs
-            else f"{len(zones)} zones are read as one mesh; the file does not say where they meet. {JOIN_HINT}"
-        )
+        joined = f", joined at {len(points) - len(kept):,} nodes."
+        contact = joined if n_pairs else f"; the file does not say where they meet. {JOIN_HINT}"
+        notes.append(f"{len(zones)} zones are read as one mesh{contact}")
     blocks, node_sets, side_sets, n_hexes = [], {}, {}, 0
     for k, zone in enumerate(zones):
         for block in zone.blocks:
@@ -55,14 +53,11 @@ def content(path: Path) -> Content:
         for name, rows in zone.side_sets.items():
             side_sets.setdefault(name, []).append(rows + [n_hexes, 0])
         n_hexes += sum(len(block) for block in zone.blocks if block.kind in HEX_KINDS)
-    return Content(
-        points[kept],
-        tuple(blocks),
-        {name: values[kept] for name, values in concatenate_data([zone.node_data for zone in zones], lengths).items()},
-        {name: np.unique(np.concatenate(parts)) for name, parts in node_sets.items()},
-        {name: np.concatenate(parts) for name, parts in side_sets.items()},
-        notes=tuple(notes),
-    )
+    node_data = concatenate_data([zone.node_data for zone in zones], lengths)
+    node_data = {name: values[kept] for name, values in node_data.items()}
+    node_sets = {name: np.unique(np.concatenate(parts)) for name, parts in node_sets.items()}
+    side_sets = {name: np.concatenate(parts) for name, parts in side_sets.items()}
+    return Content(points[kept], tuple(blocks), node_data, node_sets, side_sets, notes=tuple(notes))
 
 
 def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
@@ -77,9 +72,7 @@ def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
             if len(sizes) < 2 or sizes[0] != 3:
                 n_flat += 1
                 continue
-            kind = node.child("ZoneType_t")
-            is_unstructured = kind is not None and kind.text() == "Unstructured"
-            zone = read_unstructured(node) if is_unstructured else read_structured(node)
+            zone = (read_unstructured if node.text_of("ZoneType_t") == "Unstructured" else read_structured)(node)
             zone.key = (base.name, node.name)
             zones.append(zone)
     if n_flat:
@@ -90,24 +83,10 @@ def _zones(path: Path, root: CGNSNode) -> tuple[list[Zone], list[str]]:
 
 
 def _merge_nodes(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
-    """Merge the matching nodes of all interfaces.
+    """Merge the matching nodes of all interfaces; `first` is the number of the first node of each zone.
 
-    Parameters
-    ----------
-    zones : list of Zone
-    points : (n, 3) float64
-        Nodes of all zones.
-    first : (z + 1,) int64
-        Number of the first node of each zone.
-
-    Returns
-    -------
-    number : (n,) int64
-        Number of each node after merging.
-    kept : (m,) int64, ascending
-        The first of each group of merged nodes.
-    n_pairs : int
-        Matching pairs in all interfaces.
+    Returns the number of each node after merging, (n,) int64; the first of each group of merged nodes, (m,) int64
+    ascending; and the number of matching pairs in all interfaces.
     """
     index = {zone.key: k for k, zone in enumerate(zones)}
     ends = []
@@ -115,7 +94,7 @@ def _merge_nodes(zones: list[Zone], points: np.ndarray, first: np.ndarray) -> tu
         for interface in zone.interfaces:
             base, _, name = interface.donor.rpartition("/")
             other = index.get((base or zone.key[0], name))
-            numbers = zones[other].node_numbers(interface.donor_nodes) if other is not None else None
+            numbers = None if other is None else zones[other].node_numbers(interface.donor_nodes)
             if numbers is not None and len(numbers) == len(interface.nodes):
                 ends.append(np.column_stack([interface.nodes + first[k], numbers + first[other]]))
     if not ends:

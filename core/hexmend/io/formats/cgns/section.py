@@ -54,13 +54,14 @@ class CGNSSection:
 
     def __init__(self, node: CGNSNode):
         self.node, self.name = node, node.name
-        type, span = node.integers().ravel(), node.child_named("ElementRange")
-        span = span.integers().ravel() if span is not None else np.empty(0, np.int64)
+        none = np.empty(0, np.int64)
+        type, span = node.integers().ravel(), node.integers_of("ElementRange")
+        span = none if span is None else span
         if type.size < 1 or span.size != 2 or span[1] < span[0]:
             raise self.error(f"has the kind {type} and the range {span}")
         self.type, self.first, self.last = int(type[0]), int(span[0]), int(span[1])
-        connectivity = node.child_named("ElementConnectivity")
-        self.connectivity = connectivity.integers().ravel() if connectivity is not None else np.empty(0, np.int64)
+        connectivity = node.integers_of("ElementConnectivity")
+        self.connectivity = none if connectivity is None else connectivity
         self.parents = self._read_parents()
 
     def __len__(self) -> int:
@@ -78,10 +79,8 @@ class CGNSSection:
         FileError
             Unless there is a row for each element.
         """
-        offsets, values = self.node.child_named("ElementStartOffset"), self.connectivity
-        if offsets is not None:
-            start = offsets.integers().ravel()
-        else:  # before version 4 each row follows its length
+        start, values = self.node.integers_of("ElementStartOffset"), self.connectivity
+        if start is None:  # before version 4 each row follows its length
             begins, at, flat = [], 0, values.tolist()
             while at < len(flat) and flat[at] >= 0:
                 begins.append(at)
@@ -127,9 +126,9 @@ class CGNSSection:
 
     def _mixed_layout(self) -> tuple[np.ndarray, np.ndarray]:
         """Type of each element of a MIXED section, and the index of its first node, (k,) int64 each."""
-        offsets, nodes = self.node.child_named("ElementStartOffset"), self.connectivity
+        offsets, nodes = self.node.integers_of("ElementStartOffset"), self.connectivity
         if offsets is not None:
-            starts = offsets.integers().ravel()[:-1]
+            starts = offsets[:-1]
             if len(starts) != len(self) or (len(starts) and (starts.min() < 0 or starts.max() >= nodes.size)):
                 raise self.error("has a wrong ElementStartOffset")
         else:  # before version 4 elements follow one another
@@ -145,10 +144,10 @@ class CGNSSection:
         return types, starts + 1
 
     def _read_parents(self) -> np.ndarray | None:
-        found = [self.node.child_named(name) for name in ("ParentElements", "ParentElementsPosition")]
-        if None in found:
-            found = [self.node.child_named("ParentData")]  # before version 3 one array holds both
-        if None in found:
+        found = [self.node.integers_of(name) for name in ("ParentElements", "ParentElementsPosition")]
+        if any(numbers is None for numbers in found):
+            found = [self.node.integers_of("ParentData")]  # before version 3 one array holds both
+        if found[0] is None:
             return None
-        rows = np.concatenate([node.integers().ravel() for node in found])
+        rows = np.concatenate(found)
         return rows.reshape(2, 2, -1).transpose(2, 1, 0) if rows.size == 4 * len(self) else None

@@ -7,18 +7,8 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.content import Block
 from hexmend.io.base.remedies import DAMAGED
-from hexmend.io.formats.cgns.tree import CGNSNode
-from hexmend.io.formats.cgns.zone import (
-    Interface,
-    Zone,
-    add_members,
-    boundary_conditions,
-    coordinates,
-    family_name,
-    grid_location,
-    solution_arrays,
-    zone_size,
-)
+from hexmend.io.formats.cgns.tree import CGNSNode, boundary_conditions
+from hexmend.io.formats.cgns.zone import Interface, Zone, add_members, new_zone, solution_arrays, zone_size
 from hexmend.mesh.orientation import MIRRORED_CORNERS, MIRRORED_FACES
 from hexmend.quality import corner_determinants
 
@@ -36,25 +26,20 @@ def read_structured(node: CGNSNode) -> Zone:
     """
     count = zone_size(node, 3)[0]
     if (count < 2).any():
-        raise FileError(
-            node.path, f"zone {node.name!r} has {count.tolist()} vertices along i, j, k: expected 2 or more"
-        )
-    points = coordinates(node, tuple(count[::-1].tolist()))
-    hexes, mirrored = structured_hexes(points, count)
-    data = solution_arrays(node, "CellCenter", tuple((count - 1)[::-1].tolist()))
-    zone = Zone(node.name, family_name(node), points, shape=count)
-    zone.blocks.append(Block("hex", hexes, data))
-    zone.node_data = solution_arrays(node, "Vertex", tuple(count[::-1].tolist()))
+        problem = f"zone {node.name!r} has {count.tolist()} vertices along i, j, k: expected 2 or more"
+        raise FileError(node.path, problem)
+    zone = new_zone(node, tuple(count[::-1].tolist()))
+    zone.shape = count
+    hexes, mirrored = structured_hexes(zone.points, count)
+    zone.blocks.append(Block("hex", hexes, solution_arrays(node, "CellCenter", tuple((count - 1)[::-1].tolist()))))
     for name, condition in boundary_conditions(node):
         _add_condition(zone, name, condition, count)
     if mirrored:
         for rows in zone.side_sets.values():
             rows[:, 1] = MIRRORED_FACES[rows[:, 1]]
-    for parent in node.children("ZoneGridConnectivity_t"):
-        for connectivity in parent.children("GridConnectivity1to1_t"):
-            interface = _interface(connectivity, count)
-            if interface is not None:
-                zone.interfaces.append(interface)
+    for connectivity in node.grandchildren("ZoneGridConnectivity_t", "GridConnectivity1to1_t"):
+        interface = _interface(connectivity, count)
+        zone.interfaces += [interface] if interface is not None else []
     return zone
 
 
@@ -84,7 +69,7 @@ def structured_hexes(points: np.ndarray, count: np.ndarray) -> tuple[np.ndarray,
 
 def _add_condition(zone: Zone, name: str, condition: CGNSNode, count: np.ndarray) -> None:
     """Add a boundary condition: a side set where it is a face of the zone, else a node set."""
-    location = grid_location(condition)
+    location = condition.text_of("GridLocation_t", "Vertex")
     ranges = [child for child in condition.children("IndexRange_t") if child.name in ("PointRange", "ElementRange")]
     lists = [child for child in condition.children("IndexArray_t") if child.name in ("PointList", "ElementList")]
     if ranges:
@@ -107,8 +92,7 @@ def _add_range(zone: Zone, name: str, location: str, node: CGNSNode, count: np.n
         if len(axes) == 1 and normal:
             add_members(zone.side_sets, name, _sides(normal[0], low, high - 1, count))
         else:
-            spans = [np.arange(a, b + 1) for a, b in zip(low, high, strict=True)]
-            add_members(zone.node_sets, name, _node_numbers(spans, count))
+            add_members(zone.node_sets, name, _node_numbers(_spans(low, high), count))
         return
     axis = _axis_of(location, axes)
     if axis is None:
@@ -128,10 +112,15 @@ def _axis_of(location: str, axes: np.ndarray) -> int | None:
 def _sides(axis: int, low: np.ndarray, high: np.ndarray, count: np.ndarray) -> np.ndarray:
     """Side set, (k, 2), of the faces normal to an axis; low and high bound the cells along the other axes."""
     last = low[axis] == count[axis] - 1
-    spans = [np.arange(a, b + 1) for a, b in zip(low, high, strict=True)]
+    spans = _spans(low, high)
     spans[axis] = np.array([low[axis] - last])
     cells = _node_numbers(spans, count - 1)
     return np.column_stack([cells, np.full(len(cells), _FACES_AT[axis, int(last)])])
+
+
+def _spans(low: np.ndarray, high: np.ndarray) -> list[np.ndarray]:
+    """Indices from low to high along each axis."""
+    return [np.arange(a, b + 1) for a, b in zip(low, high, strict=True)]
 
 
 def _node_numbers(spans: list[np.ndarray], count: np.ndarray) -> np.ndarray:
@@ -148,8 +137,8 @@ def _interface(node: CGNSNode, count: np.ndarray) -> Interface | None:
     ranges = {child.name: _indices(child, 2) - 1 for child in node.children("IndexRange_t")}
     if "PointRange" not in ranges or "PointRangeDonor" not in ranges:
         return None
-    found = node.child_named("Transform")
-    transform = found.integers().ravel() if found is not None else np.array([1, 2, 3])
+    found = node.integers_of("Transform")
+    transform = np.array([1, 2, 3]) if found is None else found
     if sorted(np.abs(transform).tolist()) != [1, 2, 3]:
         raise FileError(node.path, f"interface {node.name!r} has the transform {transform.tolist()}", DAMAGED)
     begin, end = ranges["PointRange"]
@@ -174,6 +163,5 @@ def _indices(node: CGNSNode, rows: int | None) -> np.ndarray:
 def _check_bounds(node: CGNSNode, rows: np.ndarray, count: np.ndarray) -> None:
     """Raise `FileError` for an index, from 0, outside the zone."""
     if rows.size and ((rows < 0) | (rows >= count)).any():
-        raise FileError(
-            node.path, f"{node.name} reaches from {rows.min(axis=0) + 1} to {rows.max(axis=0) + 1} in {count}", DAMAGED
-        )
+        span = f"from {rows.min(axis=0) + 1} to {rows.max(axis=0) + 1}"
+        raise FileError(node.path, f"{node.name} reaches {span} in {count}", DAMAGED)

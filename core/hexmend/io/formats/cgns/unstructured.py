@@ -7,22 +7,13 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import dimension
 from hexmend.io.base.content import HEX_KINDS, Block
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.cgns.elements import FACE_OF_NUMBER
 from hexmend.io.formats.cgns.polyhedra import polyhedra
 from hexmend.io.formats.cgns.section import CGNSSection
-from hexmend.io.formats.cgns.tree import CGNSNode
-from hexmend.io.formats.cgns.zone import (
-    Interface,
-    Zone,
-    add_members,
-    boundary_conditions,
-    coordinates,
-    family_name,
-    grid_location,
-    solution_arrays,
-    zone_size,
-)
+from hexmend.io.formats.cgns.tree import CGNSNode, boundary_conditions
+from hexmend.io.formats.cgns.zone import Interface, Zone, add_members, new_zone, solution_arrays, zone_size
 
 
 def read_unstructured(node: CGNSNode) -> Zone:
@@ -34,7 +25,7 @@ def read_unstructured(node: CGNSNode) -> Zone:
         Where a part of the zone contradicts its size.
     """
     n_nodes, n_cells = zone_size(node, 1)[:2, 0].tolist()
-    zone = Zone(node.name, family_name(node), coordinates(node, (n_nodes,)))
+    zone = new_zone(node, (n_nodes,))
     sections = sorted((CGNSSection(child) for child in node.children("Elements_t")), key=lambda section: section.first)
     groups = [group for section in sections for group in section.cell_groups(zone.notes)]
     groups += polyhedra(sections, n_nodes, zone.notes)
@@ -42,12 +33,7 @@ def read_unstructured(node: CGNSNode) -> Zone:
     several = len({group.section for group in of_hexes}) > 1
     hexes = np.concatenate([group.numbers for group in of_hexes] or [np.empty(0, np.int64)])
     for kind, nodes, _, section in groups:
-        if len(nodes) and (nodes.min() < 0 or nodes.max() >= n_nodes):
-            raise FileError(
-                node.path,
-                f"section {section!r} uses the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {n_nodes}",
-                DAMAGED,
-            )
+        check_numbers(node.path, f"section {section!r} uses the nodes", nodes, n_nodes)
         named = several or kind not in HEX_KINDS
         zone.blocks.append(Block(kind, nodes, {}, {section: np.arange(len(nodes))} if named else {}))
     for section in sections:
@@ -55,26 +41,15 @@ def read_unstructured(node: CGNSNode) -> Zone:
             add_members(zone.side_sets, section.name, _sides(section, np.arange(len(section)), hexes))
     numbers_of = [group.numbers for group in groups]
     _add_cell_data(zone, numbers_of, solution_arrays(node, "CellCenter", (n_cells,)), n_cells)
-    zone.node_data = solution_arrays(node, "Vertex", (n_nodes,))
     for name, condition in boundary_conditions(node):
         _add_condition(zone, name, condition, sections, numbers_of, hexes)
-    for parent in node.children("ZoneGridConnectivity_t"):
-        for connectivity in parent.children("GridConnectivity_t"):
-            _add_interface(zone, connectivity)
+    for connectivity in node.grandchildren("ZoneGridConnectivity_t", "GridConnectivity_t"):
+        _add_interface(zone, connectivity)
     return zone
 
 
 def _sides(section: CGNSSection, which: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Side set, (k, 2), of those faces of a section that are faces of hexes.
-
-    Parameters
-    ----------
-    section : CGNSSection
-    which : (m,) int64
-        Indices of the faces in the section.
-    hexes : (n,) int64
-        Element numbers of the zone's hexes.
-    """
+    """Side set, (k, 2), of those of the faces `which` of a section that are faces of hexes, given by their numbers."""
     parents = section.parents[which].reshape(-1, 2)
     order = np.argsort(hexes, kind="stable")
     at = np.searchsorted(hexes, parents[:, 0], sorter=order).clip(0, max(0, len(hexes) - 1))
@@ -85,40 +60,24 @@ def _sides(section: CGNSSection, which: np.ndarray, hexes: np.ndarray) -> np.nda
 
 
 def _add_condition(
-    zone: Zone,
-    name: str,
-    condition: CGNSNode,
-    sections: list[CGNSSection],
-    numbers_of: list[np.ndarray],
-    hexes: np.ndarray,
+    zone: Zone, name: str, node: CGNSNode, sections: list[CGNSSection], numbers_of: list[np.ndarray], hexes: np.ndarray
 ) -> None:
     """Add a boundary condition: a node set, or a set of elements and sides.
 
-    Parameters
-    ----------
-    zone : Zone
-    name : str
-    condition : CGNSNode
-    sections : list of CGNSSection
-    numbers_of : list of (k,) int64
-        Element numbers of each block of the zone.
-    hexes : (n,) int64
-        Element numbers of the zone's hexes.
+    `numbers_of` are the element numbers of each block of the zone, (k,) int64, `hexes` those of its hexes.
     """
-    members = [
-        child
-        for child in condition.children("IndexRange_t", "IndexArray_t")
-        if child.name in ("PointRange", "ElementRange", "PointList", "ElementList")
-    ]
+    names = ("PointRange", "ElementRange", "PointList", "ElementList")
+    members = [child for child in node.children("IndexRange_t", "IndexArray_t") if child.name in names]
     if not members:
         return
     numbers = members[0].integers().ravel()
-    of_nodes = grid_location(condition) == "Vertex" and not members[0].name.startswith("Element")
+    at_vertices = node.text_of("GridLocation_t", "Vertex") == "Vertex"
+    of_nodes = at_vertices and not members[0].name.startswith("Element")
     if of_nodes and numbers.size and (numbers.min() < 1 or numbers.max() > len(zone.points)):
-        raise FileError(condition.path, f"boundary condition {name!r} refers to nodes that do not exist", DAMAGED)
+        raise FileError(node.path, f"boundary condition {name!r} refers to nodes that do not exist", DAMAGED)
     if members[0].name.endswith("Range"):
         if numbers.size != 2 or numbers[1] < numbers[0]:
-            raise FileError(condition.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)
+            raise FileError(node.path, f"boundary condition {name!r} has the range {numbers.tolist()}", DAMAGED)
         if of_nodes:
             known = np.arange(1, len(zone.points) + 1)
         else:
@@ -140,15 +99,12 @@ def _add_condition(
 
 def _add_interface(zone: Zone, node: CGNSNode) -> None:
     """Add the interface of a GridConnectivity_t node where it matches vertices one to one."""
-    kind = node.child("GridConnectivityType_t")
-    points, donors = node.child_named("PointList"), node.child_named("PointListDonor")
-    if kind is None or kind.text() != "Abutting1to1" or points is None or donors is None:
+    if node.text_of("GridConnectivityType_t") != "Abutting1to1" or node.text_of("GridLocation_t", "Vertex") != "Vertex":
         return
-    if grid_location(node) != "Vertex":
-        return
-    nodes, donor_nodes = points.integers().ravel() - 1, donors.integers().ravel() - 1
-    if nodes.size == donor_nodes.size and zone.node_numbers(nodes) is not None:
-        zone.interfaces.append(Interface(node.text(), nodes, donor_nodes))
+    nodes, donors = node.integers_of("PointList"), node.integers_of("PointListDonor")
+    matching = nodes is not None and donors is not None and nodes.size == donors.size
+    if matching and zone.node_numbers(nodes - 1) is not None:
+        zone.interfaces.append(Interface(node.text(), nodes - 1, donors - 1))
 
 
 def _add_cell_data(zone: Zone, numbers_of: list[np.ndarray], data: dict[str, np.ndarray], n_cells: int) -> None:

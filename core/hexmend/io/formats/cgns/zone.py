@@ -82,10 +82,11 @@ def zone_size(node: CGNSNode, index_dimension: int) -> np.ndarray:
     return values
 
 
-def family_name(node: CGNSNode) -> str:
-    """Family of a zone or boundary condition; empty where none is named."""
-    found = node.child("FamilyName_t")
-    return found.text() if found is not None else ""
+def new_zone(node: CGNSNode, shape: tuple[int, ...]) -> Zone:
+    """Zone with its name, family, coordinates and node data; `shape` is as of `coordinates`."""
+    zone = Zone(node.name, node.text_of("FamilyName_t"), coordinates(node, shape))
+    zone.node_data = solution_arrays(node, "Vertex", shape)
+    return zone
 
 
 def coordinates(node: CGNSNode, shape: tuple[int, ...]) -> np.ndarray:
@@ -108,11 +109,9 @@ def coordinates(node: CGNSNode, shape: tuple[int, ...]) -> np.ndarray:
         raise FileError(node.path, f"zone {node.name!r} has no coordinates", DAMAGED)
     arrays = {array.name: array for array in grid.children("DataArray_t")}
     if "CoordinateR" in arrays or not any(f"Coordinate{axis}" in arrays for axis in "XYZ"):
-        raise FileError(
-            node.path,
-            f"zone {node.name!r} has the coordinates {', '.join(arrays) or 'none'}: expected CoordinateX, Y and Z",
-            "Write it with Cartesian coordinates.",
-        )
+        problem = f"zone {node.name!r} has the coordinates {', '.join(arrays) or 'none'}"
+        remedy = "Write it with Cartesian coordinates."
+        raise FileError(node.path, f"{problem}: expected CoordinateX, Y and Z", remedy)
     rind = rind_planes(grid, len(shape))
     axes = [axis for axis, letter in enumerate("XYZ") if f"Coordinate{letter}" in arrays]
     columns = [without_rind(arrays[f"Coordinate{'XYZ'[axis]}"], shape, rind).ravel() for axis in axes]
@@ -125,11 +124,10 @@ def solution_arrays(node: CGNSNode, location: str, shape: tuple[int, ...]) -> di
     """Arrays of a zone's solutions at "Vertex" or "CellCenter", flat; of one name, the last counts."""
     found: dict[str, np.ndarray] = {}
     for solution in node.children("FlowSolution_t", "DiscreteData_t"):
-        if grid_location(solution) == location:
+        if solution.text_of("GridLocation_t", "Vertex") == location:
             rind = rind_planes(solution, len(shape))
-            found |= {
-                array.name: without_rind(array, shape, rind).ravel() for array in solution.children("DataArray_t")
-            }
+            for array in solution.children("DataArray_t"):
+                found[array.name] = without_rind(array, shape, rind).ravel()
     return found
 
 
@@ -149,21 +147,6 @@ def rind_planes(node: CGNSNode, axes: int) -> np.ndarray:
     if values.size != 2 * axes or values.min() < 0:
         raise FileError(node.path, f"{node.name} has the rind {values.tolist()}", DAMAGED)
     return values.reshape(axes, 2)[::-1]
-
-
-def grid_location(node: CGNSNode) -> str:
-    """GridLocation_t of a node; "Vertex" where none is given."""
-    found = node.child("GridLocation_t")
-    return found.text() if found is not None else "Vertex"
-
-
-def boundary_conditions(node: CGNSNode) -> list[tuple[str, CGNSNode]]:
-    """Boundary conditions of a zone by name, which is that of the family where there is one."""
-    return [
-        (family_name(condition) or condition.name, condition)
-        for parent in node.children("ZoneBC_t")
-        for condition in parent.children("BC_t")
-    ]
 
 
 def add_members(sets: dict[str, np.ndarray], name: str, members: np.ndarray) -> None:

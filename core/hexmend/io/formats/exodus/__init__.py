@@ -10,7 +10,7 @@ from pathlib import Path
 
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import to_mesh
-from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.format import Capability, deferred, register
 from hexmend.io.formats.exodus import netcdf3
 from hexmend.io.formats.exodus.ids import IDS
 from hexmend.io.formats.exodus.records import INFORMATION, QA
@@ -19,27 +19,10 @@ from hexmend.mesh.mesh import Mesh
 
 def read(path: Path) -> Mesh:
     """Read an ExodusII file; one on HDF5 in a subprocess, since the HDF5 library may crash on a damaged one."""
-    from hexmend.io.formats.exodus.reader import content
-
-    with open(path, "rb") as file:
-        classic = file.read(3) == b"CDF"
-    if classic:
-        return to_mesh(path, content(path))
-    return to_mesh(path, hdf5.read_content("hexmend.io.formats.exodus.reader:content", path))
-
-
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write an ExodusII file of NetCDF's classic format, with 64-bit offsets."""
-    from hexmend.io.formats.exodus import writer
-
-    writer.write(path, mesh)
-
-
-def limitations(mesh: Mesh) -> list[str]:
-    """List the data of a mesh that a file cannot hold, in words."""
-    from hexmend.io.formats.exodus import writer
-
-    return writer.limitations(mesh)
+    content = "hexmend.io.formats.exodus.reader:content"
+    if netcdf3.is_classic(path):
+        return to_mesh(path, deferred(content)(path))
+    return to_mesh(path, hdf5.read_content(content, path))
 
 
 def matches(head: bytes) -> bool:
@@ -50,30 +33,14 @@ def matches(head: bytes) -> bool:
 
 
 register(
-    Format(
-        name="exodus",
-        title="ExodusII",
-        suffixes=(".exo", ".e", ".ex2", ".g", ".gen"),
-        encodings=("binary",),
-        read=read,
-        write=write,
-        capabilities=frozenset(
-            {
-                Capability.NODE_DATA,
-                Capability.HEX_DATA,
-                Capability.IDS,
-                Capability.NODE_SETS,
-                Capability.HEX_SETS,
-                Capability.CELL_SETS,
-                Capability.SIDE_SETS,
-                Capability.FIXED_NODES,
-                Capability.LOWER_CELLS,
-                Capability.OTHER_CELLS,
-                Capability.SECOND_ORDER,
-            }
-        ),
-        stored_names=frozenset({IDS, QA, INFORMATION}),
-        limitations=limitations,
-        matches=matches,
-    )
+    name="exodus",
+    title="ExodusII",
+    suffixes=(".exo", ".e", ".ex2", ".g", ".gen"),
+    encodings=("binary",),
+    read=read,
+    write=deferred("hexmend.io.formats.exodus.writer:write"),
+    capabilities=frozenset(Capability) - {Capability.EMPTY_SETS, Capability.VERTICES, Capability.FIELD_DATA},
+    stored_names=frozenset({IDS, QA, INFORMATION}),
+    limitations=deferred("hexmend.io.formats.exodus.writer:limitations"),
+    matches=matches,
 )

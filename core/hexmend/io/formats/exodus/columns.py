@@ -55,11 +55,10 @@ def column_titles(parts: Iterable[Mapping[str, np.ndarray]]) -> dict[str, str]:
         if max(own) > 1:
             first = titles[name]
             others = used - {first}
-            titles[name] = next(
-                title
-                for title in chain([first], (f"{first}_{k}" for k in count(2)))
-                if title not in others and others.isdisjoint({*_column_names(title, own), _next_column(title, own)})
-            )
+            for title in chain([first], (f"{first}_{k}" for k in count(2))):
+                if others.isdisjoint({title, *_column_names(title, own), _next_column(title, own)}):
+                    titles[name] = title
+                    break
             used |= _column_names(titles[name], own)
     return titles
 
@@ -110,12 +109,8 @@ def join_columns(found: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
 
 def _variables(data: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Arrays that are written: numbers other than ids."""
-    arrays = {name: np.asarray(values) for name, values in data.items()}
-    return {
-        name: values
-        for name, values in arrays.items()
-        if values.dtype.kind in "biuf" and not (name == ID and are_ids(values))
-    }
+    arrays = {name: np.asarray(values) for name, values in data.items() if not (name == ID and are_ids(values))}
+    return {name: values for name, values in arrays.items() if values.dtype.kind in "biuf"}
 
 
 def _ends(width: int) -> list[str]:

@@ -26,21 +26,12 @@ SIDE_OF_FACE = np.argsort(FACE_OF_SIDE) + 1
 
 #: Kinds of an element type by the start of its name; the number of nodes tells them apart, the first has corners alone.
 _KINDS = {
-    "HEX": ("hex", "hex20", "hex27"),
-    "TET": ("tetra", "tetra10"),
-    "WEDGE": ("wedge", "wedge15"),
-    "PYR": ("pyramid", "pyramid13"),
-    "QUAD": ("quad", "quad8", "quad9"),
-    "SHELL": ("quad", "quad8", "quad9"),
+    "HEX": ("hex", "hex20", "hex27"), "TET": ("tetra", "tetra10"), "WEDGE": ("wedge", "wedge15"),
+    "PYR": ("pyramid", "pyramid13"), "QUAD": ("quad", "quad8", "quad9"), "SHELL": ("quad", "quad8", "quad9"),
     "TRI": ("triangle", "triangle6"),
-    "BAR": ("line", "line3"),
-    "BEAM": ("line", "line3"),
-    "TRUSS": ("line", "line3"),
-    "EDGE": ("line", "line3"),
-    "SPHERE": ("vertex",),
-    "POINT": ("vertex",),
-    "CIRCLE": ("vertex",),
-}
+    **dict.fromkeys(("BAR", "BEAM", "TRUSS", "EDGE"), ("line", "line3")),
+    **dict.fromkeys(("SPHERE", "POINT", "CIRCLE"), ("vertex",)),
+}  # fmt: skip
 
 #: Names of hexes; others that begin so, such as HEXSHELL, are other elements.
 _HEX = re.compile(r"HEX(A|AHEDRON|AHEDRAL|AHEDRA)?[_-]?[0-9]*")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import count
 
 #: Name of the field data with the lines: entity ("eb", "ns", "els" or "ss"), id, and name in Hexmend.
 IDS = "exodus:ids"
@@ -47,13 +48,7 @@ def assigned_ids(lines: object, entity: str, names: Sequence[str]) -> list[int]:
         number = known[name].pop(0) if known.get(name) else None
         ids.append(None if number in used else number)
         used.update([number] if number else [])
-    following = max(used, default=0)
-    if following + ids.count(None) >= 2**31:
-        following = 0
-    for k, number in enumerate(ids):
-        if number is None:
-            following += 1
-            while following in used:
-                following += 1
-            ids[k] = following
-    return ids
+    following = max(used, default=0) + 1
+    first = following if following + ids.count(None) <= 2**31 else 1
+    unused = (number for number in count(first) if number not in used)
+    return [next(unused) if number is None else number for number in ids]

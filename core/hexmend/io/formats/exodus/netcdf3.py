@@ -34,6 +34,12 @@ def recognised(head: bytes) -> bool:
     return head[:3] == b"CDF" and head[3:4] in (b"\x01", b"\x02", b"\x05")
 
 
+def is_classic(path: Path) -> bool:
+    """Return True for a file of a classic format, False for one on HDF5."""
+    with open(path, "rb") as file:
+        return file.read(3) == b"CDF"
+
+
 @dataclass(frozen=True)
 class Variable:
     """Variable of the header.
@@ -96,18 +102,16 @@ class ClassicReader:
         self._variables = header.variables(dimensions)
         self._record_size = _record_size(list(self._variables.values()))
         if records == 2 ** (8 * header.width) - 1:  # a file that was still being written
-            first = min(
-                (variable.begin for variable in self._variables.values() if variable.is_record), default=self._length
-            )
+            begins = (variable.begin for variable in self._variables.values() if variable.is_record)
+            first = min(begins, default=self._length)
             records = max(0, self._length - first) // max(1, self._record_size)
         self.dimensions = {name: length or records for name, length in dimensions}
         for name, variable in self._variables.items():
             last = (records - 1) * self._record_size if variable.is_record else 0
             end = variable.begin + last + variable.data_size
             if variable.data_size and (records or not variable.is_record) and end > self._length:
-                raise FileError(
-                    path, f"variable {name!r} ends at byte {end}: the file ends at byte {self._length}", DAMAGED
-                )
+                problem = f"variable {name!r} ends at byte {end}: the file ends at byte {self._length}"
+                raise FileError(path, problem, DAMAGED)
 
     def __contains__(self, name: str) -> bool:
         return name in self._variables

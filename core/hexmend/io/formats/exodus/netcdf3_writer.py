@@ -61,9 +61,8 @@ class ClassicWriter:
         rows = [word.encode() for word in words]
         width = max(_STRING, *(len(row) + 1 for row in rows))
         characters = np.frombuffer(b"".join(row.ljust(width, b"\0") for row in rows), "S1").reshape(-1, width)
-        self.add_variable(
-            name, {dimension: len(rows), "len_name" if width == _STRING else f"len_{name}": width}, characters
-        )
+        length = "len_name" if width == _STRING else f"len_{name}"
+        self.add_variable(name, {dimension: len(rows), length: width}, characters)
 
     def write(self, path: Path) -> None:
         """Write the file, as CDF-2, or as CDF-5 where a number needs 64 bits or an array 2 GB."""

@@ -8,9 +8,10 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import node_count, to_vtk_order
-from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, concatenate_data, concatenate_sets
+from hexmend.io.base.content import HEX_KINDS, ID, Block, Content, merge_blocks
 from hexmend.io.base.cursor import quoted
 from hexmend.io.base.fixed_marks import FIXED
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.exodus.columns import join_columns
 from hexmend.io.formats.exodus.elements import FACE_OF_SIDE, ORDER, PINS_PROPERTY, kinds_of
@@ -60,17 +61,9 @@ class _Reader:
         self.add_element_sets(blocks, elements)
         hexes = [numbers for block, numbers in zip(blocks, elements, strict=True) if block.kind in HEX_KINDS]
         side_sets = self.side_sets(np.concatenate(hexes) if hexes else np.empty(0, np.int64))
-        return Content(
-            points,
-            tuple(_merge_other_kinds(blocks)),
-            node_data,
-            node_sets,
-            side_sets,
-            pinned=pinned,
-            field_data={**id_lines(self.id_names), **read_records(self.store)},
-            notes=(*self.notes, *unread_notes(self.store)),
-            unread=self.unread,
-        )
+        blocks, fields = tuple(_merge_other_kinds(blocks)), {**id_lines(self.id_names), **read_records(self.store)}
+        notes = (*self.notes, *unread_notes(self.store))
+        return Content(points, blocks, node_data, node_sets, side_sets, pinned, fields, notes, self.unread)
 
     def points(self) -> np.ndarray:
         """Coordinates of the nodes, (n, 3) float64; 0 along axes that the file does not have."""
@@ -80,10 +73,10 @@ class _Reader:
         if "coord" in self.store:
             rows = self.variables.array("coord", width, self.n_nodes)
         else:
-            missing = [name for name in "xyz"[:width] if f"coord{name}" not in self.store]
-            if missing:
-                raise FileError(self.path, f"has no coordinates coord{missing[0]}", DAMAGED)
-            rows = [self.variables.array("coord" + name, self.n_nodes) for name in "xyz"[:width]]
+            names = [f"coord{axis}" for axis in "xyz"[:width]]
+            if missing := [name for name in names if name not in self.store]:
+                raise FileError(self.path, f"has no coordinates {missing[0]}", DAMAGED)
+            rows = [self.variables.array(name, self.n_nodes) for name in names]
         points = np.zeros((self.n_nodes, 3))  # after reading: num_nodes of a damaged file may be huge
         points[:, :width] = np.column_stack(list(rows))
         return points
@@ -91,9 +84,8 @@ class _Reader:
     def blocks(self) -> tuple[list[Block], list[np.ndarray]]:
         """Element blocks, and the numbers of their elements in the file, from 0, (k,) int64 each."""
         ids, names = self.variables.ids("eb_prop1", "num_el_blk"), self.variables.strings("eb_names")
-        id_map = None
-        if "elem_num_map" in self.store:
-            id_map = self.variables.integers("elem_num_map", self.n_elements)
+        has_ids = "elem_num_map" in self.store
+        id_map = self.variables.integers("elem_num_map", self.n_elements) if has_ids else None
         blocks, elements, block_ids, titles, first = [], [], [], [], 0
         for k, number in enumerate(ids, 1):
             count = self.store.dimensions.get(f"num_el_in_blk{k}", 0)
@@ -133,16 +125,10 @@ class _Reader:
             self.unread[title] = count
             return None
         nodes = self.variables.integers(variable, count, width) - 1
-        if nodes.min() < 0 or nodes.max() >= self.n_nodes:
-            raise FileError(
-                self.path,
-                f"block {number} uses the nodes {nodes.min() + 1} to {nodes.max() + 1}: expected 1 to {self.n_nodes}",
-                DAMAGED,
-            )
+        check_numbers(self.path, f"block {number} uses the nodes", nodes, self.n_nodes)
         if kind is None:
-            self.notes.append(
-                f"Cells of type {type_} with {width} nodes in block {number} are read with their corners only."
-            )
+            cells = f"Cells of type {type_} with {width} nodes in block {number}"
+            self.notes.append(f"{cells} are read with their corners only.")
             kind = kinds[0]
             nodes = nodes[:, : node_count(kind)]
         return Block(kind, to_vtk_order(nodes, kind, ORDER), self.attributes(k, count))
@@ -153,20 +139,16 @@ class _Reader:
         if not width or f"attrib{k}" not in self.store:
             return {}
         values, names = self.variables.array(f"attrib{k}", count, width), self.variables.strings(f"attrib_name{k}")
-        return {
-            (names[j] if j < len(names) and names[j] else f"attribute {j + 1}"): np.ascontiguousarray(values[:, j])
-            for j in range(width)
-        }
+        names = [names[j] if j < len(names) and names[j] else f"attribute {j + 1}" for j in range(width)]
+        return {name: np.ascontiguousarray(column) for name, column in zip(names, values.T, strict=True)}
 
     def node_sets(self) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
         """Node sets by name, and pinned nodes: those of the set marked so, else of sets named "fixed"."""
-        ids = self.variables.ids("ns_prop1", "num_node_sets")
         marked = "ns_prop2" in self.store and self.store.attribute("ns_prop2", "name") == PINS_PROPERTY
-        marks = self.variables.integers("ns_prop2", len(ids)) if marked else None
+        count = self.store.dimensions.get("num_node_sets", 0)
+        marks = self.variables.integers("ns_prop2", count) if marked else None
         sets, pinned = {}, None
-        for k, name in enumerate(self.set_names("ns", ids, "node set"), 1):
-            if f"node_ns{k}" not in self.store:
-                continue
+        for k, name in self.sets("ns", "num_node_sets", "node set", "node"):
             members = self.variables.members(f"node_ns{k}", f"num_nod_ns{k}", self.n_nodes, "nodes")
             if name.lower() == FIXED if marks is None else marks[k - 1]:
                 pinned = np.zeros(self.n_nodes, bool) if pinned is None else pinned
@@ -177,10 +159,7 @@ class _Reader:
 
     def add_element_sets(self, blocks: list[Block], elements: list[np.ndarray]) -> None:
         """Add the element sets to the blocks that have members of them."""
-        ids = self.variables.ids("els_prop1", "num_elem_sets")
-        for k, name in enumerate(self.set_names("els", ids, "element set"), 1):
-            if f"elem_els{k}" not in self.store:
-                continue
+        for k, name in self.sets("els", "num_elem_sets", "element set", "elem"):
             members = self.variables.members(f"elem_els{k}", f"num_ele_els{k}", self.n_elements, "elements")
             for block, numbers in zip(blocks, elements, strict=True):
                 own = members[(members >= numbers[0]) & (members <= numbers[-1])] - numbers[0]
@@ -189,11 +168,8 @@ class _Reader:
 
     def side_sets(self, hexes: np.ndarray) -> dict[str, np.ndarray]:
         """Side sets by name, (k, 2) each; `hexes` are the numbers of the elements that are hexes, ascending."""
-        ids = self.variables.ids("ss_prop1", "num_side_sets")
         found = {}
-        for k, name in enumerate(self.set_names("ss", ids, "side set"), 1):
-            if f"elem_ss{k}" not in self.store or f"side_ss{k}" not in self.store:
-                continue
+        for k, name in self.sets("ss", "num_side_sets", "side set", "elem", "side"):
             elements = self.variables.members(f"elem_ss{k}", f"num_side_ss{k}", self.n_elements, "elements")
             sides = self.variables.integers(f"side_ss{k}", len(elements))
             rows = np.searchsorted(hexes, elements).clip(0, max(0, len(hexes) - 1))
@@ -220,29 +196,24 @@ class _Reader:
                 found[name] = self.variables.array("vals_nod_var", len(names), count)[v - 1]
         return join_columns(found)
 
-    def set_names(self, entity: str, ids: list[int], title: str) -> list[str]:
-        """Distinct names of the sets of an entity ("ns"): those of the file, else a title with the id."""
+    def sets(self, entity: str, dimension: str, title: str, *variables: str) -> list[tuple[int, str]]:
+        """Number and name of each set of an entity ("ns") that has these variables, such as "node_ns1" for "node".
+
+        Names are distinct: those of the file, else a title with the id.
+        """
+        ids = self.variables.ids(f"{entity}_prop1", dimension)
         words = self.variables.strings(f"{entity}_names")
         words = [words[k] if k < len(words) and words[k] else f"{title} {number}" for k, number in enumerate(ids)]
-        names = [
-            word if words.count(word) == 1 else f"{word} {number}" for word, number in zip(words, ids, strict=True)
-        ]
+        named = zip(words, ids, strict=True)
+        names = [word if words.count(word) == 1 else f"{word} {number}" for word, number in named]
         self.id_names += [(entity, number, name) for number, name in zip(ids, names, strict=True)]
-        return names
+        named = enumerate(names, 1)
+        return [(k, name) for k, name in named if all(f"{one}_{entity}{k}" in self.store for one in variables)]
 
 
 def _merge_other_kinds(blocks: list[Block]) -> list[Block]:
     """Blocks of hexes as they are, and one block for each other kind."""
     merged = [block for block in blocks if block.kind in HEX_KINDS]
     for kind in dict.fromkeys(block.kind for block in blocks if block.kind not in HEX_KINDS):
-        parts = [block for block in blocks if block.kind == kind]
-        lengths = [len(block) for block in parts]
-        merged.append(
-            Block(
-                kind,
-                np.concatenate([block.nodes for block in parts]),
-                concatenate_data([block.data for block in parts], lengths),
-                concatenate_sets([block.sets for block in parts], lengths),
-            )
-        )
+        merged.append(merge_blocks([block for block in blocks if block.kind == kind]))
     return merged

@@ -17,16 +17,11 @@ _STRING, _LINE = 33, 81
 
 #: Data that are not kept, by the dimension that counts them.
 _NOT_KEPT = {
-    "num_glo_var": "global variables",
-    "num_nset_var": "results of node sets",
-    "num_sset_var": "results of side sets",
-    "num_elset_var": "results of element sets",
-    "num_ed_blk": "edge blocks",
-    "num_fa_blk": "face blocks",
-    "num_node_maps": "further maps of nodes",
-    "num_elem_maps": "further maps of elements",
+    "num_glo_var": "global variables", "num_nset_var": "results of node sets", "num_sset_var": "results of side sets",
+    "num_elset_var": "results of element sets", "num_ed_blk": "edge blocks", "num_fa_blk": "face blocks",
+    "num_node_maps": "further maps of nodes", "num_elem_maps": "further maps of elements",
     "num_cframes": "coordinate frames",
-}
+}  # fmt: skip
 
 
 def read_records(store: ExodusStore) -> dict[str, list[str]]:
@@ -53,16 +48,12 @@ def add_records(file: ClassicWriter, field_data: Mapping[str, object]) -> None:
 def unread_notes(store: ExodusStore) -> list[str]:
     """Note on data of the file that Hexmend does not keep, as a list of one or none."""
     left = [words for dimension, words in _NOT_KEPT.items() if store.dimensions.get(dimension)]
-    if any(
-        _has_factors(store, f"{entity}{k}") for entity in ("ns", "ss") for k in range(1, _set_count(store, entity) + 1)
-    ):
+    counts = {"ns": store.dimensions.get("num_node_sets", 0), "ss": store.dimensions.get("num_side_sets", 0)}
+    # each set has one variable at least, which bounds what a damaged file claims
+    sets = [f"{entity}{k}" for entity, count in counts.items() for k in range(1, min(len(store), count) + 1)]
+    if any(_has_factors(store, name) for name in sets):
         left.insert(0, "distribution factors other than 1")
     return [f"Data that Hexmend does not keep are left out: {', '.join(left)}."] if left else []
-
-
-def _set_count(store: ExodusStore, entity: str) -> int:
-    """Number of node or side sets; each has one variable at least, which bounds what a damaged file claims."""
-    return min(len(store), store.dimensions.get({"ns": "num_node_sets", "ss": "num_side_sets"}[entity], 0))
 
 
 def _has_factors(store: ExodusStore, set_name: str) -> bool:

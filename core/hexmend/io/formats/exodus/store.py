@@ -8,38 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
 from hexmend.io.base import hdf5
-from hexmend.io.formats.exodus.netcdf3 import ClassicReader
-
-
-class ExodusStore(Protocol):
-    """NetCDF file: dimensions and variables by name."""
-
-    dimensions: dict[str, int]
-
-    def __contains__(self, name: str) -> bool:
-        """Return True if there is a variable of that name."""
-
-    def __len__(self) -> int:
-        """Number of variables."""
-
-    def array(self, name: str, record: int = 0) -> np.ndarray:
-        """Values of a variable; of one with a record for each time step, those of one step."""
-
-    def attribute(self, variable: str, name: str) -> object:
-        """Attribute of a variable; None where it has none of that name."""
+from hexmend.io.formats.exodus.netcdf3 import ClassicReader, is_classic
 
 
 @contextmanager
 def open_store(path: Path) -> Iterator[ExodusStore]:
     """Open a file for reading, by the kind of its container."""
-    with open(path, "rb") as file:
-        classic = file.read(3) == b"CDF"
-    if classic:
+    if is_classic(path):
         yield ClassicReader(path)
         return
     with hdf5.open_file(path) as file:
@@ -47,7 +26,7 @@ def open_store(path: Path) -> Iterator[ExodusStore]:
 
 
 class HDF5Store:
-    """NetCDF-4 file, whose dimensions and variables are HDF5 datasets.
+    """NetCDF-4 file, whose dimensions and variables are HDF5 datasets; methods as of `ClassicReader`.
 
     Parameters
     ----------
@@ -57,14 +36,12 @@ class HDF5Store:
 
     def __init__(self, path: Path, file: object):
         self.path = path
-        try:
+        with hdf5.library_errors(path):
             self._datasets = {name: file[name] for name in file if hasattr(file.get(name), "shape")}
             scales = {name for name, data in self._datasets.items() if data.attrs.get("CLASS") == b"DIMENSION_SCALE"}
             self.dimensions = {name: self._datasets[name].shape[0] for name in scales if self._datasets[name].shape}
             if "time_whole" in self._datasets:  # the scale of the unlimited dimension may be shorter than its variables
                 self.dimensions["time_step"] = self._datasets["time_whole"].size
-        except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-            raise hdf5.damaged_file(path, error) from None
 
     def __contains__(self, name: str) -> bool:
         return name in self._datasets
@@ -79,10 +56,8 @@ class HDF5Store:
         return hdf5.read_dataset(self.path, dataset)
 
     def attribute(self, variable: str, name: str) -> object:
-        try:
+        with hdf5.library_errors(self.path):
             value = self._datasets[variable].attrs.get(name)
-        except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
-            raise hdf5.damaged_file(self.path, error) from None
         value = np.ravel(value)[0] if np.size(value) == 1 else value
         return value.decode(errors="replace") if isinstance(value, bytes) else value
 
@@ -97,3 +72,7 @@ class _StepView:
 
     def __getitem__(self, key: object) -> np.ndarray:
         return self._dataset[self._record]
+
+
+#: NetCDF file of either kind: dimensions and variables by name.
+ExodusStore = ClassicReader | HDF5Store

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.numbering import check_numbers
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.exodus.store import ExodusStore
 
@@ -29,9 +30,8 @@ class CheckedVariables:
         """Numbers, of exactly this shape, of any numeric type."""
         values = self.store.array(name, self.step)
         if values.dtype.kind not in "iuf" or values.shape != shape:
-            raise FileError(
-                self.path, f"variable {name!r} holds {values.dtype} {values.shape}: expected numbers {shape}", DAMAGED
-            )
+            problem = f"variable {name!r} holds {values.dtype} {values.shape}: expected numbers {shape}"
+            raise FileError(self.path, problem, DAMAGED)
         return values
 
     def integers(self, name: str, *shape: int) -> np.ndarray:
@@ -44,12 +44,7 @@ class CheckedVariables:
     def members(self, name: str, dimension: str, count: int, label: str) -> np.ndarray:
         """Members of a set, from 0, int64; `dimension` names their number, `count` is that of all `label`."""
         members = self.integers(name, self.store.dimensions.get(dimension, 0)) - 1
-        if members.size and (members.min() < 0 or members.max() >= count):
-            raise FileError(
-                self.path,
-                f"{name!r} names the {label} {members.min() + 1} to {members.max() + 1}: expected 1 to {count}",
-                DAMAGED,
-            )
+        check_numbers(self.path, f"{name!r} names the {label}", members, count)
         return members
 
     def ids(self, name: str, dimension: str) -> list[int]:

@@ -25,16 +25,11 @@ from hexmend.mesh.mesh import Mesh
 _MAPS_INT64 = 0x0400
 
 
-def write(path: Path, mesh: Mesh) -> None:
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write an ExodusII file.
 
     Elements keep their order. A named set of consecutive elements becomes an element block, others become element
     sets; pinned nodes become a node set called "fixed", which the property `PINS_PROPERTY` marks.
-
-    Parameters
-    ----------
-    path : Path
-    mesh : Mesh
     """
     parts, numbers = [], np.empty(mesh.n_hexes, np.int64)  # the number of each hex in the file, from 0
     for block, chosen in hex_blocks(mesh):
@@ -45,16 +40,10 @@ def write(path: Path, mesh: Mesh) -> None:
     unique = {name for name in count if count[name] == 1}
     blocks = [block for part in parts for block in _element_blocks(part, unique)]
     ids = [np.asarray(values) for values in (mesh.node_data.get(ID), *(part.data.get(ID) for part in parts))]
-    file = ClassicWriter(
-        {
-            "api_version": np.float32(8.03),
-            "version": np.float32(8.03),
-            "floating_point_word_size": np.int32(8),
-            "file_size": np.int32(1),
-            "int64_status": np.int32(_MAPS_INT64 if any(_needs_int64(values) for values in ids) else 0),
-            "title": mesh.name or "Hexmend",
-        }
-    )
+    status = _MAPS_INT64 if any(_needs_int64(values) for values in ids) else 0
+    attributes: dict[str, object] = dict.fromkeys(("api_version", "version"), np.float32(8.03))
+    attributes |= {"floating_point_word_size": np.int32(8), "file_size": np.int32(1), "int64_status": np.int32(status)}
+    file = ClassicWriter(attributes | {"title": mesh.name or "Hexmend"})
     add_records(file, mesh.field_data)
     _add_points(file, mesh)
     _add_blocks(file, mesh, blocks)
@@ -70,9 +59,8 @@ def limitations(mesh: Mesh) -> list[str]:
     """List the data and names of a mesh that a file cannot hold as they are, in words."""
     left, titles = rounded_integers(mesh) + non_numeric_data(mesh), {}
     cell_data = [mesh.hex_data, *(cells.data for cells in mesh.cells)]
-    left += altered_names(column_titles([_node_data(mesh)]), "point data") + altered_names(
-        column_titles(cell_data), "cell data"
-    )
+    left += altered_names(column_titles([_node_data(mesh)]), "point data")
+    left += altered_names(column_titles(cell_data), "cell data")
     sets = [name for one in mesh.cells for name in one.sets]
     for names in (mesh.node_sets, [*mesh.hex_sets, *sets], mesh.side_sets):
         titles |= make_unique(names, clean_name)
@@ -133,12 +121,12 @@ def _add_ids(file: ClassicWriter, mesh: Mesh, parts: list[Block]) -> None:
     if are_ids(mesh.node_data.get(ID)):
         file.add_variable("node_num_map", {"num_nodes": mesh.n_nodes}, mesh.node_data[ID])
     if any(are_ids(part.data.get(ID)) for part in parts):
-        known = [np.asarray(part.data[ID]) for part in parts if are_ids(part.data.get(ID))]
-        following = max(int(values.max()) for values in known) + 1  # id of the next cell that has none
+        known = [np.asarray(part.data[ID]) if are_ids(part.data.get(ID)) else None for part in parts]
+        following = max(int(ids.max()) for ids in known if ids is not None) + 1  # id of the next cell that has none
         rows = []
-        for part in parts:
-            rows.append(np.asarray(part.data[ID]) if are_ids(part.data.get(ID)) else following + np.arange(len(part)))
-            following += 0 if are_ids(part.data.get(ID)) else len(part)
+        for part, ids in zip(parts, known, strict=True):
+            rows.append(following + np.arange(len(part)) if ids is None else ids)
+            following += len(part) if ids is None else 0
         file.add_variable("elem_num_map", {"num_elem": sum(len(part) for part in parts)}, np.concatenate(rows))
 
 
@@ -153,12 +141,8 @@ def _add_node_sets(file: ClassicWriter, mesh: Mesh) -> None:
         sets[pins] = np.flatnonzero(mesh.pinned)
     _add_entities(file, mesh, "ns", "num_node_sets", list(sets))
     if sets and not by_name:  # or a reader would take a set named "fixed" for the pins
-        file.add_variable(
-            "ns_prop2",
-            {"num_node_sets": len(sets)},
-            np.array([name == pins for name in sets], np.int32),
-            name=PINS_PROPERTY,
-        )
+        marks = np.array([name == pins for name in sets], np.int32)
+        file.add_variable("ns_prop2", {"num_node_sets": len(sets)}, marks, name=PINS_PROPERTY)
     for k, members in enumerate(sets.values(), 1):
         file.add_variable(f"node_ns{k}", {f"num_nod_ns{k}": len(members)}, members + 1)
 
@@ -213,9 +197,8 @@ def _add_entities(file: ClassicWriter, mesh: Mesh, prefix: str, dimension: str, 
     if names:
         shape = {dimension: len(names)}
         file.add_variable(f"{prefix}_status", shape, np.ones(len(names), np.int32))
-        file.add_variable(
-            f"{prefix}_prop1", shape, np.array(assigned_ids(mesh.field_data.get(IDS), prefix, names)), name="ID"
-        )
+        ids = np.array(assigned_ids(mesh.field_data.get(IDS), prefix, names))
+        file.add_variable(f"{prefix}_prop1", shape, ids, name="ID")
         titles = make_unique((name for name in names if name or prefix != "eb"), clean_name)  # a block may have no name
         file.add_strings(f"{prefix}_names", dimension, [titles.get(name, "") for name in names])
 

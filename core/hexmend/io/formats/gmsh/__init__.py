@@ -5,31 +5,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from hexmend.io.base.format import Capability, deferred, register
 
-from hexmend.io.base.format import Capability, Format, register
-from hexmend.mesh.mesh import Mesh
-
-
-def read(path: Path) -> Mesh:
-    """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids."""
-    from hexmend.io.formats.gmsh import reader
-
-    return reader.read(path)
-
-
-def write(path: Path, mesh: Mesh, encoding: str) -> None:
-    """Write version 4.1: sets become physical groups."""
-    from hexmend.io.formats.gmsh import writer
-
-    writer.write(path, mesh, encoding)
-
-
-def limitations(mesh: Mesh) -> list[str]:
-    """List the data of a mesh that a file cannot hold, in words."""
-    from hexmend.io.formats.gmsh import writer
-
-    return writer.limitations(mesh)
+_LOST = {Capability.NODE_SETS, Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.FIELD_DATA}
 
 
 def _matches(head: bytes) -> bool:
@@ -38,29 +16,14 @@ def _matches(head: bytes) -> bool:
 
 
 register(
-    Format(
-        name="gmsh",
-        title="Gmsh",
-        suffixes=(".msh",),
-        encodings=("binary", "ascii"),
-        read=read,
-        write=write,
-        capabilities=frozenset(
-            {
-                Capability.NODE_DATA,
-                Capability.HEX_DATA,
-                Capability.IDS,
-                Capability.HEX_SETS,
-                Capability.CELL_SETS,
-                Capability.FIXED_NODES,
-                Capability.LOWER_CELLS,
-                Capability.VERTICES,
-                Capability.OTHER_CELLS,
-                Capability.SECOND_ORDER,
-            }
-        ),
-        stored_names=frozenset({"gmsh:physical"}),
-        limitations=limitations,
-        matches=_matches,
-    )
+    name="gmsh",
+    title="Gmsh",
+    suffixes=(".msh",),
+    encodings=("binary", "ascii"),
+    read=deferred("hexmend.io.formats.gmsh.reader:read"),
+    write=deferred("hexmend.io.formats.gmsh.writer:write"),
+    capabilities=frozenset(Capability) - _LOST,
+    stored_names=frozenset({"gmsh:physical"}),
+    limitations=deferred("hexmend.io.formats.gmsh.writer:limitations"),
+    matches=_matches,
 )

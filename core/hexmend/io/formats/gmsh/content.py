@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -34,18 +34,14 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
     MeshError
         From `Mesh`.
     """
-    if sections.points is None:
-        raise FileError(path, "has no section $Nodes", "Write the file again with the program that made it.")
-    if sections.elements is None:
-        raise FileError(path, "has no section $Elements", "Write the file again with the program that made it.")
-    names = {(dim, number): name for (dim, name), number in group_numbers(sections.names).items()}
+    for name, values in (("$Nodes", sections.points), ("$Elements", sections.elements)):
+        if values is None:
+            raise FileError(path, f"has no section {name}", "Write the file again with the program that made it.")
     notes, blocks, budget = list(sections.notes), [], MemoryBudget(path, path.stat().st_size)
     n_other = sum(len(part.tags) for part in sections.elements if part.type not in KIND_OF_TYPE)
     if n_other:
-        notes.append(
-            f"{n_other:,} elements of types that Hexmend does not keep (orders above 2, prisms of 18 nodes) "
-            "are left out."
-        )
+        types = "types that Hexmend does not keep (orders above 2, prisms of 18 nodes)"
+        notes.append(f"{n_other:,} elements of {types} are left out.")
     partitioned = any(part.partitions is not None and part.partitions.any() for part in sections.elements)
     cell_data = {data.name for data in sections.data if not data.of_nodes}
     partition = unused_name(PARTITION, cell_data) if PARTITION in cell_data else PARTITION
@@ -54,7 +50,7 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
     for type in dict.fromkeys(part.type for part in sections.elements):
         parts = [part for part in sections.elements if part.type == type and len(part.tags)]
         if parts and type in KIND_OF_TYPE:
-            block, partitions = _block(path, KIND_OF_TYPE[type], parts, sections.tags, names, notes)
+            block, partitions = _block(path, KIND_OF_TYPE[type], parts, sections, notes)
             data = _data(sections.data, False, block.data[ID], budget)
             data |= {partition: partitions} if partitioned else {}
             blocks.append(replace(block, data=data | block.data))
@@ -66,37 +62,28 @@ def to_mesh(path: Path, sections: Sections) -> Mesh:
 
 
 def _block(
-    path: Path,
-    kind: str,
-    parts: list[ElementBlock],
-    node_tags: np.ndarray,
-    names: Mapping[tuple[int, int], str],
-    notes: list[str],
+    path: Path, kind: str, parts: list[ElementBlock], sections: Sections, notes: list[str]
 ) -> tuple[Block, np.ndarray]:
     """Block of all elements of a kind, and the partition of each, (k,) int64."""
     nodes = np.concatenate([part.nodes for part in parts])
     tags = np.concatenate([part.tags for part in parts])
-    partitions = np.concatenate(
-        [np.zeros(len(part.tags), np.int64) if part.partitions is None else part.partitions for part in parts]
-    )
-    groups = _groups(parts)
-    row = None
+    rows = [np.broadcast_to(0 if part.partitions is None else part.partitions, len(part.tags)) for part in parts]
+    partitions = np.concatenate(rows)
+    groups, row = _groups(parts), None
     # versions 1 and 2 repeat an element for each of its groups
     if len(groups) > 1 and any(isinstance(part.groups, np.ndarray) for part in parts):
         first, row = _unique_rows(nodes)
         if len(first) < len(nodes):
-            notes.append(
-                f"{len(nodes) - len(first):,} {kind} elements repeat others of the file in another physical group: "
-                "each element is read once."
-            )
+            repeated = f"{len(nodes) - len(first):,} {kind} elements repeat others of the file"
+            notes.append(f"{repeated} in another physical group: each element is read once.")
             nodes, tags, partitions = nodes[first], tags[first], partitions[first]
         else:
             row = None
-    sets = {}
+    sets, names = {}, {(dim, number): name for (dim, name), number in group_numbers(sections.names).items()}
     for number, members in groups.items():
         name = names.get((dimension(kind), number)) or unnamed_group(number)
         sets[name] = members if row is None else np.unique(row[members])
-    nodes = find_ids(path, node_tags, nodes, "node")
+    nodes = find_ids(path, sections.tags, nodes, "node")
     return Block(kind, to_vtk_order(nodes, kind, ORDER), {ID: tags}, sets), partitions
 
 

@@ -41,7 +41,6 @@ def nodes_per_element(path: Path, type: int) -> int:
     if type in KIND_OF_TYPE:
         return node_count(KIND_OF_TYPE[type])
     if type not in _OTHER_NODE_COUNTS:
-        raise FileError(
-            path, f"has elements of the type {type}, which is unknown", "Write it with elements of order 1 or 2."
-        )
+        problem = f"has elements of the type {type}, which is unknown"
+        raise FileError(path, problem, "Write it with elements of order 1 or 2.")
     return _OTHER_NODE_COUNTS[type]

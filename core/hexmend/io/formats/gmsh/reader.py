@@ -17,12 +17,8 @@ from hexmend.mesh.mesh import Mesh
 _READERS = {
     1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
     2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements},
-    4: {
-        "$Entities": version_4.read_entities,
-        "$PartitionedEntities": version_4.read_partitioned_entities,
-        "$Nodes": version_4.read_nodes,
-        "$Elements": version_4.read_elements,
-    },
+    4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
+    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements},
 }
 
 
@@ -81,20 +77,18 @@ def _read_format(source: ByteCursor) -> tuple[int, str]:
         raise source.error("$MeshFormat has no version, file type and data size")
     version, file_type, size = words
     if version not in ("2", "2.0", "2.1", "2.2", "4.1"):
-        raise source.error(
-            f"is of version {quoted(version)} of the format: expected 2.2 or 4.1", "Save it as 4.1 with Gmsh."
-        )
+        problem = f"is of version {quoted(version)} of the format: expected 2.2 or 4.1"
+        raise source.error(problem, "Save it as 4.1 with Gmsh.")
     if file_type not in ("0", "1") or size != "8":
-        raise source.error(
-            f"its file type and data size are {quoted(file_type)} and {quoted(size)}: expected 0 or 1, and 8"
-        )
+        found = f"{quoted(file_type)} and {quoted(size)}"
+        raise source.error(f"its file type and data size are {found}: expected 0 or 1, and 8")
     order = ""
     if file_type == "1":
         one = source.read_bytes(4, "the number 1 that gives the byte order")
         order = "<" if struct.unpack("<i", one) == (1,) else ">"
         if struct.unpack(f"{order}i", one) != (1,):
             raise source.error("the number 1 that gives the byte order has another value")
-        source.text = False
+        source.is_text = False
     if source.next_line() != "$EndMeshFormat":
         raise source.error("$MeshFormat ends without $EndMeshFormat")
     return int(version[0]), order

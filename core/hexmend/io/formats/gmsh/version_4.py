@@ -11,17 +11,9 @@ from hexmend.io.formats.gmsh.version_2 import node_tags
 
 
 class _SectionNumbers:
-    """The numbers of a section, one after the other.
+    """The numbers of a section, one after the other; of a text all are parsed at once, as numbers of `dtype`.
 
-    Parameters
-    ----------
-    source : ByteCursor
-    order : str
-        Byte order, "<" or ">"; "" for text, of which all numbers up to the section's end are parsed at once.
-    name : str
-        Name of the section.
-    dtype : dtype
-        Type of the numbers of a text.
+    `order` is the byte order, "<" or ">", and "" for text.
     """
 
     def __init__(self, source: ByteCursor, order: str, name: str, dtype: type):

@@ -20,6 +20,9 @@ from hexmend.io.formats.gmsh.element_types import ORDER, TYPE_OF_KIND
 from hexmend.io.formats.gmsh.physical_groups import PHYSICAL_NAMES, group_numbers, unnamed_group_number
 from hexmend.mesh.mesh import Mesh
 
+#: Tags of the elements of each block, or of their entities, (k,) int64 each.
+_Tags = list[np.ndarray]
+
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write version 4.1; elements keep their order, so that those of an entity may be in several blocks.
@@ -193,11 +196,7 @@ def _write_nodes(out: SectionWriter, points: np.ndarray, node_tags: np.ndarray, 
 
 
 def _write_elements(
-    out: SectionWriter,
-    blocks: tuple[Block, ...],
-    entities: list[np.ndarray],
-    element_tags: list[np.ndarray],
-    node_tags: np.ndarray,
+    out: SectionWriter, blocks: tuple[Block, ...], entities: _Tags, element_tags: _Tags, node_tags: np.ndarray
 ) -> None:
     """Write $Elements, a block for each run of elements of one entity."""
     runs_of = [runs(entity) for entity in entities]

@@ -1,7 +1,5 @@
 """Geometric types of MED: their kinds, numbers and node order."""
 
-from __future__ import annotations
-
 #: Kind of cell of each geometric type that is read.
 KIND_OF_TYPE = {
     "PO1": "vertex", "SE2": "line", "SE3": "line3", "TR3": "triangle", "TR6": "triangle6",
@@ -25,13 +23,8 @@ GEOMETRY_BITS = {
 _HEX20 = [0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17]
 #: VTK's node order: vtk = med[ORDER[kind]]; MED goes round the lower face in the opposite direction.
 ORDER = {
-    "tetra": [0, 2, 1, 3],
-    "tetra10": [0, 2, 1, 3, 6, 5, 4, 7, 9, 8],
-    "pyramid": [0, 3, 2, 1, 4],
-    "pyramid13": [0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10],
-    "wedge": [0, 2, 1, 3, 5, 4],
-    "wedge15": [0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13],
-    "hex": _HEX20[:8],
-    "hex20": _HEX20,
-    "hex27": [*_HEX20, 21, 23, 24, 22, 20, 25, 26],
-}
+    "tetra": [0, 2, 1, 3], "tetra10": [0, 2, 1, 3, 6, 5, 4, 7, 9, 8],
+    "pyramid": [0, 3, 2, 1, 4], "pyramid13": [0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10],
+    "wedge": [0, 2, 1, 3, 5, 4], "wedge15": [0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13],
+    "hex": _HEX20[:8], "hex20": _HEX20, "hex27": [*_HEX20, 21, 23, 24, 22, 20, 25, 26],
+}  # fmt: skip

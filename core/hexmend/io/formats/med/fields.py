@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.errors import FileError
+from hexmend.io.base.hdf5 import text_of
 from hexmend.io.base.memory_budget import MemoryBudget
 from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.base.unique_names import make_unique
@@ -61,7 +62,7 @@ def read_fields(path: Path, file: Mapping, mesh: str, counts: Mapping[str, int],
     other_meshes, unsupported, several_steps = [], [], []
     budget = MemoryBudget(path, path.stat().st_size)
     for name, field in file["CHA"].items() if "CHA" in file else ():
-        if _text(field.attrs.get("MAI", b"")) != mesh or not len(field):
+        if text_of(field.attrs.get("MAI", b"")) != mesh or not len(field):
             other_meshes.append(name)
             continue
         width = int(field.attrs["NCO"])
@@ -93,13 +94,11 @@ def _values(path: Path, file: Mapping, group: Mapping, width: int, count: int) -
         if profile != NO_PROFILE:
             rows = read_array(path, file["PROFILS"][profile], "PFL").astype(np.int64) - 1
         if values.dtype.kind not in "iuf" or values.shape != (width * len(rows),):
-            raise FileError(
-                path, f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}", DAMAGED
-            )
+            problem = f"{part.name}/CO holds {values.size} numbers: expected {width} for each of {len(rows)}"
+            raise FileError(path, problem, DAMAGED)
         if len(rows) and (rows.min() < 0 or rows.max() >= count):
-            raise FileError(
-                path, f"the profile {profile} refers to entries that do not exist: expected 1 to {count}", DAMAGED
-            )
+            problem = f"the profile {profile} refers to entries that do not exist: expected 1 to {count}"
+            raise FileError(path, problem, DAMAGED)
         found.append((rows, values.reshape(width, -1).T))
     dtype = np.result_type(*(values.dtype for _, values in found)) if found else np.dtype(np.float64)
     filled = np.full((count, width), np.nan if dtype.kind == "f" else 0, dtype)
@@ -199,9 +198,3 @@ def _clean_name(name: str, end: str) -> str:
     clean = "".join("_" if letter == "/" or not letter.isprintable() else letter for letter in name).strip()
     cut = clean.encode("utf-8", "replace")[: _NAME_SIZE - len(end)].decode(errors="ignore").strip()
     return (cut if cut.strip(".") else "field") + end
-
-
-def _text(value: object) -> str:
-    """Text up to the first zero byte, stripped."""
-    value = value if isinstance(value, str) else bytes(value).decode("utf-8", errors="replace")
-    return value.split("\0")[0].strip()

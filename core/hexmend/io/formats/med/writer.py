@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cell_kinds import from_vtk_order
-from hexmend.io.base.content import ID, Block, Content, concatenate_data, concatenate_sets, from_mesh
+from hexmend.io.base.content import ID, Block, Content, from_mesh, merge_blocks
 from hexmend.io.base.fixed_marks import with_marks
 from hexmend.io.base.numbering import set_combinations
 from hexmend.io.base.unique_names import altered_names
@@ -19,14 +19,8 @@ from hexmend.io.formats.med.groups import encode_names, group_titles
 from hexmend.mesh.mesh import Mesh
 
 
-def write(path: Path, mesh: Mesh) -> None:
-    """Write a mesh, under its name, with its data as fields without a time.
-
-    Parameters
-    ----------
-    path : Path
-    mesh : Mesh
-    """
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
+    """Write a mesh, under its name, with its data as fields without a time."""
     import h5py
 
     content = _with_group_titles(replace(from_mesh(mesh), node_data=with_marks(mesh)))
@@ -63,19 +57,17 @@ def _write_cells(step: object, families: object, content: Content) -> None:
     cells = _group(step, "MAI", CGT=1)
     of_cells = _group(families, "ELEME") if any(block.sets for block in content.blocks) else None
     known: dict[tuple[str, ...], int] = {}
-    for kind in dict.fromkeys(block.kind for block in content.blocks):
-        blocks = [block for block in content.blocks if block.kind == kind]
-        type = TYPE_OF_KIND[kind]
+    for kind, blocks in _by_kind(content).items():
+        type, merged = TYPE_OF_KIND[kind], merge_blocks(blocks)
         group = _group(cells, type, CGT=1, CGS=1, GEO=GEOMETRY_NUMBERS[type])
         group.attrs["PFL"] = np.bytes_(NO_PROFILE)
-        nodes = np.concatenate([block.nodes for block in blocks]).astype(np.int64) + 1
+        nodes = merged.nodes.astype(np.int64) + 1
         count = len(nodes)
         _dataset(group, "NOD", from_vtk_order(nodes, kind, ORDER).T.ravel(), count)
         if all(_has_ids(block.data, len(block)) for block in blocks):
-            _write_ids(group, {ID: np.concatenate([np.asarray(block.data[ID]) for block in blocks])}, count)
+            _write_ids(group, merged.data, count)
         if of_cells is not None:  # kinds without sets too: MED's library expects families of all kinds or of none
-            sets = concatenate_sets([block.sets for block in blocks], [len(block) for block in blocks])
-            _dataset(group, "FAM", _write_families(of_cells, known, sets, count, -1), count)
+            _dataset(group, "FAM", _write_families(of_cells, known, merged.sets, count, -1), count)
 
 
 def limitations(mesh: Mesh) -> list[str]:
@@ -87,10 +79,8 @@ def limitations(mesh: Mesh) -> list[str]:
     if any(ID in block.data and not _has_ids(block.data, len(block)) for block in content.blocks):
         left.append("ids of elements (no whole numbers)")
     fields = _fields(replace(content, node_data=with_marks(mesh)))
-    for label, tables in (
-        ("point data", [fields["NOE"]]),
-        ("cell data", [arrays for entity, arrays in fields.items() if entity != "NOE"]),
-    ):
+    of_cells = [arrays for entity, arrays in fields.items() if entity != "NOE"]
+    for label, tables in (("point data", [fields["NOE"]]), ("cell data", of_cells)):
         odd = sorted({name for arrays in tables for name, values in arrays.items() if type_code(values) is None})
         left += [f"{label} that are no numbers ({', '.join(odd)})"] if odd else []
     titles = {name: title for (name, _, _), title in field_titles(fields).items() if title != name}
@@ -100,15 +90,17 @@ def limitations(mesh: Mesh) -> list[str]:
 def _fields(content: Content) -> dict[str, dict[str, np.ndarray]]:
     """Data without ids, by entity and name."""
     data = {"NOE": content.node_data}
-    for kind in dict.fromkeys(block.kind for block in content.blocks):
-        blocks = [block for block in content.blocks if block.kind == kind]
-        data[f"MAI.{TYPE_OF_KIND[kind]}"] = concatenate_data(
-            [block.data for block in blocks], [len(block) for block in blocks]
-        )
+    for kind, blocks in _by_kind(content).items():
+        data[f"MAI.{TYPE_OF_KIND[kind]}"] = merge_blocks(blocks).data
     return {
         entity: {name: np.asarray(values) for name, values in arrays.items() if name != ID}
         for entity, arrays in data.items()
     }
+
+
+def _by_kind(content: Content) -> dict[str, list[Block]]:
+    kinds = dict.fromkeys(block.kind for block in content.blocks)
+    return {kind: [block for block in content.blocks if block.kind == kind] for kind in kinds}
 
 
 def _with_group_titles(content: Content) -> Content:
@@ -118,7 +110,7 @@ def _with_group_titles(content: Content) -> Content:
     def retitled(sets: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
         return {titles[name]: members for name, members in sets.items()}
 
-    blocks = tuple(Block(block.kind, block.nodes, block.data, retitled(block.sets)) for block in content.blocks)
+    blocks = tuple(replace(block, sets=retitled(block.sets)) for block in content.blocks)
     return replace(content, blocks=blocks, node_sets=retitled(content.node_sets))
 
 
@@ -135,24 +127,10 @@ def _has_ids(data: Mapping[str, np.ndarray], count: int) -> bool:
 def _write_families(
     group: object, known: dict[tuple[str, ...], int], sets: Mapping[str, np.ndarray], count: int, sign: int
 ) -> np.ndarray:
-    """Write a family for each combination of sets that is new.
+    """Write a family for each combination of sets that is new; returns the family of each node or cell, (count,).
 
-    Parameters
-    ----------
-    group : h5py.Group
-        Group of the families of nodes or cells.
-    known : dict of tuple of str to int
-        Number of the family of each combination; new ones are added.
-    sets : mapping of str to (k,) int array
-    count : int
-        Number of nodes or cells.
-    sign : int
-        1 for families of nodes, -1 for those of cells.
-
-    Returns
-    -------
-    (count,) int64
-        Number of the family of each node or cell.
+    `known` has the number of the family of each combination, and gets the new ones; `sign` is 1 for families of nodes,
+    -1 for those of cells.
     """
     found, which = set_combinations(sets, count)
     numbers = []

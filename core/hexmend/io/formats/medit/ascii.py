@@ -8,8 +8,8 @@ import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted
 from hexmend.io.base.decimals import format_rows, row_chunks
-from hexmend.io.base.format import Format, register
-from hexmend.io.formats.medit.content import CAPABILITIES, SECTIONS, STORED_NAMES, from_mesh, limitations, to_mesh
+from hexmend.io.base.format import register
+from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.mesh.mesh import Mesh
 
 _KNOWN = {name.lower(): section for name, section in SECTIONS.items()} | {"hexaedra": SECTIONS["Hexahedra"]}
@@ -33,9 +33,8 @@ def read(path: Path) -> Mesh:
             if dimension != 3:
                 raise cursor.error(f"its Dimension is {dimension}: expected 3", "Hexmend works in space.")
         elif key == "Vertices":
-            rows = cursor.read_numbers(
-                "Vertices", cursor.parse_count(cursor.next_word(), "the number of Vertices"), 4, np.float64
-            )
+            count = cursor.parse_count(cursor.next_word(), "the number of Vertices")
+            rows = cursor.read_numbers("Vertices", count, 4, np.float64)
             points, refs = np.ascontiguousarray(rows[:, :3]), _to_references(cursor, rows[:, 3])
         elif key.lower() in _KNOWN:
             section = _KNOWN[key.lower()]
@@ -92,16 +91,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(b"End\n")
 
 
-register(
-    Format(
-        name="medit",
-        title="Medit",
-        suffixes=(".mesh",),
-        encodings=("ascii",),
-        read=read,
-        write=write,
-        capabilities=CAPABILITIES,
-        stored_names=STORED_NAMES,
-        limitations=limitations,
-    )
-)
+register("medit", "Medit", (".mesh",), ("ascii",), read, write, **DECLARATION)

@@ -9,8 +9,8 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor
-from hexmend.io.base.format import Format, register
-from hexmend.io.formats.medit.content import CAPABILITIES, SECTIONS, STORED_NAMES, from_mesh, limitations, to_mesh
+from hexmend.io.base.format import register
+from hexmend.io.formats.medit.content import DECLARATION, SECTIONS, from_mesh, to_mesh
 from hexmend.mesh.mesh import Mesh
 
 #: Codes of sections.
@@ -94,16 +94,4 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
         file.write(struct.pack(offset, 0))
 
 
-register(
-    Format(
-        name="medit-binary",
-        title="binary Medit",
-        suffixes=(".meshb",),
-        encodings=("binary",),
-        read=read,
-        write=write,
-        capabilities=CAPABILITIES,
-        stored_names=STORED_NAMES,
-        limitations=limitations,
-    )
-)
+register("medit-binary", "binary Medit", (".meshb",), ("binary",), read, write, **DECLARATION)

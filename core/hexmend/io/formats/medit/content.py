@@ -39,33 +39,18 @@ class MeditSection:
 
 #: Sections that are read and written, in this order, except Vertices.
 SECTIONS = {
-    section.name: section
-    for section in (
-        MeditSection("Edges", 5, 3),
-        MeditSection("Triangles", 6, 4),
-        MeditSection("Quadrilaterals", 7, 5),
-        MeditSection("Tetrahedra", 8, 5),
-        MeditSection("Prisms", 9, 7),
-        MeditSection("Hexahedra", 10, 9),
-        MeditSection("Pyramids", 49, 6),
-        MeditSection("Corners", 13, 1),
-        MeditSection("Ridges", 14, 1),
-        MeditSection("RequiredVertices", 15, 1),
-        MeditSection("RequiredEdges", 16, 1),
-        MeditSection("RequiredTriangles", 17, 1),
-        MeditSection("RequiredQuadrilaterals", 18, 1),
+    name: MeditSection(name, code, width) for name, code, width in (
+        ("Edges", 5, 3), ("Triangles", 6, 4), ("Quadrilaterals", 7, 5), ("Tetrahedra", 8, 5), ("Prisms", 9, 7),
+        ("Hexahedra", 10, 9), ("Pyramids", 49, 6), ("Corners", 13, 1), ("Ridges", 14, 1), ("RequiredVertices", 15, 1),
+        ("RequiredEdges", 16, 1), ("RequiredTriangles", 17, 1), ("RequiredQuadrilaterals", 18, 1),
     )
-}
+}  # fmt: skip
 #: Name of the data that hold references.
 REF = "medit:ref"
 _CELLS = {
-    "Edges": "line",
-    "Triangles": "triangle",
-    "Quadrilaterals": "quad",
-    "Tetrahedra": "tetra",
-    "Prisms": "wedge",
-    "Pyramids": "pyramid",
-}
+    "Edges": "line", "Triangles": "triangle", "Quadrilaterals": "quad",
+    "Tetrahedra": "tetra", "Prisms": "wedge", "Pyramids": "pyramid",
+}  # fmt: skip
 _KINDS = frozenset({"hex", *_CELLS.values()})
 #: Sections that list cells, which become data of these cells: section, kind of cells, name of the data.
 _FLAGS = (
@@ -74,8 +59,6 @@ _FLAGS = (
     ("RequiredTriangles", "triangle", "medit:required"),
     ("RequiredQuadrilaterals", "quad", "medit:required"),
 )
-CAPABILITIES = frozenset({Capability.FIXED_NODES, Capability.LOWER_CELLS, Capability.OTHER_CELLS})
-STORED_NAMES = frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)})
 _NODE_SETS = {"Corners": "corners", "RequiredVertices": "required"}
 
 
@@ -160,9 +143,12 @@ def from_mesh(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]
     return content.points, refs.astype(np.int64), kept
 
 
-def limitations(mesh: Mesh) -> list[str]:
-    """Describe the mid-nodes of cells next to hexes of first order, which are lost."""
-    return lost_mid_nodes(mesh, _KINDS)
+#: Fields of `Format` that the decimal and the binary format have in common: only mid-nodes are lost besides.
+DECLARATION = {
+    "capabilities": frozenset({Capability.FIXED_NODES, Capability.LOWER_CELLS, Capability.OTHER_CELLS}),
+    "stored_names": frozenset({REF, "corners", "required", *(flag for _, _, flag in _FLAGS)}),
+    "limitations": lambda mesh: lost_mid_nodes(mesh, _KINDS),
+}
 
 
 def _with_refs(nodes: np.ndarray, refs: np.ndarray | None) -> np.ndarray:

@@ -25,10 +25,7 @@ KINDS_OF_CARD = {
 
 #: VTK's node order: vtk = nastran[ORDER[kind]]. Nastran lists the mid-nodes of vertical edges before those of the
 #: upper face; kinds without an entry have one order in both.
-ORDER = {
-    "hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15],
-    "wedge15": [*range(9), 12, 13, 14, 9, 10, 11],
-}
+ORDER = {"hex20": [*range(12), 16, 17, 18, 19, 12, 13, 14, 15], "wedge15": [*range(9), 12, 13, 14, 9, 10, 11]}
 
 #: Name of the element set that holds the elements of a property; group 1 is the property's number (PID).
 PROPERTY_SET = re.compile(r"property ([1-9][0-9]{0,7})\Z")
@@ -48,10 +45,8 @@ def element_layout(card: str) -> ElementLayout:
     """Layout of an element card; without a second order, its two node counts are equal."""
     linear, quadratic = KINDS_OF_CARD[card]
     n_corners = node_count(linear)
-    # PLOTEL has no property
-    return ElementLayout(
-        1 if card == "PLOTEL" else 2, linear, quadratic, n_corners, node_count(quadratic) if quadratic else n_corners
-    )
+    first = 1 if card == "PLOTEL" else 2  # PLOTEL has no property
+    return ElementLayout(first, linear, quadratic, n_corners, node_count(quadratic) if quadratic else n_corners)
 
 
 def real_field(value: float) -> str:

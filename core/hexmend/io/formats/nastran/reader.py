@@ -89,10 +89,8 @@ class _Model:
         bulk = self.bulk
         if name in ("GRID", "GRDSET"):
             if bulk.integer(fields[1], line, name):
-                raise bulk.error(
-                    f"{name} in line {line} is in the coordinate system {fields[1]}: expected 0, x, y and z",
-                    "Write the file with all grid points in the basic coordinate system.",
-                )
+                problem = f"{name} in line {line} is in the coordinate system {fields[1]}: expected 0, x, y and z"
+                raise bulk.error(problem, "Write the file with all grid points in the basic coordinate system.")
             if name == "GRID":
                 self.node_ids.append(bulk.integer(fields[0], line, name))
                 self.points.append([bulk.real(word, line, name) for word in [*fields, ""][2:5]])
@@ -148,15 +146,13 @@ class _Model:
         property_id = bulk.integer(fields[1], line, name) if first == 2 else 0
         nodes = [bulk.integer(word, line, name) for word in fields[first : first + n_nodes]]
         if len(nodes) < n_corners or 0 in nodes[:n_corners]:
-            raise bulk.error(
-                f"{name} in line {line} has {sum(map(bool, nodes[:n_corners]))} nodes: expected {n_corners}", DAMAGED
-            )
+            found = sum(map(bool, nodes[:n_corners]))
+            raise bulk.error(f"{name} in line {line} has {found} nodes: expected {n_corners}", DAMAGED)
         n_mid = sum(map(bool, nodes[n_corners:]))
         full = bool(quadratic) and n_mid == n_nodes - n_corners
         element_id = bulk.integer(fields[0], line, name)
-        self._rows(quadratic if full else linear).append(
-            [element_id, property_id, *nodes[: n_nodes if full else n_corners]]
-        )
+        row = [element_id, property_id, *nodes[: n_nodes if full else n_corners]]
+        self._rows(quadratic if full else linear).append(row)
         self.n_partial += bool(n_mid) and not full
 
     def _rows(self, kind: str) -> _RowBuffer:
@@ -168,9 +164,8 @@ class _Model:
         if not len(node_ids):
             raise self.bulk.error("has no GRID", "Is it a file of Nastran's bulk data? Check its suffix.")
         if self.n_partial:
-            notes.append(
-                f"{self.n_partial:,} elements have some of their mid-nodes only: they are read with their corners only."
-            )
+            partial = f"{self.n_partial:,} elements have some of their mid-nodes only"
+            notes.append(f"{partial}: they are read with their corners only.")
         if self.other_cards:
             words = ", ".join(f"{count:,} {quoted(name)[1:-1]}" for name, count in list(self.other_cards.items())[:6])
             notes.append(f"Other cards ({words}{', ...' if len(self.other_cards) > 6 else ''}) are left out.")

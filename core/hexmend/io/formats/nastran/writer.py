@@ -19,15 +19,10 @@ from hexmend.mesh.mesh import Mesh
 _ID_LIMIT = 100_000_000
 
 
-def write(path: Path, mesh: Mesh) -> None:
+def write(path: Path, mesh: Mesh, encoding: str) -> None:
     """Write grid points and elements; mid-nodes of faces and of the inside of hexes are left out.
 
     Elements of a set "property N" have property N, all others an unused one.
-
-    Parameters
-    ----------
-    path : Path
-    mesh : Mesh
 
     Raises
     ------

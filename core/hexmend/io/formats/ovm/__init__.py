@@ -12,19 +12,22 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.cursor import ByteCursor, quoted, read_text_bytes
-from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.ovm.writer import limitations, write
 from hexmend.io.formats.vtk.grid import TYPE_BY_KIND, WIDTH_BY_TYPE, Grid, to_mesh
 from hexmend.mesh.mesh import Mesh
 
+_DATA = {Capability.NODE_DATA, Capability.HEX_DATA, Capability.IDS}
+_SETS = {Capability.NODE_SETS, Capability.HEX_SETS, Capability.FIXED_NODES}
 _LETTER = re.compile(rb"[A-Za-z]")
 _PROPERTY = re.compile(r'([A-Z]+Prop)\s+(.+?)\s+"?([^"]*?)"?\s*\Z', re.IGNORECASE)
 _VECTOR = re.compile(r"(?:vec|Vec|Vector)([234])(d|f|i|ui)\Z")
 #: Section that must precede properties.
 _REQUIRED_SECTION = {"VPROP": "Vertices", "CPROP": "Polyhedra"}
 _REALS = ("double", "float")
+_Data = dict[str, np.ndarray]
 _INTEGERS = ("int", "unsigned int", "uint", "long", "unsigned long", "ulong", "short", "bool", "char", "unsigned char")
 
 
@@ -36,8 +39,8 @@ def read(path: Path) -> Mesh:
     points, edges = np.zeros((0, 3)), np.zeros((0, 2), np.int64)
     faces = cells = RaggedArray(np.zeros(1, np.int64), np.zeros(0, np.int64))
     seen: set[object] = set()
-    node_data: dict[str, np.ndarray] = {}
-    cell_data: dict[str, np.ndarray] = {}
+    node_data: _Data = {}
+    cell_data: _Data = {}
     notes: list[str] = []
     while not cursor.at_end:
         line, key = cursor.location, cursor.next_line()
@@ -76,25 +79,14 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, _grid(points, found, node_data, cell_data, notes))
 
 
-def _grid(
-    points: np.ndarray,
-    found: dict[str, tuple[np.ndarray, np.ndarray]],
-    node_data: dict[str, np.ndarray],
-    cell_data: dict[str, np.ndarray],
-    notes: list[str],
-) -> Grid:
+def _grid(points: np.ndarray, found: dict, node_data: _Data, cell_data: _Data, notes: list[str]) -> Grid:
     """Make a grid of the cells that `cells_from_faces` has found."""
     which = np.concatenate([np.zeros(0, np.int64), *(which for which, _ in found.values())])
     types = np.concatenate([np.full(len(which), TYPE_BY_KIND[kind]) for kind, (which, _) in found.items()] or [which])
-    return Grid(
-        points,
-        types,
-        np.concatenate([[0], np.cumsum([WIDTH_BY_TYPE[number] for number in types.tolist()])]).astype(np.int64),
-        np.concatenate([np.zeros(0, np.int64), *(nodes.ravel() for _, nodes in found.values())]),
-        node_data,
-        {name: values[which] for name, values in cell_data.items()},
-        notes=tuple(notes),
-    )
+    start = np.cumsum([0, *(WIDTH_BY_TYPE[number] for number in types.tolist())])
+    nodes = np.concatenate([np.zeros(0, np.int64), *(nodes.ravel() for _, nodes in found.values())])
+    cell_data = {name: values[which] for name, values in cell_data.items()}
+    return Grid(points, types, start, nodes, node_data, cell_data, notes=tuple(notes))
 
 
 def _read_lists(cursor: ByteCursor, name: str, limit: int) -> RaggedArray:
@@ -116,7 +108,7 @@ def _read_lists(cursor: ByteCursor, name: str, limit: int) -> RaggedArray:
 
 
 def _read_property(
-    cursor: ByteCursor, head: re.Match[str], targets: dict[str, tuple[dict[str, np.ndarray], int]], notes: list[str]
+    cursor: ByteCursor, head: re.Match[str], targets: dict[str, tuple[_Data, int]], notes: list[str]
 ) -> None:
     """Read a property of vertices or cells; those of other entities or types are skipped, and a note says so."""
     entity, type, name = head[1], head[2], head[3]
@@ -151,25 +143,13 @@ def _matches(head: bytes) -> bool:
 
 
 register(
-    Format(
-        name="ovm",
-        title="OpenVolumeMesh",
-        suffixes=(".ovm",),
-        encodings=("ascii",),
-        read=read,
-        write=write,
-        capabilities=frozenset(
-            {
-                Capability.NODE_DATA,
-                Capability.HEX_DATA,
-                Capability.IDS,
-                Capability.NODE_SETS,
-                Capability.HEX_SETS,
-                Capability.FIXED_NODES,
-                Capability.OTHER_CELLS,
-            }
-        ),
-        limitations=limitations,
-        matches=_matches,
-    )
+    name="ovm",
+    title="OpenVolumeMesh",
+    suffixes=(".ovm",),
+    encodings=("ascii",),
+    read=read,
+    write=write,
+    capabilities=frozenset({*_DATA, *_SETS, Capability.OTHER_CELLS}),
+    limitations=limitations,
+    matches=_matches,
 )

@@ -33,11 +33,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     for block in content.blocks:
         twice = np.flatnonzero((np.diff(np.sort(block.nodes, axis=1), axis=1) == 0).any(axis=1))
         if twice.size:
-            raise FileError(
-                path,
-                f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's",
-                "Repair it with hexmend repair, or write .vtu instead.",
-            )
+            problem = f"{block.kind} {twice[0]} has a node twice, so that its faces are none of OpenVolumeMesh's"
+            raise FileError(path, problem, "Repair it with hexmend repair, or write .vtu instead.")
     loops, halves = faces_from_cells([(block.kind, block.nodes) for block in content.blocks])
     edges, around = _edges(loops, len(content.points))
     grid = from_content(content)

@@ -6,7 +6,8 @@ The file is an archive, see `hexmend.io.archive`. The viewer defines the data un
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,11 +16,11 @@ from hexmend.errors import FileError, MeshError
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.archive.folder import ArchiveFolder
 from hexmend.io.archive.mesh_data import MeshDecoder, check_fields, mesh_to_data
-from hexmend.io.files import check_readable
+from hexmend.io.files import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 
 #: Version that is written; earlier ones can be read.
-VERSION = 4
+VERSION = 5
 #: Largest number of meshes in a session.
 MAX_MESHES = 10_000
 
@@ -108,32 +109,29 @@ def read_session(path: str | os.PathLike[str]) -> SessionContent:
     FileError
         For another file, a damaged one, and a newer version.
     """
-    version, data = _data(path)
-    try:
-        decoder, now = MeshDecoder(version), _shown_index(data)
+    with _opened(path) as (version, data, now):
+        decoder = MeshDecoder(version)
         meshes = tuple(decoder.decode(mesh) for mesh in data["meshes"])
         return SessionContent(meshes, now, data["window"], version)
-    except MeshError as error:
-        raise _invalid_session(path, error) from None
 
 
 def read_shown_mesh(path: Path) -> Mesh:
     """Read the mesh that was shown; raises `FileError` as `read_session`."""
-    version, data = _data(path)
-    try:
-        return MeshDecoder(version).decode(data["meshes"][_shown_index(data)])
-    except MeshError as error:
-        raise _invalid_session(path, error) from None
+    with _opened(path) as (version, data, now):
+        return MeshDecoder(version).decode(data["meshes"][now])
 
 
-def _data(path: str | os.PathLike[str]) -> tuple[int, Any]:
-    """Version and data of a session."""
+@contextmanager
+def _opened(path: str | os.PathLike[str]) -> Iterator[tuple[int, Any, int]]:
+    """Context manager that gives a session's version, data and index shown; invalid meshes become a `FileError`."""
     if not Path(path).is_dir():
         check_readable(Path(path), "a session")
+    with reading(Path(path), "Close other programs."):
+        version, data = read_archive(path, _FORMAT, VERSION)
     try:
-        return read_archive(path, _FORMAT, VERSION)
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
+        yield version, data, _shown_index(data)
+    except MeshError as error:
+        raise FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.") from None
 
 
 def _shown_index(data: Any) -> int:
@@ -145,7 +143,3 @@ def _shown_index(data: Any) -> int:
     if len(meshes) > MAX_MESHES:
         raise MeshError(f"it has {len(meshes):,} meshes: expected {MAX_MESHES:,} at most")
     return now
-
-
-def _invalid_session(path: str | os.PathLike[str], error: MeshError) -> FileError:
-    return FileError(path, str(error), "Use an earlier copy, or open the mesh that it was made from.")

@@ -10,7 +10,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cell_kinds import node_count
-from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data
+from hexmend.io.base.content import HEX_KINDS, Block, Content, concatenate_data, merge_blocks
 from hexmend.io.base.content import from_mesh as content_of
 from hexmend.io.base.content import to_mesh as mesh_of
 from hexmend.io.base.fixed_marks import with_marks
@@ -32,16 +32,9 @@ WIDTH_BY_TYPE |= {VOXEL: 8, PIXEL: 4}
 _VARIABLE_WIDTH = {2: {1: 1}, 4: {2: 3, 3: 21}, 7: {3: 5, 4: 9}}
 #: Names of types that are not read, for messages.
 NAMES = {
-    0: "VTK_EMPTY_CELL",
-    2: "VTK_POLY_VERTEX",
-    4: "VTK_POLY_LINE",
-    6: "VTK_TRIANGLE_STRIP",
-    7: "VTK_POLYGON",
-    15: "VTK_PENTAGONAL_PRISM",
-    16: "VTK_HEXAGONAL_PRISM",
-    42: "VTK_POLYHEDRON",
-    72: "VTK_LAGRANGE_HEXAHEDRON",
-}
+    0: "VTK_EMPTY_CELL", 2: "VTK_POLY_VERTEX", 4: "VTK_POLY_LINE", 6: "VTK_TRIANGLE_STRIP", 7: "VTK_POLYGON",
+    15: "VTK_PENTAGONAL_PRISM", 16: "VTK_HEXAGONAL_PRISM", 42: "VTK_POLYHEDRON", 72: "VTK_LAGRANGE_HEXAHEDRON",
+}  # fmt: skip
 
 #: quad = pixel[PIXEL_ORDER].
 PIXEL_ORDER = np.array([0, 1, 3, 2])
@@ -120,11 +113,8 @@ def to_content(path: Path, grid: Grid) -> Content:
         if not any(block.kind in HEX_KINDS for block in blocks):
             first = int(unknown[0])
             name = NAMES.get(int(types[first]), f"cell of type {types[first]}")
-            raise FileError(
-                path,
-                f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12, 25, 29)",
-                "Hexmend works on hexahedral meshes only.",
-            )
+            problem = f"cell {first} is a {name}; Hexmend reads hexahedra (types 11, 12, 25, 29)"
+            raise FileError(path, problem, "Hexmend works on hexahedral meshes only.")
         names = sorted({NAMES.get(int(number), f"type {number}") for number in types[unknown]})
         notes.append(f"{unknown.size:,} cells of other kinds ({', '.join(names)}) are left out.")
     blocks.sort(key=lambda block: [*HEX_KINDS, *CELL_KINDS].index(block.kind))
@@ -156,15 +146,10 @@ def from_content(content: Content) -> Grid:
     for name, members in content.node_sets.items():
         node_data[_SET + name] = _mask(members, len(content.points))
     widths = np.concatenate([np.full(len(block), block.nodes.shape[1], np.int64) for block in content.blocks])
-    return Grid(
-        points=content.points,
-        types=np.concatenate([np.full(len(block), TYPE_BY_KIND[block.kind], np.uint8) for block in content.blocks]),
-        start=np.concatenate([[0], np.cumsum(widths)]),
-        nodes=np.concatenate([block.nodes.ravel() for block in content.blocks]),
-        node_data=node_data,
-        cell_data=concatenate_data([_with_set_arrays(block) for block in content.blocks], lengths),
-        field_data=content.field_data,
-    )
+    types = np.concatenate([np.full(len(block), TYPE_BY_KIND[block.kind], np.uint8) for block in content.blocks])
+    start, nodes = np.concatenate([[0], np.cumsum(widths)]), [block.nodes.ravel() for block in content.blocks]
+    cell_data = concatenate_data([_with_set_arrays(block) for block in content.blocks], lengths)
+    return Grid(content.points, types, start, np.concatenate(nodes), node_data, cell_data, content.field_data)
 
 
 def _with_set_arrays(block: Block) -> dict[str, np.ndarray]:
@@ -182,11 +167,8 @@ def check_sizes(path: Path, grid: Grid, types: np.ndarray) -> None:
     wrong = np.flatnonzero((widths != expected) & (expected >= 0))
     if len(wrong):
         i = int(wrong[0])
-        raise FileError(
-            path,
-            f"cell {i} is of type {types[i]} and has {widths[i]} nodes: expected {expected[i]}",
-            "Write the file again with the program that made it.",
-        )
+        problem = f"cell {i} is of type {types[i]} and has {widths[i]} nodes: expected {expected[i]}"
+        raise FileError(path, problem, "Write the file again with the program that made it.")
 
 
 def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
@@ -194,11 +176,8 @@ def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     given, widths, notes = np.asarray(grid.types).astype(np.int64), np.diff(grid.start), []
     outside = np.flatnonzero((given < 0) | (given > 255))
     if outside.size:
-        raise FileError(
-            path,
-            f"cell {outside[0]} is of type {given[outside[0]]}: expected one of VTK's types, 0 to 255",
-            "Write the file again with the program that made it.",
-        )
+        problem = f"cell {outside[0]} is of type {given[outside[0]]}: expected one of VTK's types, 0 to 255"
+        raise FileError(path, problem, "Write the file again with the program that made it.")
     types = given.copy()
     for number, others in _VARIABLE_WIDTH.items():
         for width, other in others.items():
@@ -206,9 +185,8 @@ def _correct_types(path: Path, grid: Grid) -> tuple[np.ndarray, list[str]]:
     tetra = given == TYPE_BY_KIND["tetra"]
     if tetra.any() and (widths[tetra] == 8).all():
         types[tetra] = HEXAHEDRON
-        notes.append(
-            f"{int(tetra.sum()):,} cells of eight nodes are labelled as tetrahedra in the file: read as hexes."
-        )
+        count = f"{int(tetra.sum()):,} cells of eight nodes"
+        notes.append(f"{count} are labelled as tetrahedra in the file: read as hexes.")
     return types, notes
 
 
@@ -219,16 +197,9 @@ def _merge_voxels(types: np.ndarray, blocks: list[Block]) -> list[Block]:
         return blocks
     hex_types = [number for number in dict.fromkeys(types.tolist()) if number in (VOXEL, HEXAHEDRON)]
     order = np.argsort(np.concatenate([np.flatnonzero(types == number) for number in hex_types]), kind="stable")
-    lengths = [len(block) for block in hexes]
-    data, sets = _split_sets(concatenate_data([_with_set_arrays(block) for block in hexes], lengths))
-    nodes = np.concatenate([block.nodes for block in hexes])[order]
-    new_index = np.argsort(order)
-    merged = Block(
-        "hex",
-        nodes,
-        {name: values[order] for name, values in data.items()},
-        {name: np.sort(new_index[members]) for name, members in sets.items()},
-    )
+    merged = merge_blocks([replace(block, data=_with_set_arrays(block), sets={}) for block in hexes])
+    data, sets = _split_sets({name: values[order] for name, values in merged.data.items()})
+    merged = Block("hex", merged.nodes[order], data, sets)
     return [merged, *(block for block in blocks if block.kind != "hex")]
 
 

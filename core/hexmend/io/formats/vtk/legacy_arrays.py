@@ -10,29 +10,12 @@ from hexmend.io.base.cursor import ByteCursor, quoted
 
 #: NumPy types of VTK's types, without the byte order.
 TYPES = {
-    "bit": "u1",
-    "char": "i1",
-    "signed_char": "i1",
-    "unsigned_char": "u1",
-    "short": "i2",
-    "unsigned_short": "u2",
-    "int": "i4",
-    "unsigned_int": "u4",
-    "long": "i8",
-    "unsigned_long": "u8",
-    "vtktypeint64": "i8",
-    "vtktypeuint64": "u8",
-    "vtkidtype": "i4",
-    "float": "f4",
-    "double": "f8",
-}
+    "bit": "u1", "char": "i1", "signed_char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2",
+    "int": "i4", "unsigned_int": "u4", "long": "i8", "unsigned_long": "u8", "vtktypeint64": "i8",
+    "vtktypeuint64": "u8", "vtkidtype": "i4", "float": "f4", "double": "f8",
+}  # fmt: skip
 #: VTK's types of texts.
 STRINGS = ("string", "utf8_string")
-
-
-def unquote_name(word: str) -> str:
-    """Decode a name or a string of the file, in which special characters are written as %20."""
-    return unquote(word)
 
 
 def read_array(cursor: ByteCursor, section: str, rows: int, width: int, kind: str) -> np.ndarray:
@@ -68,9 +51,8 @@ def read_array(cursor: ByteCursor, section: str, rows: int, width: int, kind: st
         limit = np.iinfo(code)
         if values.size and (values.min() < limit.min or values.max() > limit.max):
             row, column = np.argwhere((values < limit.min) | (values > limit.max))[0]
-            raise cursor.error(
-                f"{section} holds {values[row, column]} in row {row + 1} of {rows}, which its type {kind} cannot"
-            )
+            problem = f"{section} holds {values[row, column]} in row {row + 1} of {rows}"
+            raise cursor.error(f"{problem}, which its type {kind} cannot")
         return values.astype(code)
     if kind.lower() == "bit":
         bits = np.unpackbits(np.frombuffer(cursor.read_bytes((rows * width + 7) // 8, section), np.uint8))
@@ -90,7 +72,7 @@ def read_strings(cursor: ByteCursor, count: int) -> list[str]:
     if count > len(cursor.data) - cursor.pos:
         raise cursor.error(f"{count} strings are announced before {cursor.location}: the file ends before")
     if cursor.is_text:
-        return [unquote_name(cursor.rest_of_line()) for _ in range(count)]
+        return [unquote(cursor.rest_of_line()) for _ in range(count)]
     strings = []
     for _ in range(count):
         # The first two bits of the length tell its size in bytes: 11 one, 10 two, 01 four, 00 eight.

@@ -5,22 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from urllib.parse import unquote
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.capabilities import non_numeric_data
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
-from hexmend.io.formats.vtk.legacy_arrays import (
-    STRINGS,
-    read_array,
-    read_integers,
-    read_strings,
-    split_cells,
-    unquote_name,
-)
+from hexmend.io.formats.vtk.legacy_arrays import STRINGS, read_array, read_integers, read_strings, split_cells
 from hexmend.io.formats.vtk.legacy_writer import write
 from hexmend.mesh.mesh import Mesh
 
@@ -57,11 +51,8 @@ class _LegacyReader:
             head = file.read(_HEAD)
             if not re.match(rb"\s*#\s*vtk\s+datafile", head, re.IGNORECASE):
                 first = head.split(b"\n", 1)[0].decode("utf-8", errors="replace").strip()
-                raise FileError(
-                    path,
-                    f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'",
-                    "Is it a VTK file? Check its suffix.",
-                )
+                problem = f"line 1 is {quoted(first)}: expected '# vtk DataFile Version ...'"
+                raise FileError(path, problem, "Is it a VTK file? Check its suffix.")
             file.seek(0)
             self.cursor = ByteCursor(path, file.read())
         self.sections: dict[str, np.ndarray] = {}
@@ -76,16 +67,8 @@ class _LegacyReader:
         types = self.sections["CELL_TYPES"]
         start, nodes = self._cells(types)
         note = f"Arrays that are not of numbers, one row a node or cell, are left out: {', '.join(self.skipped)}."
-        return Grid(
-            self.sections["POINTS"],
-            types,
-            start,
-            nodes,
-            node_data=self.data["POINT_DATA"],
-            cell_data=self.data["CELL_DATA"],
-            field_data=self.field_data,
-            notes=(note,) if self.skipped else (),
-        )
+        data, notes = (*self.data.values(), self.field_data), (note,) if self.skipped else ()
+        return Grid(self.sections["POINTS"], types, start, nodes, *data, notes)
 
     def read_polygons(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         self._read("POLYDATA", ("POINTS",))
@@ -133,16 +116,13 @@ class _LegacyReader:
         if key == "POINTS":
             points = read_array(cursor, key, count(heading[1], "the number of points"), 3, heading[2])
             self.sections[key] = points.astype(float)
-        elif key == "CELLS":
-            self._read_cells(count(heading[1], "the number of cells"), count(heading[2], "their size"))
-        elif key == "POLYGONS":
-            polygons = count(heading[1], "the number of polygons")
-            self._read_cells(polygons, count(heading[2], "their size"))
-            self.sections["CELL_TYPES"] = np.zeros(polygons - ("OFFSETS" in self.sections), np.uint8)
-        elif key in ("VERTICES", "LINES"):  # not used
-            self._read_cells(count(heading[1], "the number of cells"), count(heading[2], "their size"))
-            self.sections.pop("CELLS", None)
-            self.sections.pop("OFFSETS", None)
+        elif key in ("CELLS", "POLYGONS", "VERTICES", "LINES"):
+            cells = count(heading[1], f"the number of {'polygons' if key == 'POLYGONS' else 'cells'}")
+            self._read_cells(cells, count(heading[2], "their size"))
+            if key == "POLYGONS":
+                self.sections["CELL_TYPES"] = np.zeros(cells - ("OFFSETS" in self.sections), np.uint8)
+            for name in ("CELLS", "OFFSETS") if key in ("VERTICES", "LINES") else ():  # not used
+                self.sections.pop(name, None)
         elif key == "TRIANGLE_STRIPS":
             raise cursor.error("holds triangle strips: expected polygons", "Convert them to triangles.")
         elif key == "CELL_TYPES":
@@ -164,15 +144,13 @@ class _LegacyReader:
             before = cursor.pos
             if not cursor.next_line().upper().startswith("LOOKUP_TABLE"):
                 cursor.pos = before
-            self._store(heading[1], read_array(cursor, f"SCALARS {heading[1]}", self.rows, width, heading[2]))
+            self._read_data(heading[1], f"SCALARS {heading[1]}", width, heading[2])
         elif key in _WIDTHS:
-            self._store(heading[1], read_array(cursor, f"{key} {heading[1]}", self.rows, _WIDTHS[key], heading[2]))
+            self._read_data(heading[1], f"{key} {heading[1]}", _WIDTHS[key], heading[2])
         elif key == "TEXTURE_COORDINATES":
-            width = count(heading[2], "the dimension")
-            self._store(heading[1], read_array(cursor, key, self.rows, width, heading[3]))
+            self._read_data(heading[1], key, count(heading[2], "the dimension"), heading[3])
         elif key == "COLOR_SCALARS":
-            width = count(heading[2], "the number of values")
-            self._store(heading[1], read_array(cursor, key, self.rows, width, self._colour_type()))
+            self._read_data(heading[1], key, count(heading[2], "the number of values"), self._colour_type())
         elif key == "LOOKUP_TABLE":
             read_array(cursor, key, count(heading[2], "the size of the table"), 4, self._colour_type())
         elif key == "FIELD":
@@ -210,9 +188,12 @@ class _LegacyReader:
                 return
             values = values[:, 0] if width == 1 else values
         if self.data_section:
-            self.skipped[unquote_name(heading[0])] = None
+            self.skipped[unquote(heading[0])] = None
         else:
             self.field_data[_unused_name(heading[0], self.field_data)] = values
+
+    def _read_data(self, name: str, section: str, width: int, kind: str) -> None:
+        self._store(name, read_array(self.cursor, section, self.rows, width, kind))
 
     def _store(self, name: str, values: np.ndarray) -> None:
         data = self.data.get(self.data_section)
@@ -243,28 +224,25 @@ class _LegacyReader:
         if "OFFSETS" in self.sections:
             start = self.sections["OFFSETS"]
             if len(start) != count + 1 or start[0] != 0 or start[-1] != len(flat) or (np.diff(start) < 0).any():
-                raise self.cursor.error(
-                    f"CELLS has {len(start)} OFFSETS for {count} cells of CELL_TYPES: expected {count + 1}, rising"
-                )
+                problem = f"CELLS has {len(start)} OFFSETS for {count} cells of CELL_TYPES"
+                raise self.cursor.error(f"{problem}: expected {count + 1}, rising")
             return start, flat
         return split_cells(self.cursor, flat, count)
 
 
 def _unused_name(name: str, data: Mapping[str, object]) -> str:
-    name = unquote_name(name)
+    name = unquote(name)
     return name if name not in data else f"{name} ({len(data) + 1})"
 
 
 register(
-    Format(
-        name="vtk",
-        title="VTK legacy",
-        suffixes=(".vtk",),
-        encodings=("binary", "ascii"),
-        read=read,
-        write=write,
-        capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
-        limitations=non_numeric_data,
-        matches=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
-    )
+    name="vtk",
+    title="VTK legacy",
+    suffixes=(".vtk",),
+    encodings=("binary", "ascii"),
+    read=read,
+    write=write,
+    capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+    limitations=non_numeric_data,
+    matches=lambda head: head[:40].lower().lstrip().startswith(b"# vtk datafile"),
 )

@@ -17,17 +17,9 @@ from hexmend.mesh.mesh import Mesh
 
 #: VTK's names of NumPy types.
 NAMES = {
-    "u1": "unsigned_char",
-    "i1": "char",
-    "i2": "short",
-    "u2": "unsigned_short",
-    "i4": "int",
-    "u4": "unsigned_int",
-    "i8": "long",
-    "u8": "unsigned_long",
-    "f4": "float",
-    "f8": "double",
-}
+    "u1": "unsigned_char", "i1": "char", "i2": "short", "u2": "unsigned_short", "i4": "int", "u4": "unsigned_int",
+    "i8": "long", "u8": "unsigned_long", "f4": "float", "f8": "double",
+}  # fmt: skip
 
 
 def write(path: Path, mesh: Mesh, encoding: str) -> None:
@@ -36,10 +28,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     ascii = encoding == "ascii"
     with open(path, "wb") as file:
         name = mesh.name.replace("\n", " ")[:200] or "mesh"
-        kind = "ASCII" if ascii else "BINARY"
-        file.write(
-            f"# vtk DataFile Version 3.0\n{name}\n{kind}\nDATASET UNSTRUCTURED_GRID\n".encode("utf-8", "replace")
-        )
+        head = f"# vtk DataFile Version 3.0\n{name}\n{encoding.upper()}\nDATASET UNSTRUCTURED_GRID\n"
+        file.write(head.encode("utf-8", "replace"))
         _write_arrays(path, file, grid.field_data, ascii)
         file.write(f"POINTS {len(grid.points)} double\n".encode())
         _write_numbers(file, grid.points, "f8", ascii)
@@ -60,12 +50,9 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
             _write_numbers(file, flat, "i4", ascii)
         file.write(f"CELL_TYPES {count}\n".encode())
         _write_numbers(file, grid.types, "i4", ascii)
-        for section, rows, data in (
-            ("POINT_DATA", len(grid.points), grid.node_data),
-            ("CELL_DATA", count, grid.cell_data),
-        ):
+        for head, data in ((f"POINT_DATA {len(grid.points)}", grid.node_data), (f"CELL_DATA {count}", grid.cell_data)):
             if data:
-                file.write(f"{section} {rows}\n".encode())
+                file.write(f"{head}\n".encode())
                 _write_arrays(path, file, data, ascii)
 
 

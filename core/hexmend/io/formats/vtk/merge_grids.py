@@ -48,16 +48,11 @@ def merge_grids(grids: Sequence[Grid]) -> Grid:
     cell_data, more = _concatenate_common([grid.cell_data for grid in grids])
     if lost + more:
         notes.append(f"Arrays that are missing or different in some pieces are left out: {', '.join(lost + more)}.")
-    merged = Grid(
-        np.concatenate([grid.points for grid in grids]),
-        np.concatenate([grid.types for grid in grids]),
-        np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, starts, strict=False))]),
-        np.concatenate([_shift_nodes(grid, int(begin)) for grid, begin in zip(grids, first, strict=False)]),
-        node_data,
-        cell_data,
-        {name: values for grid in reversed(grids) for name, values in grid.field_data.items()},
-    )
-    merged, phrase = _merge_nodes(merged)
+    points, types = (np.concatenate([getattr(grid, name) for grid in grids]) for name in ("points", "types"))
+    start = np.concatenate([[0], *(grid.start[1:] + begin for grid, begin in zip(grids, starts, strict=False))])
+    nodes = np.concatenate([_shift_nodes(grid, int(begin)) for grid, begin in zip(grids, first, strict=False)])
+    fields = {name: values for grid in reversed(grids) for name, values in grid.field_data.items()}
+    merged, phrase = _merge_nodes(Grid(points, types, start, nodes, node_data, cell_data, fields))
     return replace(merged, notes=(f"Its {len(grids)} pieces are merged{phrase}.", *notes))
 
 
@@ -94,16 +89,11 @@ def _without_ghosts(grid: Grid) -> Grid:
     dropped = np.zeros(len(grid.points), bool)
     dropped[nodes[np.repeat(ghost, widths)]] = True
     dropped[nodes[np.repeat(~ghost, widths)]] = False
-    new_index = np.cumsum(~dropped) - 1
-    return Grid(
-        grid.points[~dropped],
-        np.asarray(grid.types)[~ghost],
-        np.concatenate([[0], np.cumsum(widths[~ghost])]),
-        new_index[nodes[np.repeat(~ghost, widths)]],
-        {name: np.asarray(values)[~dropped] for name, values in node_data.items()},
-        {name: np.asarray(values)[~ghost] for name, values in data.items()},
-        grid.field_data,
-    )
+    types, start = np.asarray(grid.types)[~ghost], np.concatenate([[0], np.cumsum(widths[~ghost])])
+    nodes = (np.cumsum(~dropped) - 1)[nodes[np.repeat(~ghost, widths)]]
+    node_data = {name: np.asarray(values)[~dropped] for name, values in node_data.items()}
+    data = {name: np.asarray(values)[~ghost] for name, values in data.items()}
+    return Grid(grid.points[~dropped], types, start, nodes, node_data, data, grid.field_data)
 
 
 def _merge_nodes(grid: Grid) -> tuple[Grid, str]:

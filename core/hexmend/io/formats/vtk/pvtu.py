@@ -7,13 +7,14 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from hexmend.errors import FileError
-from hexmend.io.base.format import Format, register
+from hexmend.io.base.format import register
 from hexmend.io.files import check_readable
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu import read_grids
 from hexmend.io.formats.vtk.xml_document import Document
 from hexmend.mesh.mesh import Mesh
+from hexmend.terminal_text import printable
 
 _ROOT = re.compile(rb"<VTKFile\s[^>]*type\s*=\s*[\"']PUnstructuredGrid[\"']")
 
@@ -30,15 +31,6 @@ def read(path: Path) -> Mesh:
 
 def piece_paths(path: Path) -> list[Path]:
     """List the files of the pieces, which may be missing.
-
-    Parameters
-    ----------
-    path : Path
-        The PVTU file.
-
-    Returns
-    -------
-    list of Path
 
     Raises
     ------
@@ -63,32 +55,20 @@ def _read_piece(path: Path, name: str) -> list[Grid]:
         check_readable(piece, "a VTU file")
         return read_grids(piece)
     except FileError as error:
-        raise FileError(path, f"its piece {_printable(name)}: {error.problem}", error.remedy) from None
-
-
-def _printable(name: str) -> str:
-    return "".join(c if c.isprintable() else "?" for c in name[:80])
+        raise FileError(path, f"its piece {printable(name[:80])}: {error.problem}", error.remedy) from None
 
 
 def _piece_path(path: Path, name: str) -> Path:
     """Path of a piece, in the folder of the file or below."""
     relative = PurePosixPath(name.replace("\\", "/"))
     if not name or relative.is_absolute() or ".." in relative.parts or ":" in name or "\0" in name:
-        raise FileError(
-            path,
-            f"names the piece {_printable(name)!r}: expected a file in its folder or below",
-            "Move its pieces there.",
-        )
+        problem = f"names the piece {printable(name[:80])!r}: expected a file in its folder or below"
+        raise FileError(path, problem, "Move its pieces there.")
     return path.parent / relative
 
 
-register(
-    Format(
-        name="pvtu",
-        title="PVTU",
-        suffixes=(".pvtu",),
-        encodings=(),
-        read=read,
-        matches=lambda head: _ROOT.search(head) is not None,
-    )
-)
+def _matches(head: bytes) -> bool:
+    return _ROOT.search(head) is not None
+
+
+register(name="pvtu", title="PVTU", suffixes=(".pvtu",), encodings=(), read=read, matches=_matches)

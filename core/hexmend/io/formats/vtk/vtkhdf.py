@@ -16,13 +16,13 @@ import numpy as np
 from hexmend.errors import FileError
 from hexmend.io.base import hdf5
 from hexmend.io.base.content import Content, to_mesh
-from hexmend.io.base.format import Format, register
+from hexmend.io.base.format import register
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.remedies import DAMAGED
 from hexmend.io.formats.vtk.grid import Grid, to_content
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.mesh.mesh import Mesh
 
-_DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: Chunks that any file may have, and the smallest size of a further chunk in bytes, that of its entry in the index.
 _MIN_CHUNKS, _MIN_CHUNK_BYTES = 1000, 24
 
@@ -44,18 +44,12 @@ def content(path: Path) -> Content:
         raise
     except Exception as error:  # h5py raises many types
         detail = " ".join(str(error).split()) or type(error).__name__
-        raise FileError(path, f"cannot be read as VTKHDF ({detail[:120]})", _DAMAGED) from None
+        raise FileError(path, f"cannot be read as VTKHDF ({detail[:120]})", DAMAGED) from None
     return to_content(path, merge_grids(grids))
 
 
 class _VTKHDFReader:
-    """Reader of the group VTKHDF.
-
-    Parameters
-    ----------
-    path : Path
-    root : h5py.Group
-    """
+    """Reader of the group VTKHDF, an h5py.Group."""
 
     def __init__(self, path: Path, root):
         self.path, self.root = path, root
@@ -70,8 +64,7 @@ class _VTKHDFReader:
             raise FileError(self.path, f"is of the type {kind[:40]!r}: expected UnstructuredGrid", "Convert it.")
         counts = {name: self._read(self.root, f"NumberOf{name}") for name in ("Points", "Cells", "ConnectivityIds")}
         parts = len(counts["Points"])
-        begins = {"Points": 0, "Cells": 0, "ConnectivityIds": 0}
-        first = 0
+        begins, first = dict.fromkeys(counts, 0), 0
         steps = _group(self.root, "Steps")
         if steps is not None:
             count = int(steps.attrs.get("NSteps", 1))
@@ -79,15 +72,11 @@ class _VTKHDFReader:
                 self.notes.append(f"Of its {count} time steps the first is read.")
             first = self._first_value(steps, "PartOffsets", 0)
             parts = self._first_value(steps, "NumberOfParts", max(1, parts // max(1, count)))
-            begins = {
-                "Points": self._first_value(steps, "PointOffsets", 0),
-                "Cells": self._first_value(steps, "CellOffsets", 0),
-                "ConnectivityIds": self._first_value(steps, "ConnectivityIdOffsets", 0),
-            }
+            begins = {name: self._first_value(steps, f"{name.removesuffix('s')}Offsets", 0) for name in counts}
         lengths = {len(rows) for rows in counts.values()}
         negative = any((rows < 0).any() for rows in counts.values())
         if len(lengths) > 1 or parts < 1 or first + parts > min(lengths) or negative:
-            raise FileError(self.path, f"has not the counts of its {parts} parts", _DAMAGED)
+            raise FileError(self.path, f"has not the counts of its {parts} parts", DAMAGED)
         grids = []
         for part in range(first, first + parts):
             sizes = {name: int(rows[part]) for name, rows in counts.items()}
@@ -97,24 +86,17 @@ class _VTKHDFReader:
         return grids
 
     def _read_grid(self, sizes: dict[str, int], begins: dict[str, int], part: int) -> Grid:
-        points, cells = (slice(begins[name], begins[name] + sizes[name]) for name in ("Points", "Cells"))
-        ids = slice(begins["ConnectivityIds"], begins["ConnectivityIds"] + sizes["ConnectivityIds"])
+        points, cells, ids = (slice(begins[name], begins[name] + size) for name, size in sizes.items())
         start = self._read_integers("Offsets", slice(cells.start + part, cells.stop + part + 1))
         if start[0] != 0 or start[-1] != sizes["ConnectivityIds"] or (np.diff(start) < 0).any():
-            raise FileError(
-                self.path, f"its Offsets of part {part} do not rise from 0 to {ids.stop - ids.start}", _DAMAGED
-            )
+            problem = f"its Offsets of part {part} do not rise from 0 to {ids.stop - ids.start}"
+            raise FileError(self.path, problem, DAMAGED)
         coordinates = self._read(self.root, "Points", points)
         if coordinates.ndim != 2 or coordinates.shape[1] != 3:
-            raise FileError(self.path, f"its Points have the shape {coordinates.shape}: expected (n, 3)", _DAMAGED)
-        return Grid(
-            coordinates.astype(np.float64, copy=False),
-            self._read_integers("Types", cells),
-            start,
-            self._read_integers("Connectivity", ids),
-            self._read_data("PointData", points),
-            self._read_data("CellData", cells),
-        )
+            raise FileError(self.path, f"its Points have the shape {coordinates.shape}: expected (n, 3)", DAMAGED)
+        types, nodes = self._read_integers("Types", cells), self._read_integers("Connectivity", ids)
+        data = self._read_data("PointData", points), self._read_data("CellData", cells)
+        return Grid(coordinates.astype(np.float64, copy=False), types, start, nodes, *data)
 
     def _first_value(self, steps, name: str, default: int) -> int:
         return int(self._read(steps, name).ravel()[0]) if name in steps else default
@@ -122,7 +104,7 @@ class _VTKHDFReader:
     def _read_integers(self, name: str, rows: slice) -> np.ndarray:
         values = self._read(self.root, name, rows)
         if values.dtype.kind not in "iu" or values.ndim != 1:
-            raise FileError(self.path, f"its {name} are {values.dtype}: expected whole numbers", _DAMAGED)
+            raise FileError(self.path, f"its {name} are {values.dtype}: expected whole numbers", DAMAGED)
         return values.astype(np.int64)
 
     def _read_data(self, section: str, rows: slice) -> dict[str, np.ndarray]:
@@ -137,14 +119,9 @@ class _VTKHDFReader:
         return found
 
     def _read_field_data(self) -> dict[str, object]:
-        answer: dict[str, object] = {}
-        group = _group(self.root, "FieldData")
-        for name in group or ():
-            if group[name].dtype.kind in "biuf":
-                answer[name] = self._read(group, name)
-            else:
-                answer[name] = self._read_strings(group, name)
-        return answer
+        group = _group(self.root, "FieldData") or {}
+        readers = {name: self._read if group[name].dtype.kind in "biuf" else self._read_strings for name in group}
+        return {name: read(group, name) for name, read in readers.items()}
 
     def _read_strings(self, group, name: str) -> list[str]:
         values = self._dataset(group, name)
@@ -159,7 +136,7 @@ class _VTKHDFReader:
         """Read rows of a dataset, in the machine's byte order."""
         found = self._dataset(group, name)
         if rows is not None and (found.ndim < 1 or rows.stop > len(found) or rows.start < 0):
-            raise FileError(self.path, f"its {name} ends after {found.shape} rows: expected {rows.stop}", _DAMAGED)
+            raise FileError(self.path, f"its {name} ends after {found.shape} rows: expected {rows.stop}", DAMAGED)
         count = found.size if rows is None else (rows.stop - rows.start) * int(np.prod(found.shape[1:]))
         self.budget.charge(count * found.dtype.itemsize, name)
         values = np.asarray(found[()] if rows is None else found[rows])
@@ -171,14 +148,12 @@ class _VTKHDFReader:
 
         found = group.get(name)
         if not isinstance(found, h5py.Dataset):
-            raise FileError(self.path, f"has no array {name!r}", _DAMAGED)
-        chunks = math.prod(
-            -(-size // max(1, width)) for size, width in zip(found.shape, found.chunks or (), strict=False)
-        )
+            raise FileError(self.path, f"has no array {name!r}", DAMAGED)
+        lengths = zip(found.shape, found.chunks or (), strict=False)
+        chunks = math.prod(-(-size // max(1, width)) for size, width in lengths)
         if chunks > _MIN_CHUNKS + self.budget.size // _MIN_CHUNK_BYTES:
-            raise FileError(
-                self.path, f"its array {name!r} has {chunks:,} chunks, more than fit into the file", _DAMAGED
-            )
+            problem = f"its array {name!r} has {chunks:,} chunks, more than fit into the file"
+            raise FileError(self.path, problem, DAMAGED)
         return found
 
 
@@ -190,13 +165,8 @@ def _group(parent, name: str):
     return found if isinstance(found, h5py.Group) else None
 
 
-register(
-    Format(
-        name="vtkhdf",
-        title="VTKHDF",
-        suffixes=(".vtkhdf",),
-        encodings=(),
-        read=read,
-        matches=lambda head: head.startswith(hdf5.MAGIC) and b"VTKHDF" in head,
-    )
-)
+def _matches(head: bytes) -> bool:
+    return head.startswith(hdf5.MAGIC) and b"VTKHDF" in head
+
+
+register(name="vtkhdf", title="VTKHDF", suffixes=(".vtkhdf",), encodings=(), read=read, matches=_matches)

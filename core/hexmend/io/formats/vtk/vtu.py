@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hexmend.io.base.capabilities import non_numeric_data
-from hexmend.io.base.format import Capability, Format, register
+from hexmend.io.base.format import Capability, register
 from hexmend.io.formats.vtk.grid import Grid, to_mesh
 from hexmend.io.formats.vtk.merge_grids import merge_grids
 from hexmend.io.formats.vtk.vtu_writer import write
@@ -68,9 +68,8 @@ def _charge_budget(document: Document, piece: XMLElement) -> None:
                 document.budget.charge(document.count(piece, rows) * width, array_title(array))
     for array in piece.first("Cells").arrays():
         if array.get("Name") in ("offsets", "types"):
-            document.budget.charge(
-                document.count(piece, "NumberOfCells") * document.dtype(array).itemsize, array_title(array)
-            )
+            size = document.count(piece, "NumberOfCells") * document.dtype(array).itemsize
+            document.budget.charge(size, array_title(array))
 
 
 def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) -> Grid:
@@ -86,21 +85,19 @@ def _read_grid(document: Document, piece: XMLElement, skipped: dict[str, None]) 
     for name in ("connectivity", "offsets", "types"):
         if cells and name not in arrays:
             raise document.error(f"its Cells hold no array {name!r}")
-    ends = _read_integers(document, arrays["offsets"], cells) if cells else np.empty(0, np.int64)
+    types = ends = nodes = np.empty(0, np.int64)
+    if cells:
+        ends, types = (_read_integers(document, arrays[name], cells) for name in ("offsets", "types"))
     start = np.concatenate([[0], ends])
     falls = np.flatnonzero(np.diff(start) < 0)
     if falls.size:
         raise document.error(f"its offsets fall at cell {falls[0]}: expected where each cell's nodes end")
     if cells:
         document.budget.charge(int(start[-1]) * document.dtype(arrays["connectivity"]).itemsize, "connectivity")
-    return Grid(
-        points_flat.reshape(-1, 3).astype(np.float64, copy=False),
-        _read_integers(document, arrays["types"], cells) if cells else np.empty(0, np.int64),
-        start,
-        _read_integers(document, arrays["connectivity"], int(start[-1])) if cells else np.empty(0, np.int64),
-        _read_data(document, piece.first("PointData"), points, skipped),
-        _read_data(document, piece.first("CellData"), cells, skipped),
-    )
+        nodes = _read_integers(document, arrays["connectivity"], int(start[-1]))
+    sections = ((piece.first("PointData"), points), (piece.first("CellData"), cells))
+    data = [_read_data(document, section, rows, skipped) for section, rows in sections]
+    return Grid(points_flat.reshape(-1, 3).astype(np.float64, copy=False), types, start, nodes, *data)
 
 
 def _read_integers(document: Document, array: XMLElement, count: int) -> np.ndarray:
@@ -144,15 +141,13 @@ def _width(document: Document, array: XMLElement) -> int:
 
 
 register(
-    Format(
-        name="vtu",
-        title="VTU",
-        suffixes=(".vtu",),
-        encodings=("binary", "ascii"),
-        read=read,
-        write=write,
-        capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
-        limitations=non_numeric_data,
-        matches=lambda head: _ROOT.search(head) is not None,
-    )
+    name="vtu",
+    title="VTU",
+    suffixes=(".vtu",),
+    encodings=("binary", "ascii"),
+    read=read,
+    write=write,
+    capabilities=frozenset(Capability) - {Capability.SIDE_SETS, Capability.EMPTY_SETS},
+    limitations=non_numeric_data,
+    matches=lambda head: _ROOT.search(head) is not None,
 )

@@ -23,10 +23,8 @@ _NAMES = {code: name for name, code in TYPES.items() if name not in ("Bit", "Str
 _SPACE = "\t\n\r"
 #: Replacements of characters that XML cannot contain: control characters become their pictures (U+2400...), and
 #: noncharacters become U+FFFD.
-_REPLACEMENTS = {code: 0x2400 + code for code in range(32) if chr(code) not in _SPACE} | {
-    0xFFFE: 0xFFFD,
-    0xFFFF: 0xFFFD,
-}
+_REPLACEMENTS = {code: 0x2400 + code for code in range(32) if chr(code) not in _SPACE}
+_REPLACEMENTS |= {0xFFFE: 0xFFFD, 0xFFFF: 0xFFFD}
 _ENTITIES = {ord(c): f"&#{ord(c)};" for c in f"&<>\"'{_SPACE}"}
 
 
@@ -42,11 +40,8 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     checksums: list[tuple[str, int]] = []
     with open(path, "wb") as file:
         compressor = "" if encoding == "ascii" else ' compressor="vtkZLibDataCompressor"'
-        file.write(
-            '<?xml version="1.0" encoding="utf-8"?>\n'
-            '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32"'
-            f"{compressor}>\n<UnstructuredGrid>\n".encode()
-        )
+        root = 'VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32"'
+        file.write(f'<?xml version="1.0" encoding="utf-8"?>\n<{root}{compressor}>\n<UnstructuredGrid>\n'.encode())
         for section, arrays in _sections(path, grid):
             file.write(f"{section}\n".encode())
             for name, values in arrays.items():
@@ -99,10 +94,8 @@ def _write_array(file: BinaryIO, name: str, values: np.ndarray | list[str], asci
     else:
         numbers = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
         rows, width = len(numbers), int(np.prod(numbers.shape[1:]))
-        head = (
-            f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_ENTITIES)}" '
-            f'NumberOfComponents="{width}" NumberOfTuples="{rows}"'
-        )
+        head = f'<DataArray type="{_NAMES[numbers.dtype.str[1:]]}" Name="{title.translate(_ENTITIES)}"'
+        head += f' NumberOfComponents="{width}" NumberOfTuples="{rows}"'
         numbers = numbers.reshape(-1)
     file.write(f'{head} format="{"ascii" if ascii else "binary"}">\n'.encode("utf-8", "replace"))
     if ascii:
@@ -130,9 +123,8 @@ def _verify(path: Path, checksums: list[tuple[str, int]]) -> None:
     wrong = next((k for k, (a, b) in enumerate(zip(checksums, found, strict=False)) if a != b), None)
     if wrong is not None or len(checksums) != len(found):
         name = repr(checksums[wrong][0]) if wrong is not None else "one"
-        raise FileError(
-            path, f"the array {name} is not read again as it was written", "Write another format, or another place."
-        )
+        problem = f"the array {name} is not read again as it was written"
+        raise FileError(path, problem, "Write another format, or another place.")
 
 
 def _as_written(document: Document, array: XMLElement) -> np.ndarray:
@@ -144,7 +136,4 @@ def _as_written(document: Document, array: XMLElement) -> np.ndarray:
 def _arrays(element: XMLElement) -> Iterator[XMLElement]:
     """Yield all arrays in the order of the file."""
     for child in element.children:
-        if child.name in ("DataArray", "Array"):
-            yield child
-        else:
-            yield from _arrays(child)
+        yield from [child] if child.name in ("DataArray", "Array") else _arrays(child)

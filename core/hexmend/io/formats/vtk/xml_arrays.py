@@ -91,7 +91,8 @@ def _read_decimals(document: Document, array: XMLElement, dtype: np.dtype, count
 def _read_bytes(document: Document, array: XMLElement, size: int | None) -> bytes | np.ndarray:
     """Read and decompress the bytes of an array; `size` is the expected number, None if only the array gives it."""
     encoding = array.get("format")
-    stream: _RawStream | _Base64Stream
+    stream: _Stream
+    problem = f"{array_title(array)} has the format {encoding[:20]!r}: expected ascii, binary or appended"
     if encoding == "appended":
         begin, appended_encoding = document.appended()
         begin += document.count(array, "offset")
@@ -103,9 +104,7 @@ def _read_bytes(document: Document, array: XMLElement, size: int | None) -> byte
         text = b"".join(document.text(array).split())
         stream = _Base64Stream(lambda at, n: text[at : at + n], len(text))
     else:
-        raise document.error(
-            f"{array_title(array)} has the format {encoding[:20]!r}: expected ascii, binary or appended"
-        )
+        raise document.error(problem)
     compressor = document.root.get("compressor")
     if compressor and compressor not in COMPRESSORS:
         known = ", ".join(COMPRESSORS)
@@ -153,9 +152,10 @@ class _Base64Stream:
         return len(binascii.a2b_base64(self.text(0, self.after(size)))) == size
 
 
-def _read_uncompressed(
-    document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, size: int | None
-) -> bytes:
+_Stream = _RawStream | _Base64Stream
+
+
+def _read_uncompressed(document: Document, array: XMLElement, stream: _Stream, size: int | None) -> bytes:
     header_type = _header_type(document)
     length = _read_header(document, array, stream, 1)[0]
     _check_size(document, array, length, size)
@@ -164,9 +164,7 @@ def _read_uncompressed(
     return _take(document, array, stream, 0, header_type.itemsize + length)[header_type.itemsize :]
 
 
-def _read_compressed(
-    document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, size: int | None, kind: str
-) -> np.ndarray:
+def _read_compressed(document: Document, array: XMLElement, stream: _Stream, size: int | None, kind: str) -> np.ndarray:
     blocks = _read_header(document, array, stream, 1)[0]
     if blocks == 0:
         _check_size(document, array, 0, size)
@@ -195,13 +193,13 @@ def _read_compressed(
     return answer
 
 
-def _read_header(document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, count: int) -> list[int]:
+def _read_header(document: Document, array: XMLElement, stream: _Stream, count: int) -> list[int]:
     """Read the first `count` numbers of an array's header."""
     header_type = _header_type(document)
     return np.frombuffer(_take(document, array, stream, 0, count * header_type.itemsize), header_type).tolist()
 
 
-def _take(document: Document, array: XMLElement, stream: _RawStream | _Base64Stream, at: int, size: int) -> bytes:
+def _take(document: Document, array: XMLElement, stream: _Stream, at: int, size: int) -> bytes:
     data = stream.read(at, size) if size <= stream.left else b""
     if len(data) != size:
         raise document.error(f"{array_title(array)} goes on behind the end of the data")

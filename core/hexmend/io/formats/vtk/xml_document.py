@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
@@ -14,23 +15,14 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.memory_budget import MemoryBudget
+from hexmend.io.base.remedies import DAMAGED
+from hexmend.terminal_text import printable
 
-DAMAGED = "Write the file again with the program that made it: it is damaged or cut short."
 #: NumPy types of arrays, without the byte order. Bits are packed: see `hexmend.io.formats.vtk.xml_arrays`.
 TYPES = {
-    "Int8": "i1",
-    "UInt8": "u1",
-    "Int16": "i2",
-    "UInt16": "u2",
-    "Int32": "i4",
-    "UInt32": "u4",
-    "Int64": "i8",
-    "UInt64": "u8",
-    "Float32": "f4",
-    "Float64": "f8",
-    "Bit": "u1",
-    "String": "u1",
-}
+    "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4", "Int64": "i8",
+    "UInt64": "u8", "Float32": "f4", "Float64": "f8", "Bit": "u1", "String": "u1",
+}  # fmt: skip
 
 #: Bytes that are parsed at a time.
 _CHUNK = 1 << 18
@@ -201,11 +193,10 @@ class Document:
         parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = reject_doctype
         self.file.seek(0)
         try:
-            while chunk := self.file.read(_CHUNK):
-                parser.Parse(chunk, False)
-            parser.Parse(b"", True)
-        except _AppendedDataReached:
-            pass
+            with suppress(_AppendedDataReached):
+                while chunk := self.file.read(_CHUNK):
+                    parser.Parse(chunk, False)
+                parser.Parse(b"", True)
         except (expat.ExpatError, LookupError, UnicodeError, ValueError) as error:  # or an unknown encoding
             line, column = getattr(error, "lineno", parser.CurrentLineNumber), getattr(error, "offset", 0)
             raise self.error(f"its XML is broken at line {line}, column {column}") from None
@@ -216,14 +207,13 @@ class Document:
             raise self.error("does not begin with <VTKFile ...>", "Is it a VTK XML file? Check its suffix.")
         found = attributes.get("type", "")
         if found != kind:
-            found = "".join(c if c.isprintable() else "?" for c in found[:40])
-            raise self.error(f"is a VTKFile of the type {found!r}: expected {kind}", f"Convert it to {kind}.")
+            problem = f"is a VTKFile of the type {printable(found[:40])!r}: expected {kind}"
+            raise self.error(problem, f"Convert it to {kind}.")
 
 
 def array_title(array: XMLElement) -> str:
     """Name an array for a message."""
-    name = array.get("Name", "without name")
-    return f"the array {''.join(c if c.isprintable() else '?' for c in name)[:60]!r}"
+    return f"the array {printable(array.get('Name', 'without name'))[:60]!r}"
 
 
 class _AppendedDataReached(Exception):

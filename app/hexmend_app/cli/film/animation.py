@@ -1,0 +1,55 @@
+"""The animation of `hexmend film`."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from hexmend.boundary.displacement import Displacement, ReferenceState
+from hexmend.cli.arguments.checks import check_memory
+from hexmend.cli.arguments.run_arguments import method_and_limits
+from hexmend.cli.output.progress import follow
+from hexmend.io import read
+from hexmend.run import iterate
+from hexmend_app.cli.numbers import parse_size, whole, wrong
+from hexmend_app.cli.scene_options import look_of, view_of
+from hexmend_app.picture.appearance import Arrows, Since, Traces
+from hexmend_app.scene.film.film import format_of, pictures, write_film
+from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.run_record import RecordedIteration
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the method, draw the frames and write the animation."""
+    size, view, path = parse_size(args.size), view_of(args), Path(args.output)
+    most, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
+    method, stop = method_and_limits(args)
+    mesh = read(args.mesh)
+    check_memory(args, [method], mesh)
+    look = replace(look_of(args, mesh), traces=_traces(args))
+    format_of(path)  # raises for an unknown suffix before the run
+    run, history = iterate(mesh, method, stop), History()
+    record = history.begin(method.title, State.of(mesh))
+    history.add(record, run.start)
+    follow(run, lambda iteration: history.add(record, iteration))
+    numbers = chosen_iterations(history, record, most)
+    start = ReferenceState(mesh.points, run.start.quality, "before the run")
+    movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
+    taken = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
+    frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)
+    write_film(path, [*frames], rate)
+    print(f"{run.message}\n{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")
+    return 0
+
+
+def _traces(args: argparse.Namespace) -> Traces:
+    """Return the settings of arrows."""
+    nodes, since = args.arrows or "none", args.since or "run"
+    if nodes not in list(Arrows):
+        raise wrong("--arrows", nodes, "sight or all")
+    if since not in (Since.RUN, Since.ITERATION):
+        raise wrong("--since", since, "run or iteration")
+    return Traces(since=Since(since), arrows=Arrows(nodes))

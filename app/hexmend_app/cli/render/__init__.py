@@ -1,0 +1,40 @@
+"""The command `hexmend render`: a picture of meshes, without a window and without an X server."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.signal_guard import uninterrupted
+from hexmend_app.cli.picture_command import PictureCommand
+
+_HELP = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
+
+#: Keys whose options are declared here.
+_BY_HAND = ("page.width", "page.height", "page.pixels", "page.background")
+
+
+@uninterrupted
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    from hexmend_app.cli.scene_options import MESH_TABLES, PAGE_TABLES, accept_negative_values, add_arguments
+
+    accept_negative_values(parser)
+    parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh file; several are drawn side by side")
+    text = "where to write the picture: .png, .tif, .pdf or .svg"
+    parser.add_argument("-o", "--output", metavar="PICTURE", required=True, help=text)
+    text = "draw the scene of this file; other options override it"
+    parser.add_argument("--scene", metavar="FILE.toml", help=text)
+    parser.add_argument("--save-scene", metavar="FILE.toml", help="write the scene that is drawn as such a file")
+    text = "a name in the scene or in the session drawn, or the text that Copy camera gives"
+    parser.add_argument("--camera", metavar="CAMERA", help=text)
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument("--size", metavar="WxH", help="in pixels (default 1600x1000)")
+    size.add_argument("--mm", metavar="WxH", help="in millimetres, as in 170x90")
+    paper = parser.add_mutually_exclusive_group()
+    paper.add_argument("--background", metavar="COLOUR", help="white, transparent or #rrggbb (default white)")
+    paper.add_argument("--transparent", action="store_true", help="leave the background out")
+    parser.add_argument("--captions", metavar="A,B,...", help="captions of the panels (default: their files)")
+    parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
+    add_arguments(parser, (*MESH_TABLES, *PAGE_TABLES), _BY_HAND)
+
+
+command = PictureCommand("render", _HELP, _arguments, f"{__name__}.picture")

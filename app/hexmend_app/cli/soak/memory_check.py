@@ -1,0 +1,39 @@
+"""The work of `hexmend soak`."""
+
+from __future__ import annotations
+
+import argparse
+
+from hexmend.cli.process.interrupts import ExitAfterIteration, FinishWriting
+from hexmend.errors import HexmendError
+from hexmend.report import write_json
+from hexmend.study.bench import section
+from hexmend_app.cli.numbers import numbers
+from hexmend_app.resources import demo_mesh
+from hexmend_app.shell.start.display import check_display
+
+
+def run(args: argparse.Namespace) -> int:
+    """Work until the time is over; return 1 if the memory grows."""
+    (minutes,) = numbers(args.minutes, 1, "--minutes")
+    check_display()
+    from hexmend_app.bench.soak import Memory, soak  # Qt, which cannot be imported without a display's libraries
+
+    try:
+        section.resident_mb()
+    except OSError:
+        raise HexmendError("soak needs a system with /proc, such as Linux, to measure the memory") from None
+    memory = Memory()
+    with FinishWriting():
+        with ExitAfterIteration("round") as signals:
+            for sample in soak(args.mesh or [demo_mesh()], 60 * minutes):
+                memory.add(sample)
+                print(sample, flush=True)
+                if signals.asked:
+                    break
+        if args.json:
+            write_json(args.json, memory.given())
+        print(memory.verdict)
+    if signals.asked:
+        return signals.status
+    return 0 if memory.level else 1

@@ -1,0 +1,1 @@
+"""Conversion of typed values to plain data and back."""

@@ -1,0 +1,28 @@
+"""Help texts of the keys of a scene, from the docstrings of their tables: for forms and for the reference."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from functools import cache
+
+
+@cache
+def helps(kind: type) -> dict[str, str]:
+    """The sentences about the parameters of a class, by name, from its NumPy docstring.
+
+    >>> from hexmend_app.picture import Wiped
+    >>> helps(Wiped)["mesh"]
+    'Its number on the command line.'
+    """
+    lines = inspect.getdoc(kind).splitlines()
+    found: dict[str, str] = {}
+    names: list[str] = []
+    for line in lines[lines.index("Parameters") + 2 :] if "Parameters" in lines else ():
+        head = re.fullmatch(r"(\w[\w,\s]*?)(?:\s:\s.*)?", line)
+        if head and not line.startswith(" "):
+            names = head[1].split(", ")
+        elif line.startswith("    "):
+            for name in names:
+                found[name] = f"{found.get(name, '')} {line.strip()}".strip()
+    return found

@@ -1,0 +1,242 @@
+"""The panel of the colours: which metric they show, in which map, over which range."""
+
+from __future__ import annotations
+
+import dataclasses
+from html import escape
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
+from hexmend.parameters import Parameter
+from hexmend.quality import METRICS
+from hexmend_app.features.appearance.map_box import MapBox
+from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.scene.colour.colouring import range_label
+from hexmend_app.scene.colour.value_range import better, declared_range
+from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.widgets.inputs.combo import let_shrink
+from hexmend_app.widgets.inputs.number_box import NumberBox
+from hexmend_app.widgets.inputs.segmented import Segmented
+from hexmend_app.widgets.metric_texts import metrics_offered
+from hexmend_app.widgets.wording import short_number
+
+_MODES = {
+    RangeMode.FULL: ("Full", "All values that the metric can take"),
+    RangeMode.FITTED: (
+        "Fitted",
+        "Current minimum and maximum, without inverted hexes; follows a running method.",
+    ),
+    RangeMode.ACCEPTABLE: ("Acceptable", "The values that solvers are usually content with"),
+    RangeMode.PINNED: ("Pinned", "Two values that you set, initially the current range."),
+}
+NEUTRAL = "Draw the boundary white and cut faces in one colour, to see shapes; inverted hexes stay magenta."
+SHADING = "Darken corners and holes while the view rests (ambient occlusion), to show depth."
+_BOXES = (("low", 0.0), ("high", 1.0))
+
+
+class ColourPanel(QWidget):
+    """Selects the metric, map and range of the colours.
+
+    Signals
+    -------
+    scale_changed(ColourScale)
+        The user chose. Of numbers, only finished ones: entered, stepped, or left for another field.
+    neutral_changed(bool), shading_changed(bool)
+        The user wants no colours of values, or some; shades, or none.
+    """
+
+    scale_changed = Signal(object)
+    neutral_changed = Signal(bool)
+    shading_changed = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._scale = ColourScale()
+        self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
+        self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
+        self._metric = QComboBox()
+        let_shrink(self._metric, 7)
+        self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values()):
+            self._metric.addItem(metric.title, metric.name)
+            self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+        self._metric.insertSeparator(len(METRICS))
+        self._map = MapBox()
+        self._reverse = QCheckBox("⇅")
+        set_help(self._reverse, "Reverse", "Reverse the colour map; normally the dark end marks the worst values.")
+        self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
+        self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
+        set_help(self._low, "Lowest value", "The value of the first colour; pin the range to set it.")
+        set_help(self._high, "Highest value", "The value of the last colour; pin the range to set it.")
+        self._neutral, self._shading = QCheckBox("Neutral"), QCheckBox("Shading")
+        set_help(self._neutral, "Neutral", NEUTRAL)
+        set_help(self._shading, "Shading", SHADING)
+        self._problem = note(colour=WORSE)
+        self._problem.hide()
+        self._lay_out()
+
+        self._metric.activated.connect(lambda: self.choose_metric(self._metric.currentData()))
+        self._map.chosen.connect(lambda name: self._change(map=name))
+        self._reverse.clicked.connect(lambda on: self._change(reverse=on))
+        self._mode.chosen.connect(lambda key: self._on_mode(RangeMode(key)))
+        self._neutral.clicked.connect(self.neutral_changed)
+        self._shading.clicked.connect(self.shading_changed)
+        for box in (self._low, self._high):
+            box.changed.connect(lambda box=box: self._on_number(box))
+            box.editingFinished.connect(self._on_numbers)
+        self._refresh()
+        self._show_ends()
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map))):
+            label = QLabel(text)
+            label.setBuddy(widget)
+            grid.addWidget(label, row, 0)
+            grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
+        grid.addWidget(self._mode, 2, 0, 1, 3)  # its four words need the whole width
+        grid.addWidget(self._reverse, 1, 2)
+        self.setTabOrder(self._map, self._reverse)
+        numbers = QHBoxLayout()
+        numbers.setSpacing(8)
+        for part in (self._low, QLabel("to"), self._high):
+            numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
+        grid.addLayout(numbers, 3, 0, 1, 3)
+        drawn = QHBoxLayout()
+        drawn.setSpacing(16)
+        for part in (self._neutral, self._shading):
+            drawn.addWidget(part)
+        drawn.addStretch()
+        grid.addLayout(drawn, 4, 0, 1, 3)
+        grid.addWidget(self._problem, 5, 0, 1, 3)
+
+    def set_scale(self, scale: ColourScale) -> None:
+        """Show a choice, without a signal."""
+        if scale != self._scale:
+            self._take(scale)
+
+    def set_drawn(self, neutral: bool, shading: bool) -> None:
+        """Show whether the colours stand for values, and whether there are shades; without a signal."""
+        self._neutral.setChecked(neutral)
+        self._shading.setChecked(shading)
+
+    def scale(self) -> ColourScale:
+        """The choice that is shown."""
+        return self._scale
+
+    def set_ends(self, low: float, high: float) -> None:
+        """Take the ends of the range in use, found from the figures; without a signal."""
+        self._ends = (low, high)
+        if self._scale.mode is not RangeMode.PINNED:
+            self._show_ends()
+
+    def choose_metric(self, metric: str) -> None:
+        """Select a metric as the user would."""
+        if metric == self._scale.metric:
+            return
+        pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
+        if (metric in DISPLACEMENT_QUANTITIES) != (self._scale.metric in DISPLACEMENT_QUANTITIES):
+            mode = RangeMode.FITTED if metric in DISPLACEMENT_QUANTITIES else RangeMode.FULL
+        if mode is RangeMode.PINNED and metric not in self._set:
+            mode = RangeMode.FULL  # the values of one metric mean nothing for another
+        if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
+            mode = RangeMode.FITTED
+        self._change(metric=metric, mode=mode, pinned=pinned)
+
+    def _on_mode(self, mode: RangeMode) -> None:
+        pinned = self._scale.pinned
+        if mode is RangeMode.PINNED and self._scale.mode is not mode:
+            pinned = self._set.get(self._scale.metric) or _rounded(*self._ends)
+        self._change(mode=mode, pinned=pinned)
+
+    def _on_number(self, box: NumberBox) -> None:
+        self._show_problem()
+        if not box.lineEdit().isModified():  # stepped, not typed
+            self._on_numbers()
+
+    def _on_numbers(self) -> None:
+        if self._scale.mode is not RangeMode.PINNED or self._show_problem():
+            return
+        pinned = (float(self._low.value()), float(self._high.value()))
+        if pinned != self._scale.pinned:
+            self._set[self._scale.metric] = pinned
+            self._change(pinned=pinned)
+
+    def _change(self, **fields: object) -> None:
+        scale = dataclasses.replace(self._scale, **fields)
+        if scale != self._scale:
+            self._take(scale)
+            self.scale_changed.emit(scale)
+
+    def _take(self, scale: ColourScale) -> None:
+        before, self._scale = self._scale, scale
+        self._refresh()
+        if (scale.mode, scale.pinned) != (before.mode, before.pinned):  # or what is half typed stays
+            self._show_ends()
+
+    def _show_problem(self) -> bool:
+        """Say what is wrong with the numbers; whether anything is."""
+        text = ""
+        if self._scale.mode is RangeMode.PINNED:
+            text = self._low.problem or self._high.problem
+            if not text and not self._low.value() < self._high.value():
+                low, high = (short_number(end) for end in self._scale.pinned)
+                text = f"Expected the lower value first. {low} to {high} stays in use until this is corrected."
+        self._problem.setText(text)
+        self._problem.setVisible(bool(text))
+        return bool(text)
+
+    def _show_ends(self) -> None:
+        ends = self._scale.pinned if self._scale.mode is RangeMode.PINNED else _rounded(*self._ends)
+        for box, end in zip((self._low, self._high), ends, strict=True):
+            if box.value() != end or box.problem:
+                box.set_value(end)
+        self._show_problem()
+
+    def _refresh(self) -> None:
+        scale = self._scale
+        self._metric.setCurrentIndex(self._metric.findData(scale.metric))
+        set_help(self._metric, "Metric", _about(scale.metric))
+        self._map.show_map(scale.map, change=scale.metric == "q-change")
+        self._reverse.setChecked(scale.reverse)
+        self._mode.set_value(scale.mode.value)
+        for mode in (RangeMode.FULL, RangeMode.ACCEPTABLE):
+            text, help = _MODES[mode]
+            ends, button = declared_range(scale.metric, mode), self._mode.button(mode.value)
+            button.setEnabled(ends is not None)
+            help = f"{help}: {_range(ends)}." if ends else f"{help}: without bound for this metric."
+            set_help(button, f"Range: {text}", help)
+        for box in (self._low, self._high):
+            box.setEnabled(scale.mode is RangeMode.PINNED)
+        self._show_problem()
+
+
+def _about(name: str) -> str:
+    """Describe a metric from its declaration, as rich text."""
+    metric = hex_quantity(name)
+    which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
+    full, acceptable = _range(metric.full_range), _range(metric.acceptable)
+    lines = (
+        f"<b>{escape(metric.title)}</b>",
+        escape(metric.formula),
+        f"Full range {full}; acceptable {acceptable}. {which}",
+        f"<i>{escape(metric.source)}</i>",
+    )
+    return f"<qt>{'<br>'.join(lines)}</qt>"
+
+
+def _range(ends: tuple[float, float]) -> str:
+    words = (f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
+    return " to ".join(words)
+
+
+def _rounded(low: float, high: float) -> tuple[float, float]:
+    """The ends as the colour bar writes them, or as they are where that would make them one."""
+    ends = float(range_label(low, low, high)), float(range_label(high, low, high))
+    return ends if ends[0] < ends[1] else (low, high)

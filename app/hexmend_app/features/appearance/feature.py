@@ -1,0 +1,157 @@
+"""Appearance of the mesh: colours and edges, and the value that the 3D view draws."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
+from hexmend_app.picture.appearance import Arrows, Look
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.state.mesh.hex_groups import hexes_of_group
+from hexmend_app.state.run.run_controller import Phase
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from hexmend_app.canvas.canvas import Canvas
+
+
+class FeatureLook(Feature):
+    """Brings the session to the view, and the user's wishes to the look."""
+
+    order = 30
+    refresh_order = 30  # before features that ask the view what it has drawn
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        view = self._view = self.session.view
+        self._seen = ChangeTracker()
+        self.panel = ColourPanel()
+        self.panel.scale_changed.connect(lambda scale: view.change(scale=scale))
+        self.panel.neutral_changed.connect(lambda on: view.change(neutral=on))
+        self.panel.shading_changed.connect(lambda on: view.change(shading=on))
+        view.metric_wanted.connect(self.panel.choose_metric)
+
+    def actions(self) -> Sequence[Action]:
+        """Edges, shades, and colours or none."""
+        view = self._view
+        return (
+            Action(
+                id="edges",
+                text="&Edges",
+                menu="View",
+                part=1,
+                keys="E",
+                icon="grid",
+                help="Draw the edges of the hexes.",
+                tool="Edges",
+                handle=lambda on: view.change(edges=on),
+                checked=lambda: view.look.edges,
+            ),
+            Action(
+                id="shading",
+                text="S&hading",
+                menu="View",
+                part=1,
+                help=SHADING,
+                handle=lambda on: view.change(shading=on),
+                checked=lambda: view.look.shading,
+            ),
+            Action(
+                id="neutral",
+                text="&Neutral colours",
+                menu="View",
+                part=1,
+                help=NEUTRAL,
+                handle=lambda on: view.change(neutral=on),
+                checked=lambda: view.look.neutral,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The colours."""
+        return (
+            Panel(
+                id="look",
+                title="Look",
+                widget=self.panel,
+                place=PanelPlace.TOOLS,
+                order=20,
+                help="Metric, colour map and range of the colours.",
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view."""
+        canvas.colour_bar.special_clicked.connect(self._isolate)
+
+    def refresh(self) -> None:
+        """Draw the mesh as it is now; where that fails, no mesh at all rather than the one before."""
+        document = self.session.document
+        if self.canvas is not None and document.is_open:
+            try:
+                self._draw()
+            except Exception:
+                if not self.canvas.shows(document.now.mesh):
+                    self.canvas.clear()
+                raise
+        self._show_panel()
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
+    def _show_panel(self) -> None:
+        self.panel.setEnabled(self.session.document.is_open)
+        self.panel.set_scale(self._view.look.scale)
+        self.panel.set_drawn(self._view.look.neutral, self._view.look.shading)
+        if self.canvas is not None and self.canvas.colouring is not None:
+            self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
+
+    def _draw(self) -> None:
+        session = self.session
+        now, movement, look = session.document.now, self._movement, self._drawable
+        kinds = self._kinds if look.structure.kinds else None
+        original = session.document.start.mesh.points if look.structure.original else None
+        if self._seen.changed("frame", now, movement, look, original, kinds):
+            live = session.run.phase is Phase.RUNNING and session.run.following
+            self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, kinds), live)
+        if self._seen.changed("handles", look.clip, self._view.handles, self._view.plane_at):
+            self.canvas.show_handles(self._view.handles, self._view.plane_at)
+        if self._seen.changed("phase", session.run.phase) and session.run.phase is Phase.PAUSED:
+            self.canvas.rest()
+        if self.canvas.isHidden():
+            self.canvas.show()
+            self.canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
+
+    def _isolate(self, kind: str) -> None:
+        now = self.session.document.now
+        self._view.isolate(hexes_of_group(kind, now.mesh, now.figures, self._movement))
+
+    @property
+    def _movement(self) -> Displacement | None:
+        """Return the displacement that the view shows, or None."""
+        look = self._view.look
+        wanted = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
+        return self.session.comparison_bases.movement(look.traces.since) if wanted else None
+
+    @property
+    def _drawable(self) -> Look:
+        """The look, but for edges and kinds of nodes that are still being found: the view would wait for them."""
+        look = self._view.look
+        structure = look.structure
+        if self.session.structure_finder.structure is None:
+            structure = structure.without_edges()
+        if self._kinds is None:
+            structure = dataclasses.replace(structure, kinds=False)
+        return dataclasses.replace(look, structure=structure)
+
+    @property
+    def _kinds(self) -> np.ndarray | None:
+        """Return the boundary class of each node, or None while unknown."""
+        classes = self.session.boundary_classifier.of(self.session.document.now.mesh)
+        return None if classes is None else classes.kinds

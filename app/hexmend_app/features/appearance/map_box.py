@@ -1,0 +1,70 @@
+"""The choice of a colour map, each with a small picture of it."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QImage, QPainter, QPixmap
+from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+
+from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
+from hexmend_app.theme.style import LINE, on_theme_change, set_help
+from hexmend_app.widgets.inputs.combo import let_shrink
+
+_SWATCH = QSize(48, 12)
+_OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
+
+
+class MapBox(QComboBox):
+    """Chooses a map of values; for changes there is one.
+
+    Signals
+    -------
+    chosen(str)
+        The user chose a map of values, by name.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        let_shrink(self, 7)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setIconSize(_SWATCH)
+        self.activated.connect(self._on_activated)
+        on_theme_change(self, self._paint_swatches)
+
+    def show_map(self, name: str, change: bool) -> None:
+        """Offer the maps, or, for changes, the one in whose middle there is none, and show which is used."""
+        offered = (CHANGE_MAP,) if change else value_maps()
+        if self.findData(offered[0]) < 0:
+            self.clear()
+            for at, key in enumerate(offered):
+                self.addItem(COLOUR_MAPS[key].title or key, key)
+                self.setItemData(at, COLOUR_MAPS[key].help, Qt.ItemDataRole.ToolTipRole)
+            self._paint_swatches()
+        self.setCurrentIndex(max(self.findData(name), 0))
+        set_help(self, "Colour map", COLOUR_MAPS[CHANGE_MAP].help if change else _OF_VALUES)
+
+    def _on_activated(self) -> None:
+        if self.currentData() in value_maps():
+            self.chosen.emit(self.currentData())
+
+    def _paint_swatches(self) -> None:
+        for at in range(self.count()):
+            self.setItemIcon(at, _swatch(self.itemData(at)))
+
+
+def _swatch(name: str) -> QIcon:
+    """A small picture of a map, in a pixel each of its colours so that it is sharp at every scale."""
+    colours = np.ascontiguousarray(COLOUR_MAPS[name].table[None].repeat(4 * _SWATCH.height(), axis=0))
+    height, width, _ = colours.shape
+    pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))
+    pixmap = pixmap.scaled(
+        4 * _SWATCH, Qt.AspectRatioMode.IgnoreAspectRatio, Qt.TransformationMode.SmoothTransformation
+    )
+    painter = QPainter(pixmap)
+    painter.setPen(QColor(str(LINE)))
+    painter.drawRect(pixmap.rect().adjusted(0, 0, -1, -1))
+    painter.end()
+    return QIcon(pixmap)

@@ -1,0 +1,166 @@
+"""A Python console in the window, whose commands use and change the open mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from PySide6.QtCore import QTimer
+
+import hexmend
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.console.gui_proxy import GuiCaller, GuiProxy
+from hexmend_app.features.console.interpreter import Interpreter, is_complete
+from hexmend_app.features.console.panel import ConsolePanel
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.tasks.task import Task
+
+#: Milliseconds between two looks at what a command has printed.
+_PERIOD = 50
+
+
+class FeatureConsole(Feature):
+    """Runs commands in a thread, shows their output, and makes what they assign to `mesh` an edit."""
+
+    order = 59
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._interpreter: Interpreter | None = None
+        self._caller: GuiCaller | None = None
+        self._task: Task | None = None
+        self._result: Any = None
+        self.panel = ConsolePanel()
+        self.panel.entered.connect(self.enter)
+        self.panel.interrupt_requested.connect(self.interrupt)
+        self.panel.completions = lambda text: self._prepared().completions(text)
+        self._timer = QTimer(self, interval=_PERIOD)
+        self._timer.timeout.connect(self._show_output)
+        self.session.run.ended.connect(self._on_ended)
+        self.session.document.mesh_replaced.connect(lambda: self._on_ended(None))
+
+    def actions(self) -> Sequence[Action]:
+        """Show the console."""
+        return (
+            Action(
+                id="console",
+                text="Python conso&le",
+                menu="Edit",
+                keys="Ctrl+`",
+                icon="console",
+                help="Enter Python commands that use and change the open mesh.",
+                handle=self.show,
+                needs_mesh=False,
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """The console."""
+        return (
+            Panel(
+                id="console",
+                title="Console",
+                widget=self.panel,
+                place=PanelPlace.DRAWER,
+                order=80,
+                help="Python commands that use and change the open mesh.",
+            ),
+        )
+
+    def show(self) -> None:
+        """Open the console, ready for a command."""
+        self.host.show_panel("console")
+        self.panel.input.setFocus()
+
+    @property
+    def running(self) -> bool:
+        """True while a command runs."""
+        return self._task is not None
+
+    def enter(self, source: str) -> None:
+        """Run source that is complete; else begin its next line."""
+        if self.running:
+            return
+        if not is_complete(source):
+            self.panel.new_line()
+            return
+        self.panel.echo(source)
+        if source.strip():
+            self.run(source)
+
+    def run(self, source: str) -> None:
+        """Run source in a thread; nothing while another command runs."""
+        if self.running:
+            return
+        interpreter, document = self._prepared(), self.session.document
+        mesh = document.now.mesh if document.is_open else None
+        interpreter.namespace.update(mesh=mesh, result=self._result)
+
+        def work(_: Task) -> State | None:
+            interpreter.execute(source)
+            return _new_state(interpreter, mesh)
+
+        self._task = Task("console", work, yields=True)
+        self._task.ended.connect(self._finish)
+        self.panel.set_running(True)
+        self._timer.start()
+        self._task.start()
+
+    def interrupt(self) -> None:
+        """Raise KeyboardInterrupt in the command under way."""
+        if self.running:
+            self._interpreter.interrupt()
+
+    def close(self) -> None:
+        """End the command under way."""
+        self._timer.stop()
+        if self._caller is not None:
+            self._caller.close()
+        if self._task is not None:
+            self._interpreter.interrupt()
+            self._task.drop()
+        self._task = self._interpreter = self._caller = None
+        self.panel.set_running(False)
+
+    def _prepared(self) -> Interpreter:
+        if self._interpreter is None:
+            caller = self._caller = GuiCaller(self)
+            names = {"__name__": "__console__", "hx": hexmend, "mesh": None, "result": None}
+            names["session"] = GuiProxy(lambda: self.session, caller)
+            names["plotter"] = GuiProxy(lambda: self.host.plotter, caller)
+            self._interpreter = Interpreter(names)
+        return self._interpreter
+
+    def _on_ended(self, result: Any) -> None:
+        self._result = result
+
+    def _show_output(self) -> None:
+        for text, error in self._interpreter.output():
+            (self.panel.print_error if error else self.panel.print_text)(text)
+
+    def _finish(self) -> None:
+        task, self._task = self._task, None
+        self._timer.stop()
+        self._show_output()
+        if task.error is not None:
+            self.panel.print_error(f"{type(task.error).__name__}: {task.error}\n")
+        elif task.result is not None and not self.session.commands.replace_mesh("console", task.result):
+            self.panel.print_error("The mesh was not changed: a run, a repair or a file is under way.\n")
+        self.panel.set_running(False)
+
+
+def _new_state(interpreter: Interpreter, mesh: Mesh | None) -> State | None:
+    """The mesh that a command assigned, measured and with what the view draws it from; None without a new one."""
+    new = interpreter.namespace.get("mesh")
+    if new is mesh:
+        return None
+    if not isinstance(new, Mesh):
+        kind = type(new).__name__
+        interpreter.write(f"The mesh was not changed: expected a hexmend Mesh as mesh, not {kind}.\n", True)
+        return None
+    if mesh is None or new.hexes is not mesh.hexes:
+        new = new.keeping_surface()
+    state = State.of(new)
+    _ = new.topology.face_neighbours, new.topology.layers
+    return state

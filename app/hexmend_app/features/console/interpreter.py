@@ -1,0 +1,156 @@
+"""Runs Python source in a thread, so that the window stays alive and a loop without end can be interrupted.
+
+qtconsole's in-process kernel runs its code in the window's thread: an endless loop freezes the window, and no button
+can end it; its import and start take 0.7 s of processor time. Here each command runs in a separate thread;
+`interrupt` raises KeyboardInterrupt there at the next line of Python. Calls into the window go through `gui_proxy`.
+"""
+
+from __future__ import annotations
+
+import ast
+import ctypes
+import io
+import linecache
+import sys
+import threading
+import time
+import traceback
+from codeop import compile_command
+from collections import deque
+from typing import Any
+
+#: Characters of output that may wait to be shown before what prints has to wait.
+_WAITING = 200_000
+
+
+class Interpreter:
+    """Executes commands in one namespace, one at a time.
+
+    Parameters
+    ----------
+    namespace : dict
+        Names that commands find, and where they leave theirs.
+    """
+
+    def __init__(self, namespace: dict[str, Any]):
+        self.namespace = namespace
+        self._output: deque[tuple[str, bool]] = deque()
+        self._waiting = 0
+        self._lock = threading.Lock()
+        self._thread: int | None = None
+        self._count = 0
+
+    def execute(self, source: str) -> bool:
+        """Execute source, and print the value of its last expression; return True if nothing was raised.
+
+        What it prints and raises is among what `output` returns.
+        """
+        self._count += 1
+        name = f"<console {self._count}>"
+        linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
+        streams = sys.stdout, sys.stderr
+        with self._lock:
+            self._thread = threading.get_ident()
+        try:
+            try:
+                sys.stdout, sys.stderr = _Stream(self, False, streams[0]), _Stream(self, True, streams[1])
+                self._evaluate(source, name)
+            finally:
+                sys.stdout, sys.stderr = streams
+                with self._lock:
+                    self._thread = None
+        except BaseException as error:  # whatever it is, the console shows it
+            self.print_error(error, name)
+            return False
+        return True
+
+    def _evaluate(self, source: str, name: str) -> None:
+        body = ast.parse(source, name).body
+        last = body.pop() if body and isinstance(body[-1], ast.Expr) else None
+        exec(compile(ast.Module(body, []), name, "exec"), self.namespace)
+        if last is not None:
+            value = eval(compile(ast.Expression(last.value), name, "eval"), self.namespace)
+            if value is not None:
+                self.namespace["_"] = value
+                self.write(f"{value!r}\n")
+
+    def print_error(self, error: BaseException, name: str = "") -> None:
+        """Print an exception, with the lines of the command but not of the console itself."""
+        where = error.__traceback__
+        while where is not None and where.tb_frame.f_code.co_filename != name:
+            where = where.tb_next
+        if isinstance(error, KeyboardInterrupt):
+            text = "KeyboardInterrupt\n"
+        else:
+            text = "".join(traceback.format_exception(type(error), error, where))
+        self.write(text, True)
+
+    def interrupt(self) -> None:
+        """Raise KeyboardInterrupt in the command under way, if there is one."""
+        with self._lock:
+            if self._thread is not None:
+                thread = ctypes.c_ulong(self._thread)
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(thread, ctypes.py_object(KeyboardInterrupt))
+
+    @property
+    def thread(self) -> int | None:
+        """Identifier of the thread in which a command runs; None between commands."""
+        return self._thread
+
+    # Output
+
+    def write(self, text: str, error: bool = False) -> None:
+        """Add to the output; waits where a command prints faster than can be shown."""
+        while self._waiting > _WAITING and self._thread == threading.get_ident():
+            time.sleep(0.01)
+        self._output.append((text, error))
+        self._waiting += len(text)
+
+    def output(self) -> list[tuple[str, bool]]:
+        """Return the pieces of text since the last call, each with True if it is an error."""
+        pieces = []
+        while self._output:
+            pieces.append(self._output.popleft())
+        self._waiting = 0
+        return pieces
+
+    def completions(self, text: str) -> list[str]:
+        """Return the names that begin with a text such as `mesh.qu`, in order."""
+        from rlcompleter import Completer  # it loads readline
+
+        completer, found = Completer(self.namespace), []
+        while (name := completer.complete(text, len(found))) is not None:
+            found.append(name)
+        return sorted({name.rstrip("(): ") for name in found})
+
+
+class _Stream(io.TextIOBase):
+    """Sends to the console what its thread prints, and elsewhere what other threads do."""
+
+    def __init__(self, interpreter: Interpreter, error: bool, other: Any):
+        self._interpreter, self._error, self._other = interpreter, error, other
+
+    def write(self, text: str) -> int:
+        if threading.get_ident() == self._interpreter.thread:
+            self._interpreter.write(text, self._error)
+            return len(text)
+        return 0 if self._other is None else self._other.write(text)
+
+    def flush(self) -> None:
+        if self._other is not None:
+            self._other.flush()
+
+
+def is_complete(source: str) -> bool:
+    """Return True if Enter after this source runs it, False if it asks for another line.
+
+    >>> is_complete("1 + 1"), is_complete("for i in range(3):"), is_complete("for i in range(3):\\n    print(i)\\n")
+    (True, False, True)
+    """
+    try:
+        if compile_command(source, symbol="exec") is None:
+            return False
+    except (SyntaxError, ValueError, OverflowError):
+        return True  # the error is shown
+    last = source.split("\n")[-1]
+    return "\n" not in source or not last.strip() or not last[0].isspace()

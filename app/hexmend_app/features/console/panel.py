@@ -1,0 +1,172 @@
+"""The console: what was entered and printed, and below it the command that is being written."""
+
+from __future__ import annotations
+
+import re
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+
+from hexmend_app.theme.palette import MUTED, TEXT, WORSE
+from hexmend_app.theme.style import BLUE, LINE, icon, on_theme_change, set_help
+
+_WELCOME = (
+    "Python with mesh, result, session, plotter and hx. Assigning to mesh changes the open mesh; undo takes it back.\n"
+)
+
+#: Lines of output that are kept, and lines of a command that are shown at once.
+_LINES, _ROWS = 5000, 8
+_INDENT = "    "
+
+
+class ConsolePanel(QWidget):
+    """Shows output, and takes commands with a history and completion.
+
+    Signals
+    -------
+    entered(str)
+        Enter was pressed: source that may be complete.
+    interrupt_requested
+    """
+
+    entered = Signal(str)
+    interrupt_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_LINES, font=font)
+        self.output.setUndoRedoEnabled(False)
+        set_help(self.output, "Console output", "Shows what commands print and return.")
+        self.input = QPlainTextEdit(font=font, tabChangesFocus=True)
+        self.input.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
+        self.input.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        set_help(
+            self.input, "Python command", "Enter runs the command, Shift+Enter begins a new line, Tab completes a name."
+        )
+        self.input.installEventFilter(self)
+        self.input.textChanged.connect(self._fit)
+        self._interrupt = QPushButton(icon("stop"), "Interrupt")
+        set_help(self._interrupt, "Interrupt the command", "Stop the command that is running (Ctrl+C).")
+        self._interrupt.clicked.connect(self.interrupt_requested)
+        clear = QPushButton(icon("eraser"), "Clear")
+        set_help(clear, "Clear the output", "Remove all output from the console.")
+        clear.clicked.connect(self.output.clear)
+        self._prompt = QLabel(">>>", font=font)
+        on_theme_change(self, self._apply_theme)
+        line = QHBoxLayout()
+        line.addWidget(self._prompt)
+        line.addWidget(self.input, 1)
+        line.addWidget(self._interrupt)
+        line.addWidget(clear)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 6, 8, 6)
+        column.addWidget(self.output, 1)
+        column.addLayout(line)
+        self._history: list[str] = []
+        self._at = 0
+        self.completions = lambda text: []
+        self.set_running(False)
+        self._fit()
+        self.print_text(_WELCOME, MUTED)
+
+    def _apply_theme(self) -> None:
+        sheet = f"QPlainTextEdit {{ border: 1px solid {LINE}; }} QPlainTextEdit:focus {{ border-color: {BLUE}; }}"
+        self.output.setStyleSheet(sheet)
+        self.input.setStyleSheet(sheet)
+
+    # Output
+
+    def print_text(self, text: str, colour: str = TEXT) -> None:
+        """Add text at the end; the end stays in sight if it was."""
+        bar = self.output.verticalScrollBar()
+        follows = bar.value() == bar.maximum()
+        cursor = QTextCursor(self.output.document())
+        cursor.movePosition(QTextCursor.MoveOperation.End)
+        style = QTextCharFormat()
+        style.setForeground(QColor(str(colour)))
+        cursor.insertText(text, style)
+        if follows:
+            bar.setValue(bar.maximum())
+
+    def print_error(self, text: str) -> None:
+        """Add an error at the end."""
+        self.print_text(text, WORSE)
+
+    def echo(self, source: str) -> None:
+        """Show a command with its prompts, remember it, and empty the input."""
+        first, *rest = source.split("\n")
+        self.print_text("\n".join([f">>> {first}", *(f"... {line}" for line in rest)]) + "\n", BLUE)
+        if source.strip() and self._history[-1:] != [source]:
+            self._history.append(source)
+        self._at = len(self._history)
+        self.input.clear()
+
+    def set_running(self, running: bool) -> None:
+        """Show that a command runs, or that another can be entered."""
+        self._interrupt.setEnabled(running)
+        self._prompt.setText("..." if running else ">>>")
+
+    # Input
+
+    def new_line(self) -> None:
+        """Begin a line of the command, indented like the one before, and more after a colon."""
+        cursor = self.input.textCursor()
+        before = cursor.block().text()[: cursor.positionInBlock()]
+        indent = before[: len(before) - len(before.lstrip())] + _INDENT * before.rstrip().endswith(":")
+        cursor.insertText("\n" + indent)
+
+    def _fit(self) -> None:
+        rows = min(max(1, self.input.blockCount()), _ROWS)
+        margin = round(2 * self.input.document().documentMargin()) + 2 * self.input.frameWidth()
+        self.input.setFixedHeight(rows * self.input.fontMetrics().lineSpacing() + margin + 2)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Run, complete, look through the history, interrupt."""
+        if event.type() == QEvent.Type.KeyPress:
+            return self._on_key(event)
+        return super().eventFilter(watched, event)
+
+    def _on_key(self, event: QKeyEvent) -> bool:
+        key, shift = event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        cursor = self.input.textCursor()
+        if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            if shift or not cursor.atEnd():
+                self.new_line()
+            else:
+                self.entered.emit(self.input.toPlainText())
+        elif key == Qt.Key.Key_Tab and self.input.toPlainText():  # else the keyboard goes on to the next control
+            self._complete(cursor)
+        elif key == Qt.Key.Key_Up and cursor.blockNumber() == 0:
+            self._recall(-1)
+        elif key == Qt.Key.Key_Down and cursor.blockNumber() == self.input.blockCount() - 1:
+            self._recall(1)
+        elif key == Qt.Key.Key_C and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
+            if cursor.hasSelection() or not self._interrupt.isEnabled():
+                return False
+            self.interrupt_requested.emit()
+        else:
+            return False
+        return True
+
+    def _recall(self, step: int) -> None:
+        self._at = min(max(0, self._at + step), len(self._history))
+        self.input.setPlainText(self._history[self._at] if self._at < len(self._history) else "")
+        self.input.moveCursor(QTextCursor.MoveOperation.End)
+
+    def _complete(self, cursor: QTextCursor) -> None:
+        """Complete the name before the cursor as far as it is clear, and list what it may become."""
+        before = cursor.block().text()[: cursor.positionInBlock()]
+        name = re.search(r"[\w.]*$", before).group()
+        if not name:
+            cursor.insertText(_INDENT)
+            return
+        found = self.completions(name)
+        common = found[0] if found else ""
+        for other in found:
+            while not other.startswith(common):
+                common = common[:-1]
+        cursor.insertText(common[len(name) :])
+        if len(found) > 1 and common == name:
+            self.print_text("  ".join(one.rpartition(".")[2] for one in found) + "\n", MUTED)

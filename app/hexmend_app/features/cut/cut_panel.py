@@ -1,0 +1,258 @@
+"""The panel that cuts the mesh open, by planes or by a box."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QWidget
+
+from hexmend_app.features.cut.box_page import BoxPage
+from hexmend_app.features.cut.plane_page import PlanePage
+from hexmend_app.features.cut.plane_row import PlaneRow
+from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
+from hexmend_app.state.view.panel_settings import CutPanelSettings
+from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.inputs.segmented import Segmented
+
+_MOST = 6  # planes
+
+
+class ClipPanel(QWidget):
+    """Sets what is cut away.
+
+    Signals
+    -------
+    clip_changed(PlaneClip, BoxClip or None)
+        The user moved, turned, added or switched.
+    plane_chosen(int)
+        The user wants this plane of several to be the one that is moved, here and in the view.
+    handles_changed(bool)
+        The user wants the plane or the box drawn in the view, or not.
+    snap_changed(bool)
+        The user wants planes that are turned in the view to snap to the axes, or not.
+    """
+
+    clip_changed = Signal(object)
+    plane_chosen = Signal(int)
+    handles_changed = Signal(bool)
+    snap_changed = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self._bounds: np.ndarray | None = None  # (2, 3): lowest and highest corner
+        self._planes = PlaneClip()
+        self._box = BoxClip((0, 0, 0), (1, 1, 1))
+        self._at = 0
+        self._on = QCheckBox("Cut")
+        set_help(self._on, "Cut", "Cut the mesh open and look inside (C).")
+        self._kind = Segmented(
+            "Cut by",
+            [
+                ("planes", "Planes", "Cut along one plane or several."),
+                ("box", "Box", "Cut along the six sides of a box."),
+            ],
+        )
+        self._handles = QCheckBox("Handles")
+        self._handles.setChecked(True)
+        set_help(self._handles, "Handles", "Draw the plane or the box in the view, where it can be dragged and turned.")
+        self._row = PlaneRow(_MOST)
+        self._plane_page = PlanePage()
+        self._box_page = BoxPage()
+        self._hide_label = QLabel("Hide")
+        self._beyond = Segmented(
+            "Hide",
+            [
+                ("any", "Beyond any", "Hide what lies beyond one of the planes or more."),
+                ("all", "Beyond all", "Hide only what lies beyond all planes: cut a corner out."),
+            ],
+        )
+        self._side = Segmented(
+            "Hide of the box",
+            [
+                ("any", "Outside", "Show what is in the box."),
+                ("all", "Inside", "Cut the box out of the mesh."),
+            ],
+        )
+        self._cut = Segmented(
+            "Cut",
+            [
+                ("crinkle", "Whole hexes", "Show a hex whole where its centre lies on the kept side."),
+                ("smooth", "Smooth cut", "Cut through the hexes; the cut shows the inside of each."),
+            ],
+        )
+        self._lay_out()
+        self._connect()
+        self._refresh()
+
+    def _lay_out(self) -> None:
+        head = QHBoxLayout()
+        for part in (self._on, self._kind):
+            head.addWidget(part)
+        head.addStretch()
+        head.addWidget(self._handles)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(7)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        grid.addLayout(head, 0, 0, 1, 2)
+        for at, part in enumerate((self._row, self._plane_page, self._box_page), start=1):
+            grid.addWidget(part, at, 0, 1, 2)
+        hide = QHBoxLayout()
+        for part in (self._beyond, self._side):
+            hide.addWidget(part)
+        grid.addWidget(self._hide_label, 4, 0)
+        grid.addLayout(hide, 4, 1)
+        grid.addWidget(self._cut, 5, 0, 1, 2)
+
+    def _connect(self) -> None:
+        self._on.clicked.connect(self._announce)
+        self._kind.chosen.connect(self._announce)
+        self._handles.clicked.connect(self.handles_changed)
+        self._row.snap_changed.connect(self.snap_changed)
+        self._row.chosen.connect(self._on_chosen)
+        self._row.add_requested.connect(self._on_add)
+        self._row.remove_requested.connect(self._on_remove)
+        self._plane_page.changed.connect(self._on_plane)
+        self._box_page.changed.connect(self._on_box)
+        for choice in (self._beyond, self._side):
+            choice.chosen.connect(lambda key: self._change(notch=key == "all"))
+        self._cut.chosen.connect(lambda key: self._change(crinkle=key == "crinkle"))
+
+    # What the state tells
+
+    def set_bounds(self, bounds: tuple[float, float, float, float, float, float] | None) -> None:
+        """Take the mesh's (x low, x high, y low, y high, z low, z high), or None without a mesh; without a signal.
+
+        While nothing is cut, the plane and the box that would be switched on are placed in the mesh.
+        """
+        self._bounds = None if bounds is None else np.asarray(bounds, dtype=float).reshape(3, 2).T
+        if self._bounds is not None:
+            self._plane_page.set_bounds(self._bounds)
+            self._box_page.set_bounds(self._bounds)
+            if not self._on.isChecked():
+                middle, half = self._bounds.mean(axis=0), np.ptp(self._bounds, axis=0) / 4
+                self._planes = PlaneClip((ClipPlane(self._planes.planes[0].normal, tuple(middle)),))
+                self._box = BoxClip(tuple(middle - half), tuple(middle + half))
+                self._at = 0
+        self._refresh()
+
+    def set_clip(self, clip: Clip | None, at: int = 0) -> None:
+        """Show a cut, for example one dragged in the view, or that there is none; without a signal.
+
+        Parameters
+        ----------
+        clip : PlaneClip, BoxClip or None
+        at : int
+            Which of several planes is the one that is moved.
+        """
+        self._on.setChecked(clip is not None)
+        if clip is not None:
+            self._kind.set_value("box" if isinstance(clip, BoxClip) else "planes")
+            if isinstance(clip, BoxClip):
+                self._box = clip
+            else:
+                self._planes, self._at = clip, at
+        self._refresh()
+
+    def set_handles(self, shown: bool) -> None:
+        """Show whether the plane or the box is drawn in the view; without a signal."""
+        self._handles.setChecked(shown)
+
+    def choices(self) -> CutPanelSettings:
+        """Return the clip in use, or the clip that switching on would use."""
+        return CutPanelSettings(self._planes, self._box, self._kind.value() == "box")
+
+    def set_choices(self, choices: CutPanelSettings) -> None:
+        """Propose the same; what is cut stays as it is."""
+        on, boxed = self._on.isChecked(), self._kind.value() == "box"
+        if not on or boxed:
+            self._planes = choices.planes
+        if not on or not boxed:
+            self._box = choices.box
+        if not on:
+            self._kind.set_value("box" if choices.boxed else "planes")
+        self._refresh()
+
+    def clip(self) -> Clip | None:
+        """The cut shown, or None while it is off."""
+        return self.proposal() if self._on.isChecked() and self._bounds is not None else None
+
+    def proposal(self) -> Clip:
+        """The cut as it stands, or as it would be switched on."""
+        return self._box if self._kind.value() == "box" else self._planes
+
+    # What the user does
+
+    def _on_chosen(self, at: int) -> None:
+        self._at = at
+        self._refresh()
+        self.plane_chosen.emit(at)
+
+    def _on_add(self) -> None:
+        """One more plane, across the axis that has the fewest so far."""
+        used = np.sum([np.abs(plane.normal) for plane in self._planes.planes], axis=0)
+        normal = np.eye(3)[int(used.round(6).argmin())]
+        plane = ClipPlane(tuple(normal), tuple(self._bounds.mean(axis=0)))
+        self._planes = dataclasses.replace(self._planes, planes=(*self._planes.planes, plane))
+        self._choose(len(self._planes.planes) - 1)
+
+    def _on_remove(self) -> None:
+        left = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._at)
+        self._planes = dataclasses.replace(self._planes, planes=left)
+        self._choose(min(self._at, len(left) - 1))
+
+    def _choose(self, at: int) -> None:
+        self._at = at
+        self._announce()
+        self.plane_chosen.emit(at)
+
+    def _on_plane(self, plane: ClipPlane) -> None:
+        self._planes = self._planes.with_plane(self._at, plane)
+        self._announce()
+
+    def _on_box(self, low: tuple, high: tuple) -> None:
+        self._box = dataclasses.replace(self._box, low=low, high=high)
+        self._announce()
+
+    def _change(self, **fields: bool) -> None:
+        """Cut otherwise along the same planes, or the same box: what is set here is meant for both."""
+        if "crinkle" in fields:
+            self._planes = dataclasses.replace(self._planes, **fields)
+            self._box = dataclasses.replace(self._box, **fields)
+        elif self._kind.value() == "box":
+            self._box = dataclasses.replace(self._box, **fields)
+        else:
+            self._planes = dataclasses.replace(self._planes, **fields)
+        self._announce()
+
+    def _announce(self) -> None:
+        self._refresh()
+        self.clip_changed.emit(self.clip())
+
+    def _refresh(self) -> None:
+        on, box = self._bounds is not None and self._on.isChecked(), self._kind.value() == "box"
+        planes, clip = self._planes.planes, self.proposal()
+        self._on.setEnabled(self._bounds is not None)
+        several = len(planes) > 1
+        shown = {  # nothing while nothing is cut: the column has much to hold
+            self._kind: on,
+            self._handles: on,
+            self._row: on and not box,
+            self._plane_page: on and not box,
+            self._box_page: on and box,
+            self._hide_label: on and (box or several),
+            self._side: on and box,
+            self._beyond: on and several and not box,
+            self._cut: on,
+        }
+        for part, seen in shown.items():
+            part.setVisible(seen)
+        self._row.set_planes(len(planes), self._at)
+        self._plane_page.set_plane(planes[self._at])
+        self._box_page.set_corners(self._box.low, self._box.high)
+        (self._side if box else self._beyond).set_value("all" if clip.notch else "any")
+        self._cut.set_value("crinkle" if clip.crinkle else "smooth")

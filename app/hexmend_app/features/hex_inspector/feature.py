@@ -1,0 +1,243 @@
+"""Hex inspector: the list of the worst hexes and the details of the selected hex."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from hexmend.boundary import NodeClass
+from hexmend.quality import describe_hex, describe_node
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
+from hexmend_app.features.hex_inspector.worst_file import write_worst
+from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.state.tasks.boundary_classifier import WHISKER
+from hexmend_app.widgets.dialogs.questions import ask_list
+from hexmend_app.widgets.wording import counted
+
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
+
+
+#: What nodes of the boundary may do where it slides.
+_SLIDES = {
+    NodeClass.CORNER: "a corner",
+    NodeClass.CURVE: "on a curve",
+    NodeClass.PATCH: "on a patch",
+    WHISKER: "on a whisker",
+}
+
+#: Panels that show what is chosen too, or do something with it: a click does not put another before them.
+_FOLLOWING = ("node", "tags")
+
+
+class FeatureInspect(Feature):
+    """Selects hexes and nodes, and shows their details."""
+
+    order = 42
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        session = self.session
+        selection = self._selection = session.selection
+        self._document, self._view = session.document, session.view
+        self._seen = ChangeTracker()
+        self.worst_list = WorstList()
+        self.worst_list.chosen.connect(self._go_to_worst)
+        self.worst_list.save_requested.connect(self.ask)
+        selection.listing = lambda: self.worst_list.elements
+        panel = self.panel = ElementPanel()
+        panel.chosen.connect(selection.visit)
+        panel.fly_requested.connect(lambda: selection.visit(selection.hex))
+        panel.corners_toggled.connect(host.refresh_soon)
+        panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
+        panel.pin_toggled.connect(session.commands.pin)
+        session.panel_settings.register("worst", self.worst_list.choices, self.worst_list.set_choices)
+        session.panel_settings.register("corners", lambda: panel.corners_in_view, panel.set_corners_in_view)
+
+    def actions(self) -> Sequence[Action]:
+        """Return the actions that step through the list and act on the selection."""
+        return (*self._list_actions(), *self._selection_actions())
+
+    def _list_actions(self) -> Sequence[Action]:
+        return (
+            Action(
+                id="next_worst",
+                text="&Next worst hex",
+                menu="Hex",
+                keys="N",
+                icon="bullseye-arrow",
+                help="Go to the next hex in the list of the worst.",
+                tool="Worst",
+                handle=self.worst_list.next,
+            ),
+            Action(
+                id="previous_worst",
+                text="&Previous worst hex",
+                menu="Hex",
+                keys="Shift+N",
+                icon="chevron-up",
+                help="Go to the previous hex in the list of the worst.",
+                handle=self.worst_list.previous,
+            ),
+        )
+
+    def _selection_actions(self) -> Sequence[Action]:
+        session = self.session
+        return (
+            Action(
+                id="visit",
+                text="&Fly to the hex",
+                menu="Hex",
+                keys="Shift+F",
+                help="Move the camera to the selected hex.",
+                handle=lambda: self._selection.visit(self._selection.hex),
+                enabled=lambda: self._selection.hex is not None,
+                in_view=True,
+            ),
+            Action(
+                id="pin",
+                text="&Pin the node",
+                menu="Hex",
+                keys="Shift+P",
+                icon="pin-outline",
+                help="Pin the selected node so that no method moves it, or release it; undo reverts this.",
+                handle=lambda on: session.commands.pin(self._selection.node, on),
+                enabled=lambda: session.editable and self._can_be_pinned(),
+                checked=self._is_pinned,
+                in_view=True,
+            ),
+            Action(
+                id="free_isolated",
+                text="&Move only what is isolated",
+                menu="Hex",
+                icon="pin-off-outline",
+                help="Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this.",
+                handle=self._free_isolated,
+                enabled=lambda: session.editable and self._view.look.isolation is not None,
+            ),
+            Action(
+                id="back",
+                text="Step &back",
+                menu="Hex",
+                part=3,
+                keys="Esc",
+                help="End the isolation, then clear the selection.",
+                handle=self._back,
+                enabled=lambda: (
+                    self.host.messages.isHidden()
+                    and not self.session.opener.busy
+                    and (self._selection.hex is not None or self._view.look.isolation is not None)
+                ),
+            ),
+        )
+
+    def panels(self) -> Sequence[Panel]:
+        """Return the list of the worst hexes and the panel of the selected hex."""
+        return (
+            Panel(
+                id="worst",
+                title="Worst",
+                widget=self.worst_list,
+                place=PanelPlace.DRAWER,
+                order=1,
+                help="The worst hexes by any metric.",
+            ),
+            Panel(
+                id="hex",
+                title="Hex",
+                widget=self.panel,
+                place=PanelPlace.DRAWER,
+                order=2,
+                help="Details of the selected hex and its nodes.",
+                scrolls=True,
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Connect to clicks in the view."""
+        canvas.clicked.connect(self._on_clicked)
+
+    def refresh(self) -> None:
+        """Update the selection and the list of the worst hexes."""
+        if not self._document.is_open:
+            return
+        now, chosen = self._document.now, self._selection
+        if self._seen.changed("figures", now):
+            self.worst_list.set_figures(now.mesh, now.figures)
+        self.worst_list.set_selected(chosen.hex)
+        corners, editable = self.panel.corners_in_view, self.session.editable
+        classes = self.session.boundary_classifier.classes
+        if self._seen.changed("chosen", now, chosen.hex, chosen.node, corners, editable, self.canvas, classes):
+            self._show_element()
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
+    def _show_element(self) -> None:
+        chosen, mesh = self._selection, self._document.now.mesh
+        if chosen.hex is None:
+            self.panel.show_element(None)
+        else:
+            tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
+            self.panel.show_element(describe_hex(mesh, chosen.hex), tags)
+        at = None if chosen.node is None else describe_node(mesh, chosen.node)
+        self.panel.show_node(at, not self.session.editable, self._slides(chosen.node))
+        if self.canvas is not None:
+            self.canvas.select(chosen.hex, self.panel.corners_in_view, at)
+
+    def _can_be_pinned(self) -> bool:
+        node = self._selection.node
+        return node is not None and bool(self._document.now.mesh.topology.used[node])
+
+    def _is_pinned(self) -> bool:
+        node, mesh = self._selection.node, self._document.now.mesh if self._document.is_open else None
+        return node is not None and mesh is not None and mesh.pinned is not None and bool(mesh.pinned[node])
+
+    def _slides(self, node: int | None) -> str:
+        """Describe how a boundary node may slide, "" while unknown."""
+        classes = self.session.boundary_classifier.of(self._document.now.mesh)
+        return "" if node is None or classes is None else _SLIDES.get(int(classes.kinds[node]), "")
+
+    def _on_clicked(self, hit: tuple[int, int] | None) -> None:
+        self._selection.choose(*(hit or (None, None)))
+        if hit is not None and not any(self.host.in_front(id) for id in _FOLLOWING):
+            self.host.offer_panel("hex")
+
+    def _go_to_worst(self, h: int) -> None:
+        if self.worst_list.isolates:
+            self._view.isolate((h,))
+        self._selection.visit(h)
+        self.worst_list.set_selected(h)  # or the next step through the list would begin where the last one did
+
+    def _free_isolated(self) -> None:
+        isolation = self._view.look.isolation
+        self.session.commands.free_only(isolation.hexes, isolation.rings)
+
+    def _back(self) -> None:
+        """End the isolation first, then clear the selection."""
+        if self._view.look.isolation is not None:
+            self._view.end_isolation()
+        else:
+            self._selection.choose(None)
+
+    # Files
+
+    def ask(self) -> None:
+        """Ask where the list of the worst goes and write it."""
+        path = ask_list(self.host.dialog_parent, self.host.stem)
+        if path:
+            self.save(path)
+
+    def save(self, path: str | Path) -> bool:
+        """Write the list of the worst hexes as CSV; return True if it was written."""
+        worst = Path(path), self._document.now, self.worst_list.chosen_metric
+        event = FileExported("worst hexes", write_worst, worst)
+        return self.host.try_and_report(
+            "The list was not saved",
+            lambda: self.session.commands.export(event),
+            f"{counted(len(self.worst_list.elements), 'hex')} saved to {path}",
+        )

@@ -1,0 +1,82 @@
+"""The rows of the list of the worst elements."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, Qt
+from PySide6.QtGui import QBrush, QColor
+
+from hexmend_app.theme.style import INVERTED_TEXT, MUTED
+from hexmend_app.widgets.wording import figure
+
+_TITLES = ("Hex", "", "Scaled Jacobian", "State")
+#: The columns.
+ELEMENT, VALUE, JACOBIAN, STATE = range(4)
+_RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+_LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+
+
+class WorstModel(QAbstractTableModel):
+    """The rows: elements with a figure each.
+
+    Attributes
+    ----------
+    elements : (k,) int64
+    values, jacobians : (k,) float64
+        Of the figure that they are listed by, and scaled Jacobians.
+    states : list of str
+        "locked", "inverted" or "" for each.
+    title : str
+        What the figure is called.
+    """
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.elements = np.empty(0, np.int64)
+        self.values = self.jacobians = np.empty(0)
+        self.states: list[str] = []
+        self.title = ""
+
+    def fill(self, elements: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
+        """Take other rows."""
+        same = len(elements) == len(self.elements)
+        if not same:
+            self.beginResetModel()
+        self.elements, self.values, self.jacobians, self.states = elements, values, jacobians, states
+        if same:  # the view keeps where it is scrolled to
+            self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
+        else:
+            self.endResetModel()
+
+    def rowCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(self.elements)
+
+    def columnCount(self, parent: QModelIndex | None = None) -> int:
+        return 0 if parent is not None and parent.isValid() else len(_TITLES)
+
+    def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        row, column = index.row(), index.column()
+        if role == Qt.ItemDataRole.DisplayRole:
+            if column == ELEMENT:
+                return f"{self.elements[row]:,}"
+            if column == STATE:
+                return self.states[row]
+            return figure(float((self.values if column == VALUE else self.jacobians)[row]))
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return _LEFT if column == STATE else _RIGHT
+        if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
+            return QBrush(QColor(str(INVERTED_TEXT)))
+        return None
+
+    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        if orientation != Qt.Orientation.Horizontal:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self.title if section == VALUE else _TITLES[section]
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return _LEFT if section == STATE else _RIGHT
+        if role == Qt.ItemDataRole.ForegroundRole:
+            return QBrush(QColor(str(MUTED)))
+        return None

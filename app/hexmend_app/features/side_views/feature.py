@@ -1,0 +1,139 @@
+"""Views beside that of the mesh as it is now: kept, captioned, wiped over one another, and closed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from hexmend_app.canvas.view_captions import Caption
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.view.side_views import NOW
+from hexmend_app.theme.palette import BLUE, KEPT, Role
+
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
+
+#: How far a key moves the wipe's edge, as a share of the view's width.
+STEP = 0.02
+
+
+class FeatureSideViews(Feature):
+    """Shows what is kept of the mesh in views of its own."""
+
+    order = 56
+
+    def __init__(self, host: Host):
+        super().__init__(host)
+        self._views, self._kept = self.session.side_views, self.session.snapshots
+        self._seen = ChangeTracker()
+
+    def actions(self) -> Sequence[Action]:
+        """Keep beside, wipe, close."""
+        views, several, wiping = self._views, self._several, self._wiping
+        return (
+            Action(
+                id="beside",
+                text="Keep &in a view",
+                menu="Compare",
+                part=1,
+                keys="V",
+                icon="view-split-vertical",
+                help="Show the mesh as it is now in a view of its own, to which what comes can be compared.",
+                handle=self._show_in_side_view,
+                enabled=lambda: not views.full,
+                in_view=True,
+            ),
+            Action(
+                id="wipe",
+                text="&Wipe",
+                menu="Compare",
+                part=1,
+                keys="W",
+                icon="compare",
+                help="Lay two views over one another, with an edge between them that is dragged.",
+                handle=views.set_wiping,
+                enabled=several,
+                checked=wiping,
+            ),
+            Action(
+                id="wipe_left",
+                text="Wipe to the &left",
+                menu="Compare",
+                part=1,
+                keys="[",
+                help="See more of the view at the right.",
+                handle=lambda: self._step_wipe(-1),
+                enabled=wiping,
+            ),
+            Action(
+                id="wipe_right",
+                text="Wipe to the ri&ght",
+                menu="Compare",
+                part=1,
+                keys="]",
+                help="See more of the view at the left.",
+                handle=lambda: self._step_wipe(1),
+                enabled=wiping,
+            ),
+            Action(
+                id="close_views",
+                text="Close &other views",
+                menu="Compare",
+                part=1,
+                keys="Ctrl+W",
+                help="Show the mesh as it is now alone.",
+                handle=views.close_all,
+                enabled=several,
+                in_view=True,
+            ),
+        )
+
+    def canvas_ready(self, canvas: Canvas) -> None:
+        """Take the 3D view."""
+        canvas.frame.view_closed.connect(self._views.close)
+        canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
+        canvas.frame.wipe_moved.connect(self._views.move_wipe)
+        canvas.frame.wipe_stepped.connect(self._step_wipe)
+
+    def refresh(self) -> None:
+        """Show the views as they are now."""
+        views, document = self._views, self.session.document
+        if self.canvas is None or not document.is_open:
+            return
+        if self._seen.changed("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
+            self.canvas.show_side_by_side([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
+            self._seen.changed("wipe", views.wipe)
+        elif self._seen.changed("wipe", views.wipe) and views.wipe is not None:
+            self.canvas.move_wipe(views.wipe)
+        now = document.now if views.all else None
+        if self._seen.changed("captions", views.all, views.wipe, self._kept.all, now):
+            self._show_captions()
+
+    def refresh_iteration(self) -> None:
+        """Show the newest iteration of a run."""
+        self.refresh()
+
+    def _several(self) -> bool:
+        return bool(self._views.all)
+
+    def _wiping(self) -> bool:
+        return self._views.wipe is not None
+
+    def _show_in_side_view(self) -> None:
+        moment = self.session.timeline.moment
+        self._views.show("the mesh as it was" if moment is None else moment.name, self.session.document.now)
+
+    def _step_wipe(self, path: int) -> None:
+        if self._views.wipe is not None:
+            self._views.move_wipe(self._views.wipe.at + path * STEP)
+
+    def _show_captions(self) -> None:
+        shown = [(NOW, self.session.document.now, BLUE)]
+        shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
+        captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
+        self.canvas.frame.set_captions(captions, self._views.wipe)
+
+    def _colour(self, state: State) -> Role | None:
+        kept = self._kept.of(state)
+        return None if kept is None else KEPT[kept.slot]

@@ -1,0 +1,72 @@
+"""Interface of the window for features."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QWidget
+
+if TYPE_CHECKING:
+    from hexmend_app.canvas.canvas import Canvas
+    from hexmend_app.canvas.plotter import CanvasPlotter
+    from hexmend_app.state.session.session import Session
+    from hexmend_app.widgets.busy import Busy
+    from hexmend_app.widgets.message_bar import MessageBar
+
+
+class Host(Protocol):
+    """The part of the window that features use.
+
+    Attributes
+    ----------
+    dialog_parent : QWidget
+        The window, as parent of dialogs.
+    session : Session
+        The window's state.
+    canvas : Canvas or None
+        The 3D view; None until it is built.
+    messages : MessageBar
+        Shows errors and results.
+    busy : Busy
+        Shows what is in progress, with a button to cancel.
+    """
+
+    dialog_parent: QWidget
+    session: Session
+    canvas: Canvas | None
+    messages: MessageBar
+    busy: Busy
+
+    @property
+    def plotter(self) -> CanvasPlotter | None:
+        """PyVista's plotter on the 3D view, made when first asked for; None before there is a view."""
+
+    def action(self, id: str) -> QAction:
+        """Return the action of any feature; available once all features are built."""
+
+    def show_panel(self, id: str) -> None:
+        """Open a panel in front of its tabs."""
+
+    def offer_panel(self, id: str) -> None:
+        """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
+
+    def in_front(self, id: str) -> bool:
+        """Return True if a panel is visible."""
+
+    def may_leave(self) -> bool:
+        """Return True if no feature objects to closing the mesh."""
+
+    def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
+        """Wait until `over()` is true; return False if the user pressed the button `leave` instead."""
+
+    def refresh_soon(self) -> None:
+        """Refresh everything once, in the next turn of the event loop."""
+
+    @property
+    def stem(self) -> str:
+        """Default name of files to save, without suffix."""
+
+    def try_and_report(self, failure: str, act: Callable[[], object], success: str = "") -> bool:
+        """Call `act` and show `success`, or an error with the title `failure`; return True if it succeeded."""

@@ -1,0 +1,42 @@
+"""Description of a still picture and its page, shared by the window, the command line and files.
+
+A `Scene` is made of tables (`Camera`, `Cut`, `Show`, `Colours`, `Page`, ...); as a file it is TOML: docs/figures.md.
+"""
+
+from hexmend_app.codec.config_table import ConfigTable
+from hexmend_app.picture.camera import Camera, PicturePanel, WipeLayout
+from hexmend_app.picture.cut import Box, Cut, CutStyle, Plane
+from hexmend_app.picture.page import AxesStyle, Captions, ColourBarStyle, Corner, LineStyle, Page, TextPlace
+from hexmend_app.picture.scene import FORMAT, Scene
+from hexmend_app.picture.scene_files import camera_from, camera_text, from_toml, read_scene, to_toml, write_scene
+from hexmend_app.picture.visibility import Colours, Isolate, Range, Show
+
+__all__ = [
+    "FORMAT",
+    "AxesStyle",
+    "Box",
+    "Camera",
+    "Captions",
+    "ColourBarStyle",
+    "Colours",
+    "ConfigTable",
+    "Corner",
+    "Cut",
+    "CutStyle",
+    "Isolate",
+    "LineStyle",
+    "Page",
+    "PicturePanel",
+    "Plane",
+    "Range",
+    "Scene",
+    "Show",
+    "TextPlace",
+    "WipeLayout",
+    "camera_from",
+    "camera_text",
+    "from_toml",
+    "read_scene",
+    "to_toml",
+    "write_scene",
+]

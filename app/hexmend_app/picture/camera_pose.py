@@ -1,0 +1,59 @@
+"""The pose of a camera, as a value."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass
+
+import numpy as np
+
+Vector = tuple[float, float, float]
+
+#: Largest difference, in distances from the focal point, between poses that give the same picture.
+_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class CameraPose:
+    """Position, direction and projection of a camera.
+
+    Parameters
+    ----------
+    position, focal, up : (x, y, z)
+        Position, the point that the camera looks at and turns about, and the upward direction of the picture.
+    parallel : bool
+        Parallel projection instead of perspective.
+    scale : float
+        Half the height of the picture in parallel projection, in the mesh's unit.
+    axis : str
+        The axis that points up in standard views: x, y or z. It does not affect the picture.
+    """
+
+    position: Vector
+    focal: Vector
+    up: Vector
+    parallel: bool
+    scale: float
+    axis: str
+
+    def __post_init__(self) -> None:
+        position, focal, up, _, scale, axis = astuple(self)
+        if not np.isfinite([*position, *focal, *up, scale]).all() or position == focal or not any(up) or scale <= 0:
+            raise ValueError("the camera stands nowhere")
+        if axis not in ("x", "y", "z"):
+            raise ValueError(f"the axis {axis!r} is up: expected x, y or z")
+
+    @property
+    def distance(self) -> float:
+        """Distance from the camera to its focal point."""
+        return float(np.linalg.norm(np.subtract(self.focal, self.position)))
+
+    def looks_like(self, other: CameraPose) -> bool:
+        """Return True if both poses give the same picture, up to rounding."""
+        unit = max(self.distance, other.distance)
+        shifts = [np.subtract(getattr(self, name), getattr(other, name)) for name in ("position", "focal")]
+        return (
+            self.parallel == other.parallel
+            and abs(self.scale - other.scale) <= _TOLERANCE * max(self.scale, other.scale)
+            and max(map(np.linalg.norm, shifts)) <= _TOLERANCE * unit
+            and bool(np.linalg.norm(np.subtract(self.up, other.up)) <= _TOLERANCE)
+        )

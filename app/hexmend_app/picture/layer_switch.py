@@ -1,0 +1,59 @@
+"""Switches of the layers that are drawn over the hexes, by name: names, texts and defaults without Qt and VTK."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.hooks import hook
+from hexmend.registry import Registry
+
+
+@dataclass(frozen=True)
+class LayerSwitch:
+    """Declaration of a layer that users switch on and off.
+
+    Parameters
+    ----------
+    name : str
+        Name in sessions, scenes and on the command line.
+    title, help : str
+        Text and tooltip of its check box in the panel.
+    empty : str
+        Tooltip of the check box while the mesh has nothing to draw.
+    action, action_help : str
+        Text and help of its menu entry; by default title and help.
+    keys : str
+        Shortcut.
+    order : int
+        Position in panel and menu.
+    offered_early : bool
+        The layer can be switched on before its content has been counted.
+    hidden_when_empty : bool
+        The panel shows the row only for meshes that have something to draw.
+    drawn_by : type, optional
+        Class that draws the layer, see `hexmend_app.scene.layers.optional_layer`; None if the structure's marks do.
+    """
+
+    name: str
+    title: str
+    help: str
+    empty: str = "None in this mesh."
+    action: str = ""
+    action_help: str = ""
+    keys: str = ""
+    order: int = 100
+    offered_early: bool = False
+    hidden_when_empty: bool = False
+    drawn_by: type | None = None
+
+
+def _load() -> None:
+    hook("scene_layers")()
+
+
+LAYERS: Registry[LayerSwitch] = Registry("layer", _load)
+
+
+def ordered_layers() -> list[LayerSwitch]:
+    """Return all switches in the order of panel and menu."""
+    return sorted(LAYERS.values(), key=lambda one: one.order)

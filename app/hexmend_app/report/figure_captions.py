@@ -1,0 +1,44 @@
+"""The captions of a figure set, and the commands that draw it again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from hexmend.report import write_text
+from hexmend.report.markdown import escape
+from hexmend.terminal_text import printable
+from hexmend_app.report.figure_set import Figure
+
+#: Head of the file of commands.
+_HEAD = "# Each line draws a figure again. Paths are relative to the folder in which Hexmend was run."
+
+#: Suffixes of pictures that Markdown can show.
+_SHOWN = (".png", ".svg")
+
+
+def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str]]) -> list[Path]:
+    """Write captions.md and commands.sh.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder of the figures.
+    title : str
+    figures : sequence of (Figure, command)
+    """
+    texts, lines = [f"# {escape(title)}"], ["#!/bin/sh", _HEAD]
+    done: set[str] = set()
+    for figure, command in figures:
+        names = ", ".join(f"[{path.name}]({path.name})" for path in figure.paths)
+        shown = [f"![{escape(figure.part)}]({path.name})\n" for path in figure.paths if path.suffix in _SHOWN][:1]
+        texts += ["\n".join([f"## {figure.part}\n", *shown, f"{escape(figure.caption)} ({names})"])]
+        lines.append(f"\n# {printable(figure.part)}: {printable(figure.caption)}")
+        if command not in done:
+            lines.append(command)
+        done.add(command)
+    captions, script = folder / "captions.md", folder / "commands.sh"
+    write_text(captions, "\n\n".join(texts) + "\n")
+    write_text(script, "\n".join(lines) + "\n")
+    script.chmod(script.stat().st_mode | 0o111)
+    return [captions, script]

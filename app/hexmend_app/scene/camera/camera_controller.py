@@ -1,0 +1,156 @@
+"""The camera of views: fitting, directions and movements."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkBoundingBox
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
+
+from hexmend_app.scene.camera.directions import Vector, look_from
+from hexmend_app.scene.camera.fitting import fit
+from hexmend_app.scene.camera.flight import ELEMENT_FAR, PATCH_FAR, Flight
+from hexmend_app.scene.camera.vtk_pose import pose_of
+
+
+class CameraTarget(Protocol):
+    """A view as a camera controller uses it; `hexmend_app.scene.views.viewport.Viewport` is one."""
+
+    frame: Any  # None before a mesh is drawn
+
+    @property
+    def camera(self) -> vtkCamera:
+        """The camera of the view."""
+
+    @property
+    def layers(self) -> tuple[vtkRenderer, ...]:
+        """The renderers of the view, from the bottom up."""
+
+    @property
+    def places(self) -> np.ndarray:
+        """The points that the camera is fitted to, (k, 3)."""
+
+
+class CameraController:
+    """Controls the camera that several views share.
+
+    Attributes
+    ----------
+    up : str
+        The axis that is up: x, y or z.
+
+    Parameters
+    ----------
+    views : callable
+        Gives the views that are seen.
+    aspect : callable
+        Gives the width of the picture by its height.
+    """
+
+    def __init__(self, views: Callable[[], Sequence[CameraTarget]], aspect: Callable[[], float]):
+        self._views, self._aspect = views, aspect
+        self.up = "z"
+        self._fitted: tuple[float, ...] = ()  # where the camera stands after `fit`
+
+    @classmethod
+    def of(cls, view: CameraTarget) -> CameraController:
+        """Return the controller of a single view."""
+        return cls(lambda: [view], view.layers[0].GetTiledAspectRatio)
+
+    @property
+    def camera(self) -> vtkCamera:
+        """The camera of all views."""
+        return self._views()[0].camera
+
+    def fit(self) -> None:
+        """Fit the shown hexes into the view without turning the camera; does nothing before a mesh is drawn."""
+        if self._views()[0].frame is not None:
+            self._fit(self.camera)
+            self._fitted = self._reach
+            self.reset_depth()
+
+    def _fit(self, camera: vtkCamera) -> None:
+        fit(camera, np.concatenate([view.places for view in self._views()]), self._aspect())
+
+    @property
+    def fitted(self) -> bool:
+        """True if the camera has at most turned since the last fit."""
+        return self._fitted == self._reach
+
+    @property
+    def _reach(self) -> tuple[float, ...]:
+        """The values that panning and zooming change, and rotation does not."""
+        camera = self.camera
+        return *camera.GetFocalPoint(), round(camera.GetDistance(), 9), camera.GetParallelScale()
+
+    def look_along(self, direction: str | Vector) -> None:
+        """Show the mesh from a direction: a name of `VIEWS`, or a vector."""
+        look_from(self.camera, direction, self.up)
+        self.fit()
+
+    def set_up(self, axis: str) -> None:
+        """Set the vertical axis, x, y or z, and return to the isometric view."""
+        if axis != self.up:
+            self.up = axis
+            self.look_along("iso")
+
+    def set_parallel(self, on: bool) -> None:
+        """Choose parallel projection, or perspective; the size of the focused object is kept."""
+        camera, fitted = self.camera, self.fitted
+        tangent = np.tan(np.radians(camera.GetViewAngle()) / 2)
+        if on and not camera.GetParallelProjection():
+            camera.SetParallelScale(camera.GetDistance() * tangent)
+        elif camera.GetParallelProjection() and not on:
+            focal, ahead = np.array(camera.GetFocalPoint()), np.array(camera.GetDirectionOfProjection())
+            camera.SetPosition(focal - camera.GetParallelScale() / tangent * ahead)
+        camera.SetParallelProjection(on)
+        if fitted:
+            self.fit()
+        self.reset_depth()
+
+    def roll(self, degrees: float) -> None:
+        """Roll the camera: the picture turns counter-clockwise."""
+        self.camera.Roll(degrees)
+
+    def reset_depth(self) -> None:
+        """Fit the clipping range to the visible objects."""
+        box = vtkBoundingBox()
+        for view in self._views():
+            box.AddBounds(view.layers[0].ComputeVisiblePropBounds())
+        if box.IsValid():
+            bounds = [0.0] * 6
+            box.GetBounds(bounds)
+            self._views()[0].layers[0].ResetCameraClippingRange(bounds)
+
+    # Ways to elsewhere
+
+    def flight_along(self, direction: str | Vector) -> Flight:
+        """Return the movement to a fitted view from a direction."""
+        camera = vtkCamera()
+        camera.DeepCopy(self.camera)
+        look_from(camera, direction, self.up)
+        self._fit(camera)
+        return Flight(self.camera, pose_of(camera))
+
+    def flight_to(self, hexes: np.ndarray) -> Flight:
+        """Return the movement that centres hexes, given their corners, (k, 8, 3) float64."""
+        corners = hexes.reshape(-1, 3)
+        centre = corners.mean(axis=0)
+        radius = float(np.sqrt(np.square(corners - centre).sum(axis=1).max()))
+        away = ELEMENT_FAR if len(hexes) == 1 else PATCH_FAR
+        return self._flight_before(centre, away * radius if radius > 0 else self.camera.GetDistance(), radius > 0)
+
+    def flight_around(self, place: np.ndarray) -> Flight:
+        """Return the movement that makes a point, (3,) float64, the centre of the view and of rotation."""
+        return self._flight_before(place, self.camera.GetDistance(), False)
+
+    def _flight_before(self, place: np.ndarray, far: float, zoom: bool) -> Flight:
+        """Return the movement to a distance from a point without turning; `zoom` also scales parallel views."""
+        camera, now = self.camera, pose_of(self.camera)
+        ahead = np.array(camera.GetDirectionOfProjection())
+        scale = far * np.tan(np.radians(camera.GetViewAngle()) / 2) if zoom else now.scale
+        position, focal = (tuple(map(float, point)) for point in (place - far * ahead, place))
+        return Flight(camera, replace(now, position=position, focal=focal, scale=float(scale)))

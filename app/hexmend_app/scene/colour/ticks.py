@@ -1,0 +1,45 @@
+"""Round values along a scale."""
+
+from __future__ import annotations
+
+import math
+
+
+def nice_ticks(low: float, high: float, most: int) -> list[float]:
+    """Return at most `most` multiples of 1, 2, 2.5 or 5 times a power of ten in [low, high].
+
+    >>> nice_ticks(0, 1, 6)
+    [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]
+    >>> nice_ticks(0.31, 0.44, 4)
+    [0.35, 0.4]
+    """
+    if not high > low or most < 1:
+        return []
+    power = math.floor(math.log10((high - low) / most))
+    for step in (round(m * 10.0**e, 12 - e) for e in (power, power + 1, power + 2) for m in (1, 2, 2.5, 5)):
+        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+        if last - first + 1 <= most:
+            return [round(k * step, 10) for k in range(first, last + 1)]
+    return []
+
+
+def ticks_with_ends(low: float, high: float, space: float, most: int) -> list[float]:
+    """Return both ends, and the round values between them that keep a distance.
+
+    Parameters
+    ----------
+    low, high : float
+    room : float
+        Space of a value, as a share of the whole length.
+    most : int
+        Values, ends included.
+    """
+    if not high > low:
+        return []
+    near = space * (high - low)
+    between: list[float] = []
+    for number in range(min(int(1 / space) + 1, most), 2, -1):
+        between = nice_ticks(low, high, number)
+        if len(between) < 2 or between[1] - between[0] >= near:
+            break
+    return [low, *(tick for tick in between if low + near <= tick <= high - near), high]

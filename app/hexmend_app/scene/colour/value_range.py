@@ -1,0 +1,40 @@
+"""Ranges of metrics for colours, filters and histogram."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.boundary.displacement import hex_quantity
+from hexmend.quality import METRICS
+from hexmend_app.picture.appearance import RangeMode, ValueRange
+
+
+def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.ndarray:
+    """Select the hexes in a range, (m,) bool: exactly those that the histogram counts there.
+
+    Parameters
+    ----------
+    values : (m,) float64
+        Of the range's metric. What is no number is counted as inverted.
+    inverted : (m,) bool
+    chosen : ValueRange
+    """
+    least, most = METRICS[chosen.metric].full_range
+    special = inverted | np.isnan(values)
+    inside = ~special if chosen.high > -np.inf else np.zeros(len(values), dtype=bool)
+    if chosen.low > least:
+        inside &= values >= chosen.low
+    if chosen.high < most:
+        inside &= values <= chosen.high
+    return inside | special if chosen.inverted else inside
+
+
+def better(metric: str) -> int:
+    """Return 1 if greater values of a metric are better, -1 if smaller ones are, else 0."""
+    return hex_quantity(metric).better
+
+
+def declared_range(metric: str, mode: RangeMode) -> tuple[float, float] | None:
+    """Return the range that a metric declares for the mode FULL or ACCEPTABLE; None if it is infinite."""
+    declared = hex_quantity(metric).full_range if mode is RangeMode.FULL else hex_quantity(metric).acceptable
+    return tuple(map(float, declared)) if np.isfinite(declared).all() else None

@@ -1,0 +1,112 @@
+"""The skin: the faces of a mesh, or of its shown part, that are visible from outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.kernels import skin
+from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.validation import as_bools, as_points, check_node_numbers
+
+#: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
+#: a graphics card.
+WHOLE = 4_000
+
+
+@dataclass(frozen=True, eq=False)
+class Faces:
+    """Visible quads.
+
+    Parameters
+    ----------
+    nodes : (u,) int32
+        The mesh's nodes that the quads use.
+    quads : (k, 4) int32
+        Places in `nodes`, counter-clockwise from outside.
+    hexes : (k,) int32
+        The hex that each quad belongs to.
+    shrink : float
+        If not 0, the nodes are those of whole hexes, eight by eight, moved towards their mean by this share.
+    many : bool
+        True for many shrunk hexes, whose hidden sides are omitted in fast frames.
+    """
+
+    nodes: np.ndarray
+    quads: np.ndarray
+    hexes: np.ndarray
+    shrink: float = 0.0
+    many: bool = False
+
+    def places(self, points: np.ndarray) -> np.ndarray:
+        """Return the drawn positions of the nodes, (u, 3), given the points of the mesh, (n, 3) float64."""
+        if not self.shrink:
+            return points[self.nodes]
+        places, points = np.empty((len(self.nodes), 3)), as_points(points)
+        check_node_numbers(self.nodes[:, None], len(points), ("place", "column"))
+        skin.shrunk(points, self.nodes, self.shrink, places)
+        return places
+
+
+class Skin:
+    """Finds the visible faces of any part of a mesh, by its table of face neighbours.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    """
+
+    def __init__(self, mesh: Mesh):
+        self._hexes = mesh.hexes
+        self._neighbours = mesh.topology.face_neighbours
+        self._all = np.ones(mesh.n_hexes, dtype=bool)
+        self._n_nodes = mesh.n_nodes
+
+    def visible(self, keep: np.ndarray | None = None) -> Faces:
+        """Return the faces of kept hexes without a kept neighbour.
+
+        Parameters
+        ----------
+        keep : (m,) bool, optional
+            None keeps all.
+        """
+        keep = self._kept(keep)
+        return Faces(*skin.visible(self._n_nodes, self._hexes, self._neighbours, keep))
+
+    def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
+        """Return the faces of hexes that are drawn smaller.
+
+        All faces; of more than `WHOLE` hexes, those of hexes with a visible face or, unless `fine`, visible faces.
+        """
+        keep = self._kept(keep)
+        if np.count_nonzero(keep) <= WHOLE:
+            return Faces(*self._faces_of(keep, keep, True), shrink)
+        outer = np.empty(len(keep), bool)
+        skin.outer(self._neighbours, keep, outer)
+        return Faces(*self._faces_of(keep, outer, fine), shrink, True)
+
+    def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
+        """Return True for faces inside the mesh, whose neighbour is hidden, (k,) bool.
+
+        Parameters
+        ----------
+        faces : Faces
+            As `visible` or `shrunk` has found them, for the same `keep`.
+        keep : (m,) bool, optional
+        """
+        # They come hex by hex, and in the order of a hex's faces.
+        hexes = faces.hexes[np.flatnonzero(np.diff(faces.hexes, prepend=-1))]
+        behind = self._neighbours[hexes]
+        inside = behind >= 0
+        if len(faces.quads) == 6 * len(hexes):
+            return inside.ravel()
+        keep = self._kept(keep)
+        return inside[~(inside & keep[behind])]
+
+    def _kept(self, keep: np.ndarray | None) -> np.ndarray:
+        """Return a byte for each hex; raise `MeshError` for another length."""
+        return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
+
+    def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:
+        return skin.faces_of(self._hexes, self._neighbours, keep, chosen, hidden)

@@ -1,0 +1,169 @@
+"""The layers of a view besides the hexes; one that fails is left out, and the others are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.scene.layers.arrows import ArrowLayer
+from hexmend_app.scene.layers.ghosts import Ghosts
+from hexmend_app.scene.layers.mesh import MeshLayer
+from hexmend_app.scene.layers.optional.structure import StructureLayers
+from hexmend_app.scene.layers.optional_layer import OptionalLayer
+from hexmend_app.scene.layers.selection import SelectionLayer
+from hexmend_app.scene.layers.silhouette import Silhouette
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+
+
+def raise_error(error: Exception) -> None:
+    """Raise the error of a layer: for pictures that are written to files."""
+    raise error
+
+
+class ExtraLayers:
+    """Draws ghosts, the outline, the structure, arrows, the selection and the optional layers.
+
+    A layer that raises is reported, and hidden until another mesh is drawn; the other layers are drawn all the same.
+
+    Parameters
+    ----------
+    pane : Pane
+    pixel_ratio : float
+        Width of a thin line, in pixels.
+    on_failure : callable
+        Called with the exception of a layer that failed.
+
+    Attributes
+    ----------
+    ghosts : Ghosts
+    outline : Silhouette or None
+        Outline of the whole mesh behind a part of it; None before there is a mesh.
+    structure : StructureLayers
+    arrows : ArrowLayer
+    selection : SelectionLayer
+        Marks of the selected hex and node.
+    optional : dict of OptionalLayer
+        Layers that are switched on and off, by their names in `LAYERS`.
+    """
+
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0, on_failure: Callable[[Exception], object] = raise_error):
+        self._pane, self._pixel_ratio = pane, pixel_ratio
+        self._on_failure = on_failure
+        self._dark = False
+        self._failed: set[str] = set()
+        self.ghosts = Ghosts(pane, pixel_ratio)
+        self.optional: dict[str, OptionalLayer] = {
+            one.name: one.drawn_by(pane, pixel_ratio) for one in ordered_layers() if one.drawn_by is not None
+        }
+        self.outline: Silhouette | None = None
+        self.structure = StructureLayers(pane, pixel_ratio)
+        self.arrows = ArrowLayer(pane, pixel_ratio)
+        self.selection = SelectionLayer(pane, pixel_ratio)
+
+    @property
+    def renderers(self) -> tuple[vtkRenderer, ...]:
+        """The renderers over that of the hexes, from the bottom up."""
+        optional = [renderer for layer in self.optional.values() for renderer in layer.renderers]
+        return self.structure.layer, self.arrows.layer, *self.selection.layers, *optional
+
+    @property
+    def places(self) -> np.ndarray:
+        """Points of ghosts and optional layers that a fitted camera includes, (k, 3)."""
+        return np.concatenate([self.ghosts.places, *(layer.places for layer in self.optional.values())])
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw for the dark theme, or for the light one."""
+        self._dark = dark
+        for layer in (self.selection, self.ghosts, *self.optional.values(), self.outline):
+            if layer is not None:
+                layer.set_dark(dark)
+
+    def set_fast(self, fast: bool) -> None:
+        """Draw less in fast frames, or everything again."""
+        self._attempt("structure", self.structure.set_fast, fast)
+        self._attempt("arrows", self.arrows.set_fast, fast)
+
+    def set_mesh(self, frame: Frame) -> None:
+        """Replace the mesh; nothing of the previous mesh remains drawn."""
+        self.hide()
+        self._failed.clear()
+        self._attempt("outline", self._outline_mesh, frame)
+        self._attempt("structure", self.structure.set_mesh, frame.mesh)
+        self._attempt("selection", self.selection.set_mesh, frame.mesh)
+
+    def _outline_mesh(self, frame: Frame) -> None:
+        self.outline = Silhouette(self._pane.renderer, frame.mesh, self._pixel_ratio)
+        self.outline.set_dark(self._dark)
+
+    def follow(self, frame: Frame, moved: bool, pinned: bool, classed: bool) -> None:
+        """Take changes of the same mesh: positions of nodes, pinned nodes, classes of boundary nodes."""
+        if moved:
+            self._attempt("selection", self.selection.move, frame.mesh)
+        if pinned:
+            self._attempt("structure", self.structure.set_pins, frame.mesh.pinned)
+        if classed or pinned:
+            self._attempt("structure", self.structure.set_kinds, frame.kinds)
+
+    def draw_optional(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw the optional layers that are on; parameters are those of `rebuild`."""
+        for name, layer in self.optional.items():
+            if frame.look.structure.is_on(name):
+                self._attempt(name, layer.draw, frame, keep)
+            else:
+                layer.hide()
+
+    def rebuild(
+        self, frame: Frame, keep: np.ndarray | None, body: MeshLayer, ghosts: Callable[[Frame], np.ndarray | None]
+    ) -> None:
+        """Draw the layers of the hexes that are shown now.
+
+        Parameters
+        ----------
+        frame : Frame
+        keep : (m,) bool, optional
+            Hexes that are shown, in whole or in part; None for all.
+        body : MeshLayer
+            Has drawn the hexes.
+        ghosts : callable
+            Returns the hexes that are drawn as ghosts, (m,) bool, or None.
+        """
+        look, points = frame.look, frame.mesh.points
+        self._attempt("ghosts", lambda: self.ghosts.draw(frame, ghosts(frame), keep))
+        self._attempt("arrows", self.arrows.draw, frame, keep, body)
+        if self.outline is not None:
+            self._attempt("outline", self.outline.show, look, points, keep)
+        self._attempt("structure", self.structure.choose, look, points, frame.figures, body.faces, keep)
+
+    def move(self, frame: Frame, keep: np.ndarray | None, body: MeshLayer) -> None:
+        """Draw the same layers at the present positions of the nodes; parameters are those of `rebuild`."""
+        points = frame.mesh.points
+        self._attempt("ghosts", self.ghosts.move, frame)
+        self._attempt("arrows", self.arrows.draw, frame, keep, body)
+        if self.outline is not None:
+            self._attempt("outline", self.outline.move, points)
+        self._attempt("structure", self.structure.move, points, frame.figures)
+
+    def hide(self) -> None:
+        """Draw nothing."""
+        if self.outline is not None:
+            self.outline.close()
+            self.outline = None
+        for layer in (self.ghosts, *self.optional.values(), self.structure, self.arrows, self.selection):
+            layer.hide()
+
+    def _attempt(self, name: str, draw: Callable[..., object], *values: object) -> None:
+        """Draw a layer unless it has failed before; hide and report a layer that fails."""
+        if name in self._failed:
+            return
+        try:
+            draw(*values)
+        except Exception as error:  # whatever it is, the other layers are drawn
+            self._failed.add(name)
+            layer = self.optional[name] if name in self.optional else getattr(self, name)
+            if layer is not None:
+                layer.hide()
+            self._on_failure(error)

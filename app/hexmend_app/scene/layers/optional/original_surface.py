@@ -1,0 +1,61 @@
+"""The boundary as it was when the mesh was opened: translucent, behind the present mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.scene.geometry.filters import same_mask
+from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
+from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import ORIGINAL
+
+#: Offsets of faces and edges behind their true depth, in VTK's units: they are hidden where the boundary is unchanged.
+_FACES_BEHIND, _EDGES_BEHIND = 40.0, 400.0
+
+
+@layer(
+    "original",
+    title="Original surface",
+    help="The boundary as it was when the mesh was opened, see-through, where the boundary has left it.",
+    empty="None: the mesh has no boundary.",
+    action="&Original surface",
+    action_help="Show the boundary as it was when the mesh was opened, see-through.",
+    keys="O",
+    order=90,
+)
+class OriginalSurface(TranslucentSurface, OptionalLayer):
+    """Draws the boundary of a mesh as it was opened, wherever its nodes are now."""
+
+    colour, edge_opacity = ORIGINAL, 0.55
+
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        super().__init__(pane, pixel_ratio)
+        self._points: np.ndarray | None = None
+        self._keep: np.ndarray | None = None
+        for actor in self.actors:
+            mapper = actor.GetMapper()
+            mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _FACES_BEHIND)
+            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _EDGES_BEHIND)
+
+    def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw the boundary faces of hexes that are shown; an unchanged surface is not built again."""
+        if frame.original is None:
+            self.hide()
+            return
+        if frame.original is not self._points or not same_mask(keep, self._keep):
+            self._points, self._keep = frame.original, keep
+            topology = frame.mesh.topology
+            hexes = np.nonzero(topology.face_neighbours < 0)[0]
+            faces = topology.boundary_faces[slice(None) if keep is None else keep[hexes]]
+            nodes, quads = np.unique(faces, return_inverse=True)
+            self.set_quads(frame.original[nodes], quads.reshape(faces.shape))
+        self.show()
+
+    @classmethod
+    def legend(cls, mesh: Mesh) -> list[LegendEntry]:
+        """One entry if the mesh has a boundary."""
+        return [(ORIGINAL, True, "as opened")] if mesh.topology.boundary.any() else []

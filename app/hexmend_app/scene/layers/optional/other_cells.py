@@ -1,0 +1,121 @@
+"""Tetrahedra, pyramids and wedges of the mesh: their outer faces, grey and translucent."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista as pv
+
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.picture.cut_planes import Clip
+from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
+from hexmend_app.scene.layers.translucent_surface import TranslucentSurface, edges_of, with_lengths
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.theme.palette import OTHER_CELLS
+
+#: Corners of the faces of each kind, also of second order. The orientation of a face does not matter.
+FACES = {
+    "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
+    "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    "wedge": ((0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+}
+
+
+@layer(
+    "others",
+    title="Other cells",
+    help="Tetrahedra, pyramids and wedges of the mesh: their outside, translucent. Their nodes are fixed.",
+    empty="None: the mesh has hexes alone.",
+    action="Other c&ells",
+    action_help="Show tetrahedra, pyramids and wedges, grey and translucent.",
+    keys="G",
+    order=80,
+    hidden_when_empty=True,
+)
+class OtherCells(TranslucentSurface, OptionalLayer):
+    """Draws the faces that no other cell and no hex shares.
+
+    A clip hides the cells whose centres it cuts away.
+    """
+
+    colour, edge_opacity = OTHER_CELLS, 0.4
+
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        super().__init__(pane, pixel_ratio)
+        self._drawn: tuple[Mesh | None, Clip | None] = (None, None)
+        self._nodes = np.empty(0, np.int64)
+        self._lines = pv.PolyData()
+
+    def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
+        """Draw the cells of a frame; an unchanged surface stays, or moves with its nodes."""
+        mesh, clip = frame.mesh, frame.look.clip
+        if not any(cells.dimension == 3 for cells in mesh.cells):
+            self.hide()
+            return
+        last, cut = self._drawn
+        if last is None or last.cells is not mesh.cells or last.hexes is not mesh.hexes or cut != clip:
+            self._build(mesh, clip)
+        elif last.points is not mesh.points and self.poly.n_cells:
+            self._move(mesh.points[self._nodes])
+        self._drawn = mesh, clip
+        self.show()
+
+    @classmethod
+    def legend(cls, mesh: Mesh) -> list[LegendEntry]:
+        """The number of cells of each kind."""
+        return [
+            (OTHER_CELLS, False, f"{len(cells.nodes):,} {cells.kind}") for cells in mesh.cells if cells.dimension == 3
+        ]
+
+    def _build(self, mesh: Mesh, clip: Clip | None) -> None:
+        faces = outer_faces(mesh, clip)
+        edges = edges_of(*faces)
+        self._nodes = np.unique(edges)
+        self._lines = pv.PolyData()
+        self.set_data(pv.PolyData(), self._lines)
+        if not len(edges):
+            return
+        self._move(mesh.points[self._nodes])
+        self.poly.faces = np.concatenate([with_lengths(np.searchsorted(self._nodes, one)) for one in faces])
+        self._lines.lines = with_lengths(np.searchsorted(self._nodes, edges))
+
+    def _move(self, points: np.ndarray) -> None:
+        self.poly.points = points
+        self._lines.SetPoints(self.poly.GetPoints())
+
+
+def outer_faces(mesh: Mesh, clip: Clip | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Return triangles (k, 3) and quadrilaterals (l, 4) of non-hexahedral cells that no other cell and no hex shares.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    clip : PlaneClip or BoxClip, optional
+        Cells whose centre it cuts away are omitted, and their neighbours' faces are outer faces.
+    """
+    found: dict[int, list[np.ndarray]] = {3: [], 4: []}
+    for cells in mesh.cells:
+        if cells.dimension == 3:
+            nodes = cells.nodes[_uncut(mesh.points, cells, clip)]
+            for face in FACES[cells.kind.rstrip("0123456789")]:
+                found[len(face)].append(nodes[:, face])
+    triangles, quads = (
+        np.concatenate([np.empty((0, width), np.int64), *found[width]]).astype(np.int64) for width in (3, 4)
+    )
+    return _single(triangles, triangles[:0]), _single(quads, mesh.topology.boundary_faces)
+
+
+def _single(faces: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Select the faces that occur once and are not among the faces of hexes."""
+    rows = np.sort(np.concatenate([faces, hexes]), axis=1)
+    _, which, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
+    return faces[counts[which.ravel()[: len(faces)]] == 1]
+
+
+def _uncut(points: np.ndarray, cells: Cells, clip: Clip | None) -> np.ndarray:
+    if clip is None:
+        return np.ones(len(cells.nodes), bool)
+    centres = points[cells.nodes].mean(axis=1)
+    beyond = np.stack([plane.signed_distance(centres) > 0 for plane in clip.planes])
+    return ~(beyond.all(axis=0) if clip.notch else beyond.any(axis=0))

@@ -1,0 +1,105 @@
+"""Marks of the selection: a hex and a node of it, or the step of a node."""
+
+from __future__ import annotations
+
+import numpy as np
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.node_step import NodeStep
+from hexmend.quality import NodeDetails, corner_qualities
+from hexmend_app.scene.layers.highlight import Highlight
+from hexmend_app.scene.layers.node_step import NodeStepMarks
+from hexmend_app.scene.views.pane import Pane
+
+
+class SelectionLayer:
+    """Marks one hex and a node of it, or the step of a node, and follows the nodes.
+
+    Attributes
+    ----------
+    hex : int or None
+        The hex that is marked.
+    highlight : Highlight
+
+    Parameters
+    ----------
+    pane : Pane
+    pixel_ratio : float
+        Width of a thin line, in pixels.
+    """
+
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        self.highlight = Highlight(pane, pixel_ratio)
+        self._node_step = NodeStepMarks(pane, pixel_ratio)
+        self.hex: int | None = None
+        self._with_corners = False
+        self._mesh: Mesh | None = None
+
+    @property
+    def layers(self) -> tuple[vtkRenderer, ...]:
+        """The renderers over the mesh."""
+        return self.highlight.layer, *self._node_step.layers
+
+    @property
+    def node_step(self) -> NodeStep | None:
+        """The drawn step of a node."""
+        return self._node_step.step
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw for the dark theme, or for the light one."""
+        self._node_step.set_dark(dark)
+
+    def set_mesh(self, mesh: Mesh) -> None:
+        """Replace the mesh; nothing is marked."""
+        self.hide()
+        self._mesh = mesh
+
+    def hide(self) -> None:
+        """Draw nothing until `set_mesh`."""
+        self._mesh, self.hex = None, None
+        self._node_step.hide()
+        self.highlight.hide()
+        self.highlight.show_node(None)
+
+    def move(self, mesh: Mesh) -> None:
+        """Move the marks with the nodes of the same mesh."""
+        self._mesh = mesh
+        self._show_hex()
+        self._node_step.move(mesh.points)
+
+    def select(self, h: int | None, corners: bool, node: NodeDetails | None) -> None:
+        """Mark a hex, with or without the qualities of its corners, and one of its nodes; None marks nothing."""
+        if self._mesh is None:
+            return
+        self.hex, self._with_corners = h, corners
+        self._show_hex()
+        if h is not None:
+            self._mark_node(node)
+
+    def show_node_step(self, step: NodeStep | None) -> None:
+        """Draw the step of a node instead of the marks of the selected hex; None removes it."""
+        if step is None or self._mesh is None:
+            self._node_step.hide()
+        else:
+            self._node_step.show(step, self._mesh.hexes[step.hexes], self._mesh.points)
+        self._show_hex()
+
+    def _mark_node(self, node: NodeDetails | None) -> None:
+        """Mark a node and, if it may move, the direction of descent of the energy around it."""
+        if node is None:
+            self.highlight.show_node(None)
+            return
+        steepness = float(np.linalg.norm(node.downhill))
+        corners = self._mesh.points[self._mesh.hexes[self.hex]]
+        length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
+        goes = node.kind == "free" and steepness > 0
+        self.highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+
+    def _show_hex(self) -> None:
+        if self.hex is None or self.node_step is not None:
+            self.highlight.hide()
+            return
+        nodes, points = self._mesh.hexes[self.hex], self._mesh.points
+        values = corner_qualities(points, nodes[None])[0] if self._with_corners else None
+        self.highlight.show(points[nodes], values)

@@ -1,0 +1,1 @@
+"""Pages of still pictures: layout, captions, colour bar, axes."""

@@ -1,0 +1,56 @@
+"""Mesh on a page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.boundary.displacement import Displacement
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure
+from hexmend_app.picture.appearance import Look
+from hexmend_app.scene.views.frame import Frame
+
+
+@dataclass(frozen=True, eq=False)
+class PageMesh:
+    """Mesh on a page with its quality, movement and name.
+
+    Parameters
+    ----------
+    name : str
+        Name in the caption.
+    mesh : Mesh
+    figures : ElementQuality
+        Of the mesh.
+    movement, original, kinds
+        As in a `Frame`; of the first of several, with whose movement the others compare.
+    """
+
+    name: str
+    mesh: Mesh
+    figures: ElementQuality
+    movement: Displacement | None = None
+    original: np.ndarray | None = None
+    kinds: np.ndarray | None = None
+
+    @classmethod
+    def of(cls, mesh: Mesh, name: str = "") -> PageMesh:
+        """Measure a mesh; the default name is its own."""
+        return cls(name or mesh.name, mesh, measure(mesh.points, mesh.hexes))
+
+    @classmethod
+    def shown(cls, frame: Frame, name: str = "") -> PageMesh:
+        """Return the mesh of a frame with its data."""
+        return cls(name, frame.mesh, frame.figures, frame.movement, frame.original, frame.kinds)
+
+    def frame(self, look: Look) -> Frame:
+        """Return the frame of the mesh under a look."""
+        return Frame(self.mesh, self.figures, self.movement, look, self.original, self.kinds)
+
+    @property
+    def text(self) -> str:
+        """Figures of the caption."""
+        inverted = self.figures.n_inverted
+        return f"q min {self.figures.q.min():.4f}, {f'{inverted:,}' if inverted else 'none'} inverted"

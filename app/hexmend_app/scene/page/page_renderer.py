@@ -1,0 +1,201 @@
+"""Page of a scene: pictures of the panels, and lines and texts over them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PIL import Image
+
+from hexmend.io.storage.atomic import atomic_write
+from hexmend.io.storage.suffixes import suffix_for
+from hexmend.node_step import NodeStep
+from hexmend_app.picture import Scene
+from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.page.drawing import Drawing
+from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.page_captions import draw_captions
+from hexmend_app.scene.page.page_colour_bar import draw_bar
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.triad import draw_axes
+from hexmend_app.scene.render.rasters import Rasters, rasters
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from vtkmodules.vtkRenderingCore import vtkProp
+
+#: What a page can be written as, by suffix.
+FORMATS = {".png": "PNG", ".tif": "TIFF", ".tiff": "TIFF", ".pdf": "pdf", ".svg": "svg"}
+
+#: Vectors that are the same for the same page, with texts that stay texts.
+_VECTORS = {"svg.hashsalt": "hexmend", "svg.fonttype": "none", "pdf.fonttype": 42, "image.composite_image": False}
+_DATES = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+
+#: Difference from the background, in steps of brightness, from which a pixel counts as drawn.
+_SEEN = 3
+
+
+class PageRenderer:
+    """Drawn page.
+
+    Attributes
+    ----------
+    size : (width, height)
+        In pixels: as the page asks for, or smaller where it is cropped.
+
+    Parameters
+    ----------
+    layout : Layout
+    drawn : Rasters
+    """
+
+    def __init__(self, layout: Layout, drawn: Rasters):
+        self._layout, self._drawn = layout, drawn
+        self.size = layout.size
+
+    def image(self) -> Image.Image:
+        """Return the page in pixels: RGB, or RGBA with a transparent background."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        layout, ground = self._layout, self._layout.scene.page.ground
+        page = Image.new("RGBA", layout.size, ground or (0, 0, 0, 0))
+        for number, image in enumerate(self._drawn.images):
+            box = layout.place(number)
+            page.paste(image, (box.left, box.top))
+        # Lines and letters on nothing, laid over that: an image in a figure takes matplotlib ten times its memory.
+        canvas = FigureCanvasAgg(self._figure(pictures=False))
+        canvas.draw()
+        page.alpha_composite(Image.fromarray(np.asarray(canvas.buffer_rgba())))
+        return page if ground is None else page.convert("RGB")
+
+    def write(self, path: Path, texts: Mapping[str, str] | None = None) -> None:
+        """Write the page atomically.
+
+        Parameters
+        ----------
+        path : Path
+            Its suffix is one of `FORMATS`, or there is none, which stands for PNG.
+        texts : mapping, optional
+            Texts that a PNG carries, by keyword.
+
+        Raises
+        ------
+        FileError
+            For another suffix, or where the file cannot be written; the one that was there stays.
+        """
+        kind = format_of(path)
+        with atomic_write(path) as temporary:
+            if kind in _DATES:
+                self._write_vectors(temporary, kind)
+            else:
+                self._write_pixels(temporary, kind, texts or {})
+
+    def _write_pixels(self, path: Path, kind: str, texts: Mapping[str, str]) -> None:
+        from PIL.PngImagePlugin import PngInfo
+
+        resolution = self._layout.scene.page.resolution
+        options = {"dpi": (resolution, resolution)}
+        if kind == "TIFF":
+            options["compression"] = "tiff_lzw"
+        elif texts:
+            options["pnginfo"] = PngInfo()
+            for keyword, text in texts.items():
+                options["pnginfo"].add_itxt(keyword, text)
+        self.image().save(path, format=kind, **options)
+
+    def _write_vectors(self, path: Path, kind: str) -> None:
+        from matplotlib import rc_context
+
+        with rc_context(_VECTORS):
+            figure = self._figure(pictures=True)
+            ground = self._layout.scene.page.ground or "none"
+            figure.savefig(path, format=kind, dpi=figure.dpi, facecolor=ground, metadata=_DATES[kind])
+
+    def _figure(self, pictures: bool) -> Figure:
+        """Draw the page with matplotlib, with background and pictures of panels, or without both."""
+        from matplotlib.figure import Figure
+
+        layout, page = self._layout, self._layout.scene.page
+        # A hair more than whole pixels, which rounding would else take one of.
+        inches = [(side + 1e-3) / page.resolution for side in layout.size]
+        figure = Figure(figsize=inches, dpi=page.resolution, facecolor="none")
+        axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
+        axes.axis("off")
+        ink = Drawing(axes, layout)
+        cameras = set()
+        for number, (panel, image) in enumerate(zip(layout.panels, self._drawn.images, strict=True)):
+            if pictures:
+                ink.image(image, layout.place(number))
+            if layout.scene.axes.show and panel.camera not in cameras:
+                cameras.add(panel.camera)
+                seen = self._drawn.axes[number]
+                draw_axes(ink, layout.place(number), seen, layout.scene.axes.place, page)
+        draw_captions(ink, layout)
+        draw_bar(ink, layout, self._drawn)
+        return figure
+
+
+def draw_page(
+    scene: Scene,
+    subjects: Sequence[PageMesh],
+    *,
+    filters: Filters | None = None,
+    node_step: NodeStep | None = None,
+    props: Callable[[float], list[vtkProp]] | None = None,
+) -> PageRenderer:
+    """Draw a scene of meshes, off screen.
+
+    Parameters
+    ----------
+    scene : Scene
+    subjects : sequence of Subject
+        At least one; the panels name them by number from 1.
+    filters : Filters, optional
+        Those of a view of the first mesh, whose elements are drawn: a cut by whole elements is made where the nodes are
+        as a plane comes, not where they are now.
+    node_step : NodeStep, optional
+        A node's step that is drawn in the first mesh.
+    props : callable, optional
+        Returns further props for the views of the first mesh, from the width in pixels of a thin line.
+
+    Raises
+    ------
+    ParameterError
+        If the scene names hexes or meshes that do not exist, or its page is too small for its panels.
+    """
+    layout = Layout.of(scene, subjects)
+    drawn = rasters(layout, filters=filters, node_step=node_step, props=props)
+    return PageRenderer(*_cropped(layout, drawn)) if scene.page.crop else PageRenderer(layout, drawn)
+
+
+def format_of(path: Path) -> str:
+    """Return the format of a path by its suffix; PNG if it has none.
+
+    Raises
+    ------
+    FileError
+        For another suffix.
+    """
+    return FORMATS.get(suffix_for(path, "a picture", (*FORMATS, "")), "PNG")
+
+
+def _cropped(layout: Layout, drawn: Rasters) -> tuple[Layout, Rasters]:
+    """Crop the margins that are empty in all panels; an empty page is not cropped."""
+    seen = np.logical_or.reduce([_seen(image, layout.scene.page.ground) for image in drawn.images])
+    if not seen.any():
+        return layout, drawn
+    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+    box = int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
+    images = [image.crop(box) for image in drawn.images]
+    return layout.cropped(images[0].size), replace(drawn, images=images)
+
+
+def _seen(image: Image.Image, ground: str | None) -> np.ndarray:
+    """Return True for drawn pixels, (height, width) bool."""
+    pixels = np.asarray(image).astype(np.int16)
+    if ground is None:
+        return pixels[..., 3] > 0
+    return np.abs(pixels - np.frombuffer(bytes.fromhex(ground[1:]), np.uint8)).max(axis=2) > _SEEN

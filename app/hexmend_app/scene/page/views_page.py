@@ -1,0 +1,67 @@
+"""Page of the views of a window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from vtkmodules.vtkRenderingCore import vtkProp
+
+from hexmend_app.picture import Camera, Page, PicturePanel, Scene, WipeLayout
+from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import PageRenderer, draw_page
+from hexmend_app.scene.views.panes import Panes
+
+
+def scene_of(
+    panes: Panes, names: Sequence[str] = (), page: Page | None = None, cameras: Mapping[str, Camera] | None = None
+) -> Scene:
+    """Return the scene of views, with their camera.
+
+    Parameters
+    ----------
+    panes : Panes
+    names : sequence of str
+        Names in the captions of several views.
+    page : Page, optional
+    cameras : mapping, optional
+        Further cameras of the scene, by name.
+    """
+    pose = pose_of(panes.first.camera, panes.eye.up)
+    tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
+    frame = panes.first.frame
+    return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), pose, **tables)
+
+
+def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
+    """Return the meshes of views, with the names of their captions."""
+    named = names if len(panes.all) > 1 else [""]
+    return [PageMesh.shown(view.frame, name) for view, name in zip(panes.all, named, strict=True)]
+
+
+def draw_views(
+    scene: Scene, panes: Panes, names: Sequence[str] = (), props: Callable[[float], list[vtkProp]] | None = None
+) -> PageRenderer:
+    """Draw a scene of views, with the hexes that their cut has left and the step of a node.
+
+    `props` is that of `draw_page`.
+    """
+    step = panes.first.extras.selection.node_step
+    filters = panes.first.filters.copied()
+    return draw_page(scene, subjects_of(panes, names), filters=filters, node_step=step, props=props)
+
+
+def _panels(panes: Panes, names: Sequence[str]) -> tuple[PicturePanel, ...]:
+    wipe = panes.wipe
+    if wipe is not None:
+        return (
+            PicturePanel(
+                mesh=wipe.left + 1,
+                caption=names[wipe.left],
+                wipe=WipeLayout(wipe.right + 1, wipe.at, names[wipe.right]),
+            ),
+        )
+    if len(panes.all) == 1:
+        return ()
+    return tuple(PicturePanel(mesh=number, caption=name) for number, name in enumerate(names, 1))

@@ -1,0 +1,215 @@
+"""Several views in one window, side by side or as a wipe."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality
+from hexmend_app.scene.camera.camera_controller import CameraController
+from hexmend_app.scene.colour.colouring import declared_ends
+from hexmend_app.scene.geometry.filters import Filters
+from hexmend_app.scene.layers.extra_layers import raise_error
+from hexmend_app.scene.views.arrangement import Arrangement
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.picking import Hit
+from hexmend_app.scene.views.viewport import Viewport
+from hexmend_app.state.view.side_views import Wipe
+
+
+class Panes:
+    """Views that share camera, look, cut and colour range, and are drawn together.
+
+    Attributes
+    ----------
+    first : Viewport
+    pane : Pane
+        Pane of the first view.
+    wipe : Wipe or None
+        None for views side by side.
+    eye : CameraController
+
+    Parameters
+    ----------
+    window : vtkRenderWindow
+        With an interactor.
+    filters : Filters, optional
+        Filters of another window's view, which apply if the mesh has the same hexes.
+    pixel_ratio : float
+        Width of a thin line, in pixels.
+    on_failure : callable, optional
+        Called with the exception of a layer that fails, which is then left out; without it, the exception is raised.
+    """
+
+    def __init__(
+        self,
+        window: vtkRenderWindow,
+        filters: Filters | None = None,
+        pixel_ratio: float = 1.0,
+        on_failure: Callable[[Exception], object] = raise_error,
+    ):
+        self._window, self._pixel_ratio, self._on_failure = window, pixel_ratio, on_failure
+        self.pane = Pane(window)
+        self.first = Viewport(self.pane, filters=filters, pixel_ratio=pixel_ratio, on_failure=on_failure)
+        self._dark = False
+        self._others: list[tuple[Mesh, Viewport]] = []
+        self.wipe: Wipe | None = None
+        self._arrangement = Arrangement(self._window, pixel_ratio)
+        self.eye = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
+        self.arrange()
+        self._watch(self.first)
+        # The hand may grasp what stands in the first view.
+        self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
+
+    # What is shown
+
+    @property
+    def all(self) -> list[Viewport]:
+        """All views, the first one first."""
+        return [self.first, *(view for _, view in self._others)]
+
+    @property
+    def seen(self) -> list[Viewport]:
+        """The visible views; of a wipe, both."""
+        return self.all if self.wipe is None else [self.all[self.wipe.left], self.all[self.wipe.right]]
+
+    def draw(self, frame: Frame) -> None:
+        """Draw a frame in the first view, and update the others to its look and movement.
+
+        Another mesh is drawn alone, and seen whole from a corner.
+        """
+        another = not frame.is_of(self.first.frame)
+        if another:
+            self.show([])
+        self.first.draw(frame)
+        for _, view in self._others:
+            view.draw(view.frame.neighbour(frame))
+        self.share_colour_range()
+        if another:
+            self.eye.look_along("iso")
+
+    def clear(self) -> None:
+        """Draw no mesh."""
+        self.show([])
+        self.first.clear()
+
+    def show(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
+        """Show frames beside the first view; for equal hexes, a cut leaves the same ones.
+
+        Parameters
+        ----------
+        others : sequence of (Mesh, ElementQuality)
+            One that is shown already stays as it is.
+        wipe : Wipe, optional
+            None shows all side by side.
+        """
+        aspect, fitted = self._arrangement.aspect, self.eye.fitted
+        before = self._others
+        known = {id(mesh): view for mesh, view in before}
+        self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
+        stay = {id(view) for _, view in self._others}
+        for _, view in before:
+            if id(view) not in stay:
+                view.close()
+        self.wipe = wipe
+        self.arrange()
+        self.share_colour_range()
+        if fitted and abs(self._arrangement.aspect - aspect) > 1e-6:
+            self.eye.fit()
+
+    def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
+        pane = Pane(self._window, self.first.camera)
+        view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure)
+        view.set_dark(self._dark)
+        view.draw(Frame(mesh, figures).neighbour(self.first.frame))
+        self._watch(view)
+        return view
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw for the dark theme, or for the light one."""
+        self._dark = dark
+        for view in self.all:
+            view.set_dark(dark)
+        self._arrangement.set_dark(dark)
+
+    def share_colour_range(self) -> None:
+        """Extend a fitted colour range to all views."""
+        adjacent = None
+        if self.first.frame is None:
+            return
+        if self._others and declared_ends(self.first.frame.look.scale) is None:
+            lows, highs = zip(*(view.colours.ends for view in self.all), strict=True)
+            adjacent = min(lows), max(highs)
+        for view in self.all:
+            view.span(adjacent)
+
+    # Where it is shown
+
+    def move_wipe(self, wipe: Wipe) -> None:
+        """Move the edge of the wipe."""
+        self.wipe = wipe
+        self.arrange()
+
+    def leave_heads(self, pixels: int) -> None:
+        """Reserve a height in pixels above each of several views, for its caption."""
+        self._arrangement.head = pixels
+
+    def arrange(self) -> None:
+        """Place all views in the present window."""
+        self._arrangement.arrange(self.all, self.seen, self.wipe)
+
+    def at(self, x: float, y: float) -> Viewport:
+        """Return the view at a position in pixels of the window, from its lower left corner."""
+        return self._arrangement.at(x, y)
+
+    def pick(self, x: float, y: float) -> Hit | None:
+        """Pick at a position in pixels of the window; None outside the meshes."""
+        view = self.at(x, y)
+        self._aim(view)
+        hit = view.pick(x, y)
+        self._aim(self.first)
+        return hit
+
+    def _watch(self, view: Viewport) -> None:
+        """Observe the start of drawing of each layer of a view."""
+        for layer in view.layers:
+            layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view))
+
+    def _begin(self, view: Viewport) -> None:
+        if self._arrangement.outdated:
+            fitted = self.eye.fitted
+            self.arrange()
+            if fitted:
+                self.eye.fit()
+        if self._others and view is self.seen[0]:
+            self.eye.reset_depth()
+        self._aim(view)
+
+    def _aim(self, view: Viewport) -> None:
+        """Aim the camera at a view's part of the picture."""
+        self.first.camera.SetWindowCenter(self._arrangement.centre_of(view), 0.0)
+
+    # Fast frames and fine ones
+
+    def moving(self) -> None:
+        """Prepare for fast frames."""
+        for view in self.seen:
+            view.moving()
+
+    def turning(self) -> None:
+        """Prepare for fast frames in which only the camera moves."""
+        for view in self.seen:
+            view.turning(len(self.seen))
+
+    def still(self) -> None:
+        """Prepare for a fine frame."""
+        for view in self.seen:
+            view.still()
+
+    def shade(self) -> None:
+        """Compute the shading of a fine frame in this thread."""
+        for view in self.seen:
+            view.shade()

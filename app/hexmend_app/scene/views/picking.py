@@ -1,0 +1,65 @@
+"""Picking: the hex under the pointer in a view."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pyvista as pv
+from vtkmodules.vtkRenderingCore import vtkCellPicker
+
+from hexmend.mesh.mesh import Mesh
+from hexmend_app.scene.layers.surface import Surface, hex_of
+from hexmend_app.scene.views.pane import Pane
+
+
+@dataclass(frozen=True, eq=False)
+class Hit:
+    """Result of picking.
+
+    Parameters
+    ----------
+    hex : int
+    node : int
+        Of the hex, the one that is nearest to the place.
+    place : (3,) float64
+        Picked point.
+    """
+
+    hex: int
+    node: int
+    place: np.ndarray
+
+
+class Picker:
+    """Finds the visible hex at a position.
+
+    Parameters
+    ----------
+    pane : Pane
+    surfaces : sequence of Surface
+        On which hexes are found.
+    """
+
+    def __init__(self, pane: Pane, surfaces: Sequence[Surface]):
+        self._pane, self._surfaces = pane, surfaces
+        self._picker = vtkCellPicker()
+        self._picker.PickFromListOn()
+        for surface in surfaces:
+            self._picker.AddPickList(surface.actor)
+
+    def pick(self, x: float, y: float, mesh: Mesh) -> Hit | None:
+        """Pick at a position in pixels from the lower left corner; None outside the mesh."""
+        for surface in self._surfaces:
+            surface.actor.SetPickable(True)
+        self._picker.Pick(x, y, 0, self._pane.renderer)
+        for surface in self._surfaces:
+            surface.actor.SetPickable(False)
+        cell = self._picker.GetCellId()
+        if cell < 0:
+            return None
+        h, place = hex_of(pv.wrap(self._picker.GetDataSet()), cell), np.array(self._picker.GetPickPosition())
+        nodes = mesh.hexes[h]
+        away = np.square(mesh.points[nodes] - place).sum(axis=1)
+        return Hit(h, int(nodes[away.argmin()]), place)

@@ -1,0 +1,68 @@
+"""A dock that lays out its page only while it is in front."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QCloseEvent
+from PySide6.QtWidgets import QDockWidget, QWidget
+
+from hexmend_app.feature import PanelPlace
+
+
+class Dock(QDockWidget):
+    """A dock widget with one or several panels.
+
+    Qt leaves docks behind other tabs visible outside the window, where Tab reaches them and their panels are kept up
+    to date for nobody; so the page of a dock is hidden unless the dock is in front.
+
+    Signals
+    -------
+    closed
+        The user has closed it.
+
+    Parameters
+    ----------
+    name : str
+        Object name, by which its place is saved.
+    title, help : str
+
+    Attributes
+    ----------
+    place : PanelPlace
+        Where it is by default.
+    is_open : bool
+        The user has not closed it; it may be hidden with others.
+    in_front : bool
+        It is visible.
+    """
+
+    closed = Signal()
+
+    def __init__(self, name: str, title: str, help: str, parent: QWidget | None = None):
+        super().__init__(title, parent)
+        self.setObjectName(name)
+        self.setToolTip(help)
+        self.place = PanelPlace.TOOLS
+        self.is_open = True
+        self.in_front = False
+        self.visibilityChanged.connect(self.set_in_front)
+
+    def set_page(self, page: QWidget) -> None:
+        """Show a page, which keeps its room in the layout while another tab is in front."""
+        policy = page.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        page.setSizePolicy(policy)
+        self.setWidget(page)
+        page.setVisible(self.in_front)
+
+    def set_in_front(self, in_front: bool) -> None:
+        """Show or hide the page."""
+        self.in_front = in_front
+        if self.widget() is not None:
+            self.widget().setVisible(in_front)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Remember that it was closed, not only hidden."""
+        super().closeEvent(event)
+        self.is_open = False
+        self.closed.emit()

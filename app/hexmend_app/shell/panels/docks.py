@@ -1,0 +1,163 @@
+"""Showing, closing, hiding and saving of the panels around the view."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QApplication, QMainWindow
+
+from hexmend_app.feature import PanelPlace
+from hexmend_app.shell.panels import default_layout
+from hexmend_app.shell.panels.dock import Dock
+from hexmend_app.shell.panels.dock_set import DockSet
+from hexmend_app.shell.panels.saved_layout import LAYOUT, SavedLayout
+from hexmend_app.shell.panels.stacked_panels import unfold
+from hexmend_app.shell.panels.tab_bars import TabBars
+
+
+class Docks(DockSet):
+    """The panels of a main window, with what the user does to them."""
+
+    def __init__(self, main: QMainWindow):
+        super().__init__(main)
+        self._tab_bars = TabBars(main, lambda: self.set_folded(True))
+        self.row.clicked.connect(self.show_panel)
+
+    def show_panel(self, id: str) -> None:
+        """Open a panel in front of its tabs, and show all panels if they are hidden."""
+        self.set_hidden(False)
+        if id in self._lines:
+            self._lines[id].show()
+            self.changed.emit()
+            return
+        dock = self._docks[id]
+        dock.is_open = True
+        if self._in_drawer(dock):
+            self.set_folded(False)
+        dock.show()
+        self._raise(dock)
+        unfold(dock.widget(), self._panels[id])
+        self.changed.emit()
+
+    def offer_panel(self, id: str) -> None:
+        """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
+        dock = self._docks[id]
+        if not dock.is_open:
+            return
+        if self.hidden or (self.folded and self._in_drawer(dock)):
+            self._offered.append(dock)
+            self.row.set_front(id)
+        else:
+            self._raise(dock)
+
+    def _raise(self, dock: Dock) -> None:
+        dock.raise_()
+        if not dock.isFloating():  # of a floating dock Qt gives those that it was among
+            for other in self._main.tabifiedDockWidgets(dock):
+                other.set_in_front(False)
+        dock.set_in_front(dock.isVisible())
+
+    def close_panel(self, id: str) -> None:
+        """Close a panel until it is shown again."""
+        if id in self._lines:
+            self._lines[id].hide()
+        else:
+            self._docks[id].close()
+            self._docks[id].is_open = False
+        self._refresh_row()
+        self.changed.emit()
+
+    def set_folded(self, folded: bool) -> None:
+        """Close the drawer, or open it with the panels that are open in it."""
+        if folded == self.folded:
+            return
+        drawer = [dock for dock in self._drawer() if dock.is_open]
+        front = next((dock for dock in drawer if dock.in_front), None)
+        if folded:
+            self._height = front.height() + self._tab_bars.drawer_height() if front is not None else self._height
+            self._offered += [front] if front is not None else []
+        self.folded = folded
+        for dock in drawer:
+            dock.setVisible(not folded)
+        if not folded and drawer:
+            self._main.resizeDocks(drawer[:1], [self._height], Qt.Orientation.Vertical)
+            self._raise(next((dock for dock in reversed(self._offered) if dock in drawer), drawer[0]))
+            self._offered = [dock for dock in self._offered if dock not in drawer]
+        self._refresh_row()
+        self.changed.emit()
+
+    def set_hidden(self, hidden: bool) -> None:
+        """Hide all panels, or show them as they were; the status bar stays."""
+        if hidden == self.hidden:
+            return
+        self._restoring = True
+        if hidden:
+            self._saved = self._main.saveState(LAYOUT)
+            self._shown_lines = [id for id in self._lines if self.is_open(id)]
+            self._offered += [dock for dock in self._all() if dock.in_front]
+            for dock in self._all():
+                dock.hide()
+        else:
+            self._main.restoreState(self._saved, LAYOUT)
+        self.hidden = hidden
+        if not hidden:
+            for dock in [one for one in self._offered if one.isVisible()]:
+                self._raise(dock)
+            self._offered = [dock for dock in self._offered if self.folded and self._in_drawer(dock)]
+        for id in self._shown_lines:
+            self._lines[id].setVisible(not hidden)
+        self._restoring = False
+        self._refresh_row()
+        self.changed.emit()
+
+    # Saving
+
+    def state(self) -> dict[str, object]:
+        """The arrangement, for `restore`."""
+        shown = self._shown_lines if self.hidden else []
+        tools = next((dock for dock in self._all() if dock.place is PanelPlace.TOOLS), None)
+        fronts = [dock for dock in self._all() if dock.in_front] if not self.hidden else []
+        return {
+            "layout": LAYOUT,
+            "state": self._saved if self.hidden else self._main.saveState(LAYOUT),
+            "hidden": self.hidden,
+            "folded": self.folded,
+            "drawer": self._height,
+            "column": tools.width() if tools is not None else 0,
+            "fronts": [dock.windowTitle() for dock in dict.fromkeys([*self._offered, *fronts])],
+            "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
+        }
+
+    def restore(self, state: dict[str, object]) -> None:
+        """Restore an arrangement; the default stays where it is of another version or cannot be read.
+
+        Parameters
+        ----------
+        state : dict
+            From `state`, or from an older version.
+        """
+        saved = SavedLayout.read(state)
+        if saved is None:
+            return
+        self.reset()
+        QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
+        self._restoring = True
+        self._height = saved.drawer
+        if saved.docks is not None:
+            self._placed = self._main.restoreState(saved.docks, LAYOUT) or self._placed
+        for id in saved.closed:
+            if id in self._lines or id in self._docks:
+                self.close_panel(id)
+        for dock in self._all():
+            if not dock.isFloating() and self._main.dockWidgetArea(dock) == Qt.DockWidgetArea.NoDockWidgetArea:
+                self._main.addDockWidget(default_layout.area_of(dock.place), dock)
+            dock.setVisible(dock.is_open and not (saved.folded and self._in_drawer(dock)))
+        self.folded = saved.folded
+        for dock in self._all():
+            if dock.windowTitle() in saved.fronts and dock.is_open:
+                if dock.isVisible() or not self._main.isVisible():
+                    self._raise(dock)
+                elif self.folded and self._in_drawer(dock):
+                    self._offered.append(dock)
+        self._restoring = False
+        self._refresh_row()
+        self.set_hidden(saved.hidden)

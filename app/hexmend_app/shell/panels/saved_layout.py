@@ -1,0 +1,57 @@
+"""The arrangement of panels as it is saved in the settings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from PySide6.QtCore import QByteArray
+
+#: Version of the saved arrangement; of another version, the state of the docks is not read.
+LAYOUT = 8
+
+_MINIMUM_DRAWER = 60
+
+
+@dataclass(frozen=True)
+class SavedLayout:
+    """A saved arrangement.
+
+    Parameters
+    ----------
+    docks : QByteArray or None
+        State of the main window; None of another version.
+    closed : tuple of str
+        Ids of the panels that the user has closed.
+    fronts : tuple of str
+        Titles of the docks in front.
+    folded, hidden : bool
+        The drawer is closed; all panels are hidden.
+    drawer, column : int
+        Height of the drawer and width of the right column in pixels; 0 for the default width.
+    """
+
+    docks: QByteArray | None
+    closed: tuple[str, ...]
+    fronts: tuple[str, ...]
+    folded: bool
+    hidden: bool
+    drawer: int
+    column: int
+
+    @classmethod
+    def read(cls, data: Mapping[str, object]) -> SavedLayout | None:
+        """Read the settings' value, of this version or an older one; None if it is broken."""
+        try:
+            docks = data.get("state") if data["layout"] == LAYOUT else None
+            return cls(
+                docks=QByteArray(docks) if isinstance(docks, (QByteArray, bytes)) else None,
+                closed=tuple(map(str, data["closed"])),
+                fronts=tuple(map(str, data["fronts"])),
+                folded=bool(data["folded"]),
+                hidden=bool(data["hidden"]),
+                drawer=max(int(data["drawer"]), _MINIMUM_DRAWER),
+                column=int(data.get("column") or 0),
+            )
+        except (KeyError, TypeError, ValueError):
+            return None

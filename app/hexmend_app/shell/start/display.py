@@ -1,0 +1,67 @@
+"""Checks that a window can be opened: Qt and VTK would end the process if it cannot."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+
+from hexmend.errors import HexmendError
+
+#: Libraries that Qt's xcb plugin loads, and the Debian packages with them.
+_XCB = {
+    "libxcb-cursor.so.0": "libxcb-cursor0",
+    "libxcb-icccm.so.4": "libxcb-icccm4",
+    "libxcb-keysyms.so.1": "libxcb-keysyms1",
+    "libxcb-shape.so.0": "libxcb-shape0",
+    "libxkbcommon.so.0": "libxkbcommon0",
+    "libxkbcommon-x11.so.0": "libxkbcommon-x11-0",
+    "libfontconfig.so.1": "libfontconfig1",
+    "libdbus-1.so.3": "libdbus-1-3",
+    "libGL.so.1": "libgl1",
+    "libEGL.so.1": "libegl1",
+    "libglib-2.0.so.0": "libglib2.0-0",
+}
+
+
+class DisplayError(HexmendError):
+    """No window can be opened here."""
+
+
+def check_display() -> None:
+    """Raise `DisplayError` with the missing part if Qt could not open a window."""
+    if not sys.platform.startswith("linux"):
+        return
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise DisplayError(
+            "there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set). "
+            "Use `hexmend smooth` and `hexmend render`, which need none, or a virtual screen: xvfb-run hexmend."
+        )
+    missing = sorted({package for library, package in _XCB.items() if not _loads(library)})
+    if missing:
+        raise DisplayError(f"libraries of the window system are missing: run  apt-get install {' '.join(missing)}")
+    if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY") and not _answers():
+        raise DisplayError(f"the display {os.environ['DISPLAY']} does not answer. Is its server running?")
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def _answers() -> bool:
+    try:
+        xcb = ctypes.CDLL("libxcb.so.1")
+    except OSError:
+        return True  # Qt reports what is missing
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    xcb.xcb_connect.argtypes = [ctypes.c_char_p, ctypes.c_void_p]
+    xcb.xcb_connection_has_error.argtypes = [ctypes.c_void_p]
+    xcb.xcb_disconnect.argtypes = [ctypes.c_void_p]
+    connection = xcb.xcb_connect(None, None)
+    refused = bool(xcb.xcb_connection_has_error(connection))
+    xcb.xcb_disconnect(connection)
+    return not refused

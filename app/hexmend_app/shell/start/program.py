@@ -1,0 +1,107 @@
+"""Start and end of the Qt program."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+import traceback
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+os.environ.setdefault("QT_API", "pyside6")
+os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
+
+from PySide6.QtCore import QCoreApplication, QTimer
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import QApplication
+
+from hexmend.cli.process.interrupts import ENDING
+from hexmend_app.resources import demo_mesh, resource
+from hexmend_app.state.settings import settings
+from hexmend_app.state.tasks.task import running
+from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
+from hexmend_app.theme.theme_choice import apply_theme
+from hexmend_app.widgets.error_report import report_of
+
+if TYPE_CHECKING:
+    from hexmend_app.shell.window import Window
+
+log = logging.getLogger(__name__)
+
+
+def application() -> QApplication:
+    """The QApplication with its theme; it runs the garbage collector from now on."""
+    app = QApplication.instance() or QApplication(sys.argv[:1])
+    QCoreApplication.setOrganizationName("Hexmend")
+    QCoreApplication.setApplicationName("Hexmend")
+    app.setApplicationDisplayName("Hexmend")
+    app.setDesktopFileName("hexmend")
+    app.setWindowIcon(QIcon(str(resource("icon.svg"))))
+    apply_theme()
+    if app.findChild(UiThreadGC) is None:
+        UiThreadGC(app)
+    return app
+
+
+def open_window(mesh: str | None = None) -> int:
+    """Show the window, open `mesh` or the demo, and run until it is closed; return the exit status."""
+    app = application()
+    from hexmend_app.shell.start.start_report import report_start
+    from hexmend_app.shell.start.window_start import Starting
+    from hexmend_app.shell.window import Window
+
+    window = Window()
+    report_start(window)
+    report_unexpected_errors(window)
+    window.ready.connect(lambda: [feature.program_started() for feature in window.features.values()])
+    window.ready.connect(app.findChild(UiThreadGC).spare)
+    # A signal may arrive during painting: the window is closed after that.
+    signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
+    for number in ENDING:  # end at once; the autosave is offered at the next start
+        if number != signal.SIGINT and signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+    alive = QTimer()  # lets Python handle Ctrl-C
+    alive.start(250)
+    alive.timeout.connect(lambda: None)
+    window.show()
+    app.processEvents()  # show it before the slow imports
+    Starting(window, Path(mesh) if mesh else demo_mesh())
+    status = app.exec()
+    end_with_threads(status)
+    return status
+
+
+def end_with_threads(status: int) -> None:
+    """End the process if a thread cannot be ended: Python would wait for it without a window.
+
+    For example it reads from a network drive that does not answer. All data has been written before.
+    """
+    if not running():
+        return
+    log.warning("closed while threads were at work: %s", ", ".join(task.name for task in running()))
+    settings.write_all()
+    logging.shutdown()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
+    os._exit(status)
+
+
+def report_unexpected_errors(window: Window) -> None:
+    """Show exceptions of slots in the window; Qt would only print them."""
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        if issubclass(kind, KeyboardInterrupt):
+            window.close()
+            return
+        log.error("unexpected error", exc_info=(kind, error, trace))
+        place = traceback.extract_tb(trace)[-1] if trace else None
+        where = f" ({Path(place.filename).name}, line {place.lineno})" if place else ""
+        window.messages.show_error(
+            "Something went wrong inside Hexmend", f"{kind.__name__}: {error}{where}", report_of(error)
+        )
+
+    sys.excepthook = hook

@@ -1,0 +1,155 @@
+"""The window's own actions: panels, layout, command palette, keys and quitting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QPoint, Qt
+
+from hexmend_app.feature import Action, Panel, PanelPlace
+from hexmend_app.shell.keys_page import KeysPage
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.shell.palette.palette_entries import choices, commands, panels_in
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QAction
+
+    from hexmend_app.shell.menus import Menus
+    from hexmend_app.shell.panels.docks import Docks
+    from hexmend_app.state.session.session import Session
+
+
+class ActionWindow(Protocol):
+    """Window, a QMainWindow, on which these actions act."""
+
+    docks: Docks
+    menus: Menus
+    session: Session
+    window_actions: dict[str, QAction]
+
+    def refresh(self) -> None:
+        """Show the present state."""
+
+
+def own_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+    """The window's own actions, among them one for each panel.
+
+    Parameters
+    ----------
+    window : ActionWindow
+    panels : sequence of Panel
+        Of all features.
+    """
+    return [*_of_panels(window.docks, panels), *_of_layout(window.docks), *_of_program(window, panels)]
+
+
+def _of_panels(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
+    """Actions that show and close each panel."""
+    by_id = {panel.id: panel for panel in panels}
+    return [
+        Action(
+            id=f"panel_{id}",
+            text=by_id[id].title,
+            menu="View/Panels" if by_id[id].place is not PanelPlace.BELOW else "View",
+            part=0 if by_id[id].place is not PanelPlace.BELOW else 3,
+            help=by_id[id].help,
+            handle=lambda on, id=id: docks.show_panel(id) if on else docks.close_panel(id),
+            checked=lambda id=id: docks.is_open(id),
+            needs_mesh=False,
+        )
+        for id in docks.ids()
+    ]
+
+
+def _of_layout(docks: Docks) -> list[Action]:
+    """Actions for all panels together."""
+    return [
+        Action(
+            id="panels",
+            text="Show only the &view",
+            menu="View",
+            part=3,
+            keys="Ctrl+Tab",
+            icon="fullscreen",
+            help="Hide all panels, or show them again (Tab in the view).",
+            handle=lambda on: docks.set_hidden(on),
+            checked=lambda: docks.hidden,
+            needs_mesh=False,
+            in_view=True,
+        ),
+        Action(
+            id="drawer",
+            text="Panels &below the view",
+            menu="View",
+            part=3,
+            keys="Ctrl+B",
+            icon="dock-bottom",
+            help="Open or close the drawer below the view.",
+            handle=lambda on: docks.set_folded(not on),
+            checked=lambda: not docks.folded and not docks.hidden,
+            needs_mesh=False,
+        ),
+        Action(
+            id="reset_layout",
+            text="&Reset layout",
+            menu="View/Panels",
+            part=9,
+            icon="dock-window",
+            help="Dock and open every panel in its default place.",
+            handle=docks.reset,
+            needs_mesh=False,
+        ),
+    ]
+
+
+def _of_program(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+    """Command palette, keys and quitting."""
+    return [
+        Action(
+            id="commands",
+            text="&Commands…",
+            menu="Help",
+            keys="Ctrl+Shift+P",
+            icon="magnify",
+            help="Find a command, panel, method, metric or setting by name.",
+            needs_mesh=False,
+            handle=lambda: _show_palette(window, panels),
+        ),
+        Action(
+            id="keys",
+            text="&Mouse and keys",
+            menu="Help",
+            keys="F1",
+            icon="mouse",
+            help="List mouse controls of the view and all keys.",
+            needs_mesh=False,
+            handle=lambda: _show_keys(window),
+        ),
+        Action(
+            id="quit",
+            text="&Quit",
+            menu="File",
+            part=9,
+            keys="Ctrl+Q",
+            help="Close the window.",
+            needs_mesh=False,
+            handle=window.close,
+        ),
+    ]
+
+
+def _show_palette(window: ActionWindow, panels: Sequence[Panel]) -> None:
+    window.refresh()
+    others = {id: action for id, action in window.window_actions.items() if id != "commands"}
+    entries = [*commands(others), *panels_in(window.docks, panels), *choices(window.session)]
+    palette = CommandPalette(entries, window)
+    palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    palette.move(window.mapToGlobal(QPoint((window.width() - palette.width()) // 2, 60)))
+    palette.open()
+
+
+def _show_keys(window: ActionWindow) -> None:
+    page = KeysPage(window.menus.declared(), window)
+    page.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    page.show()

@@ -1,0 +1,1 @@
+"""The open mesh, its history and what is measured of it."""

@@ -1,0 +1,84 @@
+"""The element and the node that are looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from hexmend_app.state.mesh.document import Document
+
+
+@dataclass(frozen=True)
+class SelectionData:
+    """Data of the selection in a session file."""
+
+    hex: int | None
+    node: int | None
+
+    def check(self, hexes: int, nodes: int) -> None:
+        """Raise `ValueError` unless a mesh of so many hexes and nodes has them."""
+        if not (0 <= (self.hex or 0) < hexes and 0 <= (self.node or 0) < nodes):
+            raise ValueError(f"hex {self.hex} or node {self.node} is chosen, which the mesh has not")
+
+
+class Selection(QObject):
+    """One element of the open mesh and one of its nodes, or none.
+
+    Numbers that the open mesh does not have select nothing: a list that still shows the mesh before may name them.
+
+    Parameters
+    ----------
+    document : Document
+
+    Signals
+    -------
+    changed
+    visited(hexes)
+        A hex, or several together, are to be brought before the camera; a tuple of int.
+
+    Attributes
+    ----------
+    hex, node : int or None
+    listing : callable
+        Gives the worst hexes as they are listed, (k,) int, the worst first; whoever lists them sets it.
+    """
+
+    changed = Signal()
+    visited = Signal(object)
+
+    def __init__(self, document: Document, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
+        self.hex: int | None = None
+        self.node: int | None = None
+        self.listing: Callable[[], np.ndarray] = lambda: np.empty(0, np.int64)
+
+    def choose(self, hex: int | None, node: int | None = None) -> None:
+        """Look at another element and node, or at none; says nothing where nothing changes."""
+        if not self._document.has_hex(hex):
+            hex = node = None
+        if not self._document.has_node(node):
+            node = None
+        if (hex, node) != (self.hex, self.node):
+            self.hex, self.node = hex, node
+            self.changed.emit()
+
+    def to_data(self) -> SelectionData:
+        """Return the data for a session file."""
+        return SelectionData(self.hex, self.node)
+
+    def restore(self, data: SelectionData) -> None:
+        """Look at what a session has kept."""
+        self.choose(data.hex, data.node)
+
+    def visit(self, *hexes: int) -> None:
+        """Bring a hex, or several together, before the camera; one alone is looked at too."""
+        hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
+        if not hexes:
+            return
+        if len(hexes) == 1:
+            self.choose(hexes[0], self.node if hexes[0] == self.hex else None)
+        self.visited.emit(hexes)

@@ -1,0 +1,1 @@
+"""Runs: set-up, worker thread, comparison and timeline."""

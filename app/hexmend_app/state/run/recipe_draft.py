@@ -1,0 +1,83 @@
+"""The recipe that is put together: methods to be run one after another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.run.recipe import Recipe, Stage
+
+
+@dataclass(frozen=True)
+class RecipeDraftData:
+    """Data of the recipe in a session file."""
+
+    title: str
+    stages: tuple[Stage, ...]
+
+
+class RecipeDraft(QObject):
+    """Stages in order, with a title; unlike a `Recipe` it may be empty.
+
+    Attributes
+    ----------
+    title : str
+        "" where it is that of the methods.
+    stages : tuple of Stage
+
+    Signals
+    -------
+    changed
+    """
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self.title = ""
+        self.stages: tuple[Stage, ...] = ()
+
+    @property
+    def recipe(self) -> Recipe | None:
+        """Recipe that can be run and saved; None while there is no stage."""
+        return Recipe.of(*self.stages, title=self.title) if self.stages else None
+
+    def to_data(self) -> RecipeDraftData:
+        """Return the data for a session file."""
+        return RecipeDraftData(self.title, self.stages)
+
+    def restore(self, data: RecipeDraftData) -> None:
+        """Go on with what a session has kept."""
+        self._set(data.stages, data.title)
+
+    def take(self, recipe: Recipe) -> None:
+        """Go on with this recipe."""
+        own = Recipe.of(*recipe.stages).title
+        self._set(recipe.stages, "" if recipe.title == own else recipe.title)
+
+    def rename(self, title: str) -> None:
+        """Give it another title."""
+        self._set(self.stages, title.strip())
+
+    def add(self, stage: Stage) -> None:
+        """Add a stage at the end."""
+        self._set((*self.stages, stage))
+
+    def replace(self, at: int, stage: Stage) -> None:
+        """Let a stage be another."""
+        self._set((*self.stages[:at], stage, *self.stages[at + 1 :]))
+
+    def remove(self, at: int) -> None:
+        """Take a stage out."""
+        self._set((*self.stages[:at], *self.stages[at + 1 :]))
+
+    def move(self, at: int, to: int) -> None:
+        """Put a stage at another place."""
+        others = [*self.stages[:at], *self.stages[at + 1 :]]
+        self._set((*others[:to], self.stages[at], *others[to:]))
+
+    def _set(self, stages: tuple[Stage, ...], title: str | None = None) -> None:
+        self.stages = stages
+        self.title = self.title if title is None else title
+        self.changed.emit()

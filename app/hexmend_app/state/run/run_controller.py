@@ -1,0 +1,261 @@
+"""Smoothing as the window sees it: run, pause, step, stop, and the newest iteration thirty times a second."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from enum import Enum
+from functools import partial
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from hexmend.advice import Advice
+from hexmend.run import StoppingCriteria
+from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import Recipe, Stage
+from hexmend.smoothers import Smoother
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
+from hexmend_app.state.run.worker import IterationFrame, Worker
+
+#: Milliseconds between two looks into the mailbox.
+_PERIOD = 33
+
+
+class Phase(Enum):
+    """Phase of a run."""
+
+    IDLE = "idle"
+    PREPARING = "preparing"
+    STOPPING = "stopping"
+    RUNNING = "running"
+    PAUSED = "paused"
+    FINISHED = "finished"
+
+
+class RunController(QObject):
+    """Runs smoothers on the document's mesh in a worker thread.
+
+    Attributes
+    ----------
+    phase : Phase
+    work : Smoother, Recipe or None
+        What the run does that goes on or went on last.
+    record : Record or None
+        The history's of the run that goes on or went on last.
+    advice : Advice or None
+        Why the run that went on last ended, and what to do.
+    following : bool
+        Whether iterations are shown as they come; the user may look at earlier ones meanwhile.
+    iterating : bool
+        The signals that are being sent are about a new iteration, and nothing else.
+
+    Signals
+    -------
+    phase_changed
+    iterated(Frame)
+        The newest iteration; those between two looks are not shown, but in the history.
+    hit(Frame)
+        The run has reached a break-point and pauses.
+    ended(Result)
+        The run is over, and the document holds its last iteration as one change.
+    failed(Exception)
+        The method raised; the document is as it was before the run.
+    """
+
+    phase_changed = Signal()
+    iterated = Signal(object)
+    hit = Signal(object)
+    ended = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, document: Document, history: History, parent: QObject | None = None):
+        super().__init__(parent)
+        self._document = document
+        self._history = history
+        self._before: State | None = None
+        self.iterating = False
+        self._worker: Worker | None = None
+        self._title = ""
+        self._after: list[Callable[[], object]] = []  # what is done once the run has ended
+        self._metrics: frozenset[str] = frozenset()
+        self._breakpoints = Breakpoints()
+        self.work: Smoother | Recipe | None = None
+        self.record: RunRecord | None = None
+        self.advice: Advice | None = None
+        self.following = True
+        self.phase = Phase.IDLE
+        self._timer = QTimer(self)
+        self._timer.setInterval(_PERIOD)
+        self._timer.timeout.connect(self._look)
+        document.mesh_replaced.connect(self._on_another)
+
+    @property
+    def busy(self) -> bool:
+        """True while a run is active, paused or not."""
+        return self._worker is not None
+
+    def start(self, smoother: Smoother | Recipe, stop: StoppingCriteria | None, iterations: float = math.inf) -> None:
+        """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
+        if self.busy or not self._document.is_open:
+            return
+        self._before = self._document.now
+        self.work, self._title = smoother, smoother.title
+        self.record = self._history.begin(smoother.title, self._before)
+        self.following = True
+        self._worker = Worker(self._before.mesh, smoother, stop, partial(self._history.add, self.record))
+        self.record.work, self.record.stop, self.record.changes = smoother, stop, self._worker.changes
+        self._worker.metrics, self._worker.breakpoints = self._metrics, self._breakpoints
+        self._worker.grant(iterations)
+        self._set_phase(Phase.PREPARING)
+        self._worker.task.start()
+        self._timer.start()
+
+    def want(self, metrics: Iterable[str]) -> None:
+        """Have the worker measure these metrics of every iteration, so that the window need not."""
+        self._metrics = frozenset(metrics)
+        if self._worker is not None:
+            self._worker.metrics = self._metrics
+
+    def break_at(self, breakpoints: Breakpoints) -> None:
+        """Pause at these from now on."""
+        self._breakpoints = breakpoints
+        if self._worker is not None:
+            self._worker.breakpoints = breakpoints
+
+    @property
+    def breakpoints(self) -> Breakpoints:
+        """Events at which runs pause."""
+        return self._breakpoints
+
+    def follow(self, on: bool) -> None:
+        """Show iterations as they come, beginning with the newest, or stay where the user looks."""
+        self.following = on
+        if on and self._worker is not None and self._worker.last is not None:
+            self._preview(self._worker.last)
+
+    def pause(self) -> None:
+        """Pause after the iteration at hand."""
+        if self._worker is not None:
+            self._worker.grant(0)
+
+    def resume(self) -> None:
+        """Go on, and show it."""
+        if self._worker is not None:
+            self.following = True
+            self._worker.grant(math.inf)
+            self._look()
+
+    def step(self, iterations: int = 1) -> None:
+        """Make so many more iterations, show them, and pause."""
+        if self._worker is not None:
+            self.following = True
+            self._worker.grant_more(iterations)
+            self._look()
+
+    def change(self, stage: Stage) -> None:
+        """Do the rest of the stage at hand by another method, with other values or other limits."""
+        if self._worker is not None:
+            self._worker.change(stage)
+            if isinstance(self.work, Recipe):
+                at = self.record.rows[-1]["stage"] - 1
+                stages = (*self.work.stages[:at], stage, *self.work.stages[at + 1 :])
+                self.work = Recipe.of(*stages, title=self.work.title)
+
+    def stop(self) -> None:
+        """End the run after the iteration at hand, or once it is prepared; what was reached stays."""
+        if self._worker is not None:
+            self._worker.end()
+            if self.phase is Phase.PREPARING:
+                self._set_phase(Phase.STOPPING)
+
+    def end(self, then: Callable[[], object]) -> None:
+        """End the run after the iteration at hand, record what was reached, and do something then.
+
+        Where no run is under way it is done at once; several are done in the order in which they were asked for.
+        """
+        if self._worker is None:
+            then()
+            return
+        self._after.append(then)
+        self._worker.end()
+        self._set_phase(Phase.STOPPING)
+
+    def _on_another(self) -> None:
+        """Forget the run on the mesh that was open, and what was begun while the other was read."""
+        self.shut_down()
+        self.work = self.record = self.advice = None
+        self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # others would be meant
+        self._set_phase(Phase.IDLE)
+
+    def shut_down(self) -> None:
+        """Ask the run to end after the iteration at hand; nothing of it is shown or recorded any more."""
+        self._timer.stop()
+        self._after.clear()
+        if self._worker is not None:
+            self._worker.end()
+            self._worker.task.drop()
+            self._worker = None
+            self._history.finish(self.record, None, None, "")
+            self._set_phase(Phase.IDLE)
+
+    def _look(self) -> None:
+        worker = self._worker
+        if worker is None:
+            return
+        over, waits = worker.task.over, worker.waiting  # before the mailbox is emptied
+        frame = worker.mailbox.take()
+        if frame is not None and not over:
+            self.iterating = self.phase is Phase.RUNNING and frame.hit is None
+            self._show(frame)
+            self.iterating = False
+        if over:
+            self._finish(worker)
+        elif worker.prepared.is_set() and self.phase is not Phase.STOPPING:
+            self._set_phase(Phase.PAUSED if waits else Phase.RUNNING)
+
+    def _show(self, frame: IterationFrame) -> None:
+        if frame.hit is not None:
+            self.record.pauses[frame.iteration.number] = frame.hit.sentence
+            self.following = True
+        if self.following:
+            self._preview(frame)
+        self.iterated.emit(frame)
+        if frame.hit is not None:
+            self.hit.emit(frame)
+
+    def _preview(self, frame: IterationFrame) -> None:
+        self._history.note(frame.state, RecordedIteration(self.record, frame.iteration.number))
+        self._document.preview(frame.state)
+
+    def _finish(self, worker: Worker) -> None:
+        self._timer.stop()
+        worker.task.wait()
+        self._worker = None
+        error, last = worker.task.error, worker.last  # the last good iteration
+        reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
+        message = worker.task.result.message if error is None else f"Failed: {error}."
+        self._history.finish(self.record, reached, last and last.state, message)
+        if error is not None:
+            if last is None:
+                self._document.preview(self._before)
+            else:
+                self._document.commit(self._title, last.state)
+            self._set_phase(Phase.IDLE)
+            self.failed.emit(error)
+        else:
+            if last is not None:
+                self._document.commit(self._title, last.state, show=self.following)
+                self.iterated.emit(last)
+            self.advice = self.record.advice = worker.advice
+            self._set_phase(Phase.FINISHED)
+            self.ended.emit(worker.task.result)
+        after, self._after = self._after, []
+        for act in after:
+            act()
+
+    def _set_phase(self, phase: Phase) -> None:
+        if phase is not self.phase:
+            self.phase = phase
+            self.phase_changed.emit()

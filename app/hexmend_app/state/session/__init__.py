@@ -1,0 +1,1 @@
+"""The state of one window, its file and its recovery."""

@@ -1,0 +1,242 @@
+"""A session as a file: what its parts keep, put together, written, and read again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from hexmend.advice import Advice
+from hexmend.aliases import former_attributes
+from hexmend.errors import FileError, MeshError
+from hexmend.io.formats.session import SUFFIX, is_session
+from hexmend.io.formats.session.session_file import SessionFolder, read_session, write_session
+from hexmend.io.storage.atomic import atomic_write
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import from_values
+from hexmend.quality import measure, summarise
+from hexmend.run.breakpoints import Breakpoints
+from hexmend.run.recipe import migrate_surface_tolerance
+from hexmend.smoothers import METHODS, Smoother
+from hexmend_app.codec import config_table
+from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter, since
+from hexmend_app.picture.camera_pose import CameraPose
+from hexmend_app.picture.named_cameras import NamedCameras
+from hexmend_app.state.mesh.document import DocumentData, State
+from hexmend_app.state.mesh.history import HistoryData
+from hexmend_app.state.mesh.run_record import NodeOffsets
+from hexmend_app.state.mesh.selection import SelectionData
+from hexmend_app.state.mesh.snapshots import Snapshot
+from hexmend_app.state.run.comparison import ComparisonData
+from hexmend_app.state.run.recipe_draft import RecipeDraftData
+from hexmend_app.state.run.run_setup import RunSetupData
+from hexmend_app.state.run.timeline import TimelineData
+from hexmend_app.state.view.camera_request import PoseHistoryData
+from hexmend_app.state.view.panel_settings import PanelSettingsData
+from hexmend_app.state.view.side_views import SideViewsData
+from hexmend_app.state.view.view_model import ViewData
+
+#: First bytes of a session file.
+_HEAD = 64
+#: What fields are called in files from before they were renamed.
+_FORMER = {kind: {now: old for old, now in former_attributes(kind).items()} for kind in (Advice, Breakpoints)}
+_FORMER[Advice]["limiting"] = "holding"
+_FORMER[NodeOffsets] = {"displacements": "ways"}
+_FORMER[RunSetupData] = {"reason": "why"}
+#: The last version in which a surface tolerance of 0 meant that there is no limit.
+_ZERO_FOR_NO_LIMIT = 3
+
+
+@dataclass(frozen=True, eq=False)
+class SessionData:
+    """Everything that a session keeps, part by part; each part gives its own and takes it again."""
+
+    document: DocumentData
+    history: HistoryData
+    timeline: TimelineData
+    view: ViewData
+    selection: SelectionData
+    snapshots: tuple[Snapshot, ...]
+    side_views: SideViewsData
+    comparison: ComparisonData
+    run_setup: RunSetupData
+    recipe_draft: RecipeDraftData
+    breakpoints: Breakpoints
+    camera: CameraPose | None
+    pose_history: PoseHistoryData = field(default=PoseHistoryData(), metadata=since(2))
+    panel_settings: PanelSettingsData = field(default=PanelSettingsData(), metadata=since(2))
+    cameras: NamedCameras = field(default=NamedCameras(), metadata=since(3))
+
+    def __post_init__(self) -> None:
+        mesh = self.document.now.mesh
+        hexes, nodes = mesh.n_hexes, mesh.n_nodes
+        for state in self._compared():
+            if state.mesh.hexes is not mesh.hexes:
+                raise ValueError("it compares the mesh with states of another")
+        self.view.check(hexes)
+        self.selection.check(hexes, nodes)
+        for one in self.snapshots:
+            one.check(hexes, nodes)
+        for number, count in ((self.breakpoints.hex, hexes), (self.breakpoints.node, nodes)):
+            if not 0 <= (number or 0) < count:
+                raise ValueError(f"a run is to pause at {number}, of which there are {count}")
+        if not 0 <= (self.timeline.record or 0) < max(len(self.history.records), self.timeline.record is None):
+            raise ValueError(f"there is no run {self.timeline.record}")
+
+    def states(self) -> Iterator[State]:
+        """Every state of the mesh that is kept whole: what is shown first, then what was opened."""
+        yield self.document.now
+        yield from (one.state for one in self.document.changes)
+        yield from self._compared()
+
+    def _compared(self) -> Iterator[State]:
+        """List the states that must have the hexes of the open mesh."""
+        yield from (one.state for one in self.side_views.shown)
+        yield from (record.start for record in self.history.records)
+        yield from (record.end for record in self.history.records if record.end is not None)
+        yield from (one.state for one in self.comparison.results if one.state is not None)
+        if self.comparison.initial is not None:
+            yield self.comparison.initial
+
+
+_FORMER[SessionData] = {
+    "camera": "eye",
+    "panel_settings": "choices",
+    "pose_history": "journey",
+    "recipe_draft": "chain",
+    "run_setup": "order",
+    "side_views": "views",
+    "snapshots": "kept",
+}
+
+
+def is_session_file(path: Path) -> bool:
+    """Return True if a file is a session by its name, or else by its first bytes."""
+    if path.suffix.lower() == SUFFIX:
+        return True
+    try:
+        with open(path, "rb") as file:
+            return is_session(file.read(_HEAD))
+    except (OSError, ValueError):  # whoever reads it says why it cannot be read
+        return False
+
+
+def write(path: Path, data: SessionData) -> None:
+    """Write a session as a whole or, where that fails, leave what was there.
+
+    Raises
+    ------
+    FileError
+        Where the place cannot be written to.
+    """
+    with atomic_write(path) as temporary:
+        write_session(temporary, *_stored(data))
+
+
+def keep(kept: SessionFolder, data: SessionData) -> None:
+    """Write what is new of a session.
+
+    Raises
+    ------
+    FileError
+        Where the place cannot be written to.
+    """
+    kept.write(*_stored(data))
+
+
+def _stored(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
+    """The meshes of a session, which of them is shown, and all that the window keeps beside them."""
+    numbers: dict[Mesh, int] = {}
+    window = _simple(numbers).encode(data, SessionData)
+    now = _number(numbers, data.document.now.mesh)
+    return tuple(numbers), now, window
+
+
+def numbered(data: SessionData) -> dict[State, int]:
+    """Number the meshes of the states of a document, its runs and its comparison, as in the file."""
+    numbers: dict[Mesh, int] = {}
+    _simple(numbers).encode(data, SessionData)
+    states = [data.document.now, *(change.state for change in data.document.changes)]
+    for record in data.history.records:
+        states += [record.start, record.end]
+    states += [data.comparison.initial, *(one.state for one in data.side_views.shown)]
+    return {state: numbers[state.mesh] for state in states if state is not None}
+
+
+def _simple(numbers: dict[Mesh, int]) -> Codec:
+    """Make the codec that writes a session; meshes become numbers, in the order in which they occur."""
+    return Codec({
+        Mesh: TypeAdapter(partial(_number, numbers), _none),
+        State: TypeAdapter(lambda state: _number(numbers, state.mesh), _none),
+        Smoother: TypeAdapter(_smoother_data, _none),
+        NamedCameras: TypeAdapter(config_table.encode, _none),
+    })  # fmt: skip
+
+
+def _number(numbers: dict[Mesh, int], mesh: Mesh) -> int:
+    return numbers.setdefault(mesh, len(numbers))
+
+
+def read(path: Path) -> SessionData:
+    """Read a session; every mesh in it is measured.
+
+    Raises
+    ------
+    FileError
+        Where it is none, is damaged or newer, or its parts do not fit together.
+    """
+    stored = read_session(path)
+    states = _States(stored.meshes)
+    codec = Codec({
+        Mesh: TypeAdapter(_none, lambda at: states(at).mesh),
+        State: TypeAdapter(_none, states),
+        Smoother: TypeAdapter(_none, _smoother),
+        NamedCameras: TypeAdapter(_none, lambda data: config_table.decode(NamedCameras, data, ("cameras",))),
+    }, stored.version, _FORMER)  # fmt: skip
+    try:
+        window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else migrate_surface_tolerance(stored.window)
+        data = codec.decode(window, SessionData, "the window")
+        data.history.check()
+        return data
+    except (DecodeError, MeshError, ValueError) as error:
+        raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
+
+
+class _States:
+    """States of some meshes by number, each made once; the same places of the same hexes are measured once."""
+
+    def __init__(self, meshes: tuple[Mesh, ...]):
+        self._meshes = meshes
+        self._states: dict[int, State] = {}
+        self._figures: dict[tuple[int, int], Any] = {}
+
+    def __call__(self, at: Any) -> State:
+        if type(at) is not int or not 0 <= at < len(self._meshes):
+            raise DecodeError(f"there is no mesh {str(at)[:20]}")
+        if at not in self._states:
+            mesh = self._meshes[at]
+            key = id(mesh.points), id(mesh.hexes)
+            if key not in self._figures:
+                self._figures[key] = measure(mesh.points, mesh.hexes)
+            self._states[at] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
+        return self._states[at]
+
+
+def _smoother_data(smoother: Smoother) -> dict[str, Any]:
+    return {"method": smoother.name, "parameters": smoother.values()}
+
+
+def _smoother(data: Any) -> Smoother:
+    if not isinstance(data, dict) or data.keys() != {"method", "parameters"}:
+        raise DecodeError("a method is no table of its name and its parameters")
+    name, parameters = str(data["method"]), data["parameters"]
+    if not isinstance(parameters, dict):
+        raise DecodeError(f"the parameters of {name} are no table")
+    return from_values(METHODS[name], parameters, owner=name)
+
+
+def _none(_: Any) -> None:
+    """The way that is not gone."""
+    raise NotImplementedError

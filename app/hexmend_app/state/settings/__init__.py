@@ -1,0 +1,1 @@
+"""Settings kept from one start to the next."""

@@ -1,0 +1,1 @@
+"""View settings of the window."""

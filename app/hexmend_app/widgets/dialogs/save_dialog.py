@@ -1,0 +1,76 @@
+"""Base of dialogs that edit the settings and the path of a file."""
+
+from __future__ import annotations
+
+import re
+
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QPushButton, QVBoxLayout, QWidget
+
+from hexmend.errors import FileError, ParameterError
+from hexmend_app.theme.style import WORSE, note
+from hexmend_app.widgets.inputs.target_row import TargetRow
+
+
+class SaveDialog(QDialog):
+    """A path below what others edit; it closes once that can be written, and says why not.
+
+    Parameters
+    ----------
+    what : str
+        What is saved, such as "the picture".
+    name : str
+        The file name proposed.
+    kinds : str
+        Kinds of file, as Qt's dialogs take them.
+
+    Attributes
+    ----------
+    suffixes : list of str
+        Of these kinds.
+    """
+
+    def __init__(self, subject: str, name: str, kinds: str, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setWindowTitle(f"Save {subject}")
+        self._subject = subject
+        self.suffixes = re.findall(r"\*(\.\w+)", kinds)
+        self.target = TargetRow(f"Save {subject} as", name, kinds, f"Where {subject} goes: {', '.join(self.suffixes)}.")
+        self.target.edited.connect(lambda: self.refuse(""))
+        self._problem = note("", WORSE)
+        self._problem.setAccessibleName("What is wrong")
+
+    def lay_out_below(self, upper: QLayout, *others: QPushButton) -> None:
+        """Put the path, what is wrong and the buttons, with others on their left, below what is edited."""
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
+        for other in others:
+            buttons.addButton(other, QDialogButtonBox.ButtonRole.ResetRole)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addLayout(upper, 1)
+        layout.addWidget(self.target)
+        layout.addWidget(self._problem)
+        layout.addWidget(buttons)
+        self.refuse("")
+
+    def check(self) -> None:
+        """Raise `FileError` or `ParameterError` if the settings cannot be written to the path."""
+        raise NotImplementedError
+
+    def accept(self) -> None:
+        """Close if the file can be written, else show the problem."""
+        if self.target.empty:
+            self.refuse(f"Name the file that {self._subject} goes to.")
+            return
+        try:
+            self.check()
+        except (FileError, ParameterError) as error:
+            self.refuse(str(error))
+            return
+        if self.target.committed():
+            super().accept()
+
+    def refuse(self, problem: str) -> None:
+        """Show a problem; "" hides it."""
+        self._problem.setText(problem)
+        self._problem.setVisible(bool(problem))

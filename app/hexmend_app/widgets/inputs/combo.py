@@ -1,0 +1,11 @@
+"""Combo boxes in narrow panels."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QComboBox
+
+
+def let_shrink(combo: QComboBox, letters: int) -> None:
+    """Set the minimum width of a combo box in letters, whatever its entries."""
+    combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+    combo.setMinimumContentsLength(letters)

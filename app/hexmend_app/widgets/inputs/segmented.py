@@ -1,0 +1,89 @@
+"""A row of joined buttons of which one is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFontMetrics
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QPushButton, QSizePolicy, QWidget
+
+from hexmend_app.theme.palette import BLUE, CHOSEN, FAINT, FIELD, HOVER, LINE, ON_CHOSEN, TEXT
+from hexmend_app.theme.style import on_theme_change, set_help, smaller
+
+
+def _stop_at_checked(button: QAbstractButton, checked: bool) -> None:
+    """Let Tab come to the chosen one alone; Qt leaves it at whichever the focus comes to first, from either side."""
+    button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if checked else Qt.FocusPolicy.ClickFocus)
+
+
+def _sheet() -> str:
+    return f"""
+QPushButton {{ border: 1px solid {LINE}; border-right-width: 0; background: {FIELD}; color: {TEXT}; padding: 3px 6px; }}
+QPushButton[place="first"] {{ border-top-left-radius: 4px; border-bottom-left-radius: 4px; }}
+QPushButton[place="last"] {{ border-right-width: 1px; border-top-right-radius: 4px; border-bottom-right-radius: 4px; }}
+QPushButton:hover {{ background: {HOVER}; }}
+QPushButton:checked {{ background: {CHOSEN}; color: {ON_CHOSEN}; font-weight: 600; }}
+QPushButton:disabled {{ color: {FAINT}; }}
+QPushButton:focus {{ border: 1px solid {BLUE}; outline: none; }}
+"""
+
+
+class Segmented(QWidget):
+    """Chooses one of a few words that are all in sight; arrow keys walk through them.
+
+    Parameters
+    ----------
+    name : str
+        Accessible name of the whole.
+    options : iterable of (key, text, help)
+
+    Signals
+    -------
+    chosen(key)
+        The user chose.
+    """
+
+    chosen = Signal(str)
+
+    def __init__(self, name: str, options: Iterable[tuple[str, str, str]], parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setAccessibleName(name)
+        on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self._group = QButtonGroup(self)
+        self._buttons: dict[str, QPushButton] = {}
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        options = list(options)
+        for at, (key, text, help) in enumerate(options):
+            button = QPushButton(text)
+            button.setCheckable(True)
+            button.setProperty("place", "first" if at == 0 else "last" if at == len(options) - 1 else "")
+            set_help(button, f"{name}: {text}", help)
+            button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))
+            # The chosen one is bold; its width must not depend on that.
+            button.setFont(smaller(button.font()))
+            font = button.font()
+            font.setBold(True)
+            button.setMinimumWidth(QFontMetrics(font).horizontalAdvance(text) + 12)
+            self._group.addButton(button)
+            self._buttons[key] = button
+            layout.addWidget(button)
+        self._group.buttonToggled.connect(_stop_at_checked)
+        for button in self._buttons.values():
+            _stop_at_checked(button, False)
+        self.set_value(options[0][0])
+
+    def value(self) -> str:
+        """Key of the chosen option."""
+        return next(key for key, button in self._buttons.items() if button.isChecked())
+
+    def set_value(self, key: str) -> None:
+        """Show a choice, without a signal."""
+        self._buttons[key].setChecked(True)
+
+    def button(self, key: str) -> QPushButton:
+        """The button of an option."""
+        return self._buttons[key]

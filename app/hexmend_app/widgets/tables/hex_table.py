@@ -1,0 +1,36 @@
+"""Look and keyboard navigation of tables of elements."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableView
+
+from hexmend_app.theme.style import PANEL, on_theme_change, tabular
+
+
+def shape_table(table: QTableView, name: str, stretched: int) -> None:
+    """Let one row at a time be chosen, without grid and row numbers, and one column take the room that is left.
+
+    Parameters
+    ----------
+    table : QTableView
+        With its columns known.
+    name : str
+        Accessible name.
+    stretched : int
+    """
+    table.setFont(tabular(table.font()))
+    table.setAccessibleName(name)
+    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+    table.setShowGrid(False)
+    table.setAlternatingRowColors(True)
+    table.setTabKeyNavigation(False)
+    table.setWordWrap(False)
+    table.verticalHeader().hide()
+    table.verticalHeader().setDefaultSectionSize(table.fontMetrics().height() + 5)
+    header = table.horizontalHeader()
+    header.setHighlightSections(False)
+    header.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+    header.setSectionResizeMode(stretched, QHeaderView.ResizeMode.Stretch)
+    sheet = "QHeaderView::section {{ background: {0}; padding: 2px 4px; border: none; }}"
+    on_theme_change(header, lambda: header.setStyleSheet(sheet.format(PANEL)))

@@ -1,0 +1,115 @@
+"""Third stage of mend: the least scaled Jacobian is raised, one group of corners after another.
+
+`MaxMinOptimiser` ends where some corners let the least rise no further. They are frozen, and the corners above them are
+raised in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexmend.iteration import ActiveSet, Step
+from hexmend.optimise.maxmin.slp import ActiveCorners, MaxMinOptimiser
+from hexmend.optimise.maxmin.slp_config import SLP
+
+
+@dataclass(frozen=True)
+class MaxMinConfig:
+    """Settings of the stage and of the return to the surface; scaled Jacobians are in [-1, 1].
+
+    Parameters
+    ----------
+    barrier_safe : float
+        Least scaled Jacobian above which the energy's barrier can be used.
+    acceptable : float
+        Least scaled Jacobian below which nodes of the boundary leave the surface, and groups are frozen.
+    programs_per_iteration : int
+        Number of linear programs per iteration of the run.
+    max_groups, max_groups_off_surface : int
+        Groups of corners that are raised one after another, at most; the second while nodes leave the surface.
+    surface_share : float
+        Share of the surface tolerance that the boundary uses while nodes slide.
+    off_surface_limit : float
+        Initial limit on the distance of released nodes from the surface, in mean edge lengths.
+    off_surface_factor : float
+        Multiple of `acceptable` at which the phase off the surface ends; the return to the band loses part of it.
+    """
+
+    barrier_safe: float = 0.02
+    acceptable: float = SLP.acceptable
+    programs_per_iteration: int = 3
+    max_groups: int = 10
+    max_groups_off_surface: int = 30
+    surface_share: float = 1 / 3
+    off_surface_limit: float = 1.5
+    off_surface_factor: float = 1.2
+
+
+MAXMIN = MaxMinConfig()
+
+
+def maximise_minimum(
+    optimiser: MaxMinOptimiser,
+    target: float = np.inf,
+    release_below: float = -np.inf,
+    groups: int = 1,
+    infeasible: bool = False,
+    config: MaxMinConfig = MAXMIN,
+) -> Generator[Step, None, ActiveCorners]:
+    """Raise the least scaled Jacobian of the corners that can be moved.
+
+    Parameters
+    ----------
+    optimiser : MaxMinOptimiser
+    target : float
+        Ends where the least has reached it; groups below it are frozen, and the corners above them raised further.
+    release_below : float
+        Where a group is stuck below it, nodes of the boundary leave the surface, if any can, before it is frozen.
+    groups : int
+        Groups that are raised, at most.
+    infeasible : bool
+        Of the steps: see `Step`.
+    config : MaxMinConfig
+
+    Yields
+    ------
+    Step
+        The initial points, then the first accepted step and every `config.programs_per_iteration`-th after it.
+
+    Returns
+    -------
+    ActiveCorners
+        The first group that was stuck: it limits the least of all.
+    """
+    first = None
+    yield Step(optimiser.points, {"least": optimiser.corners.active_minimum}, intermediate=True, infeasible=infeasible)
+    while True:
+        for number, step in enumerate(optimiser.steps(target)):
+            active = step if isinstance(step, ActiveCorners) else None
+            if active is None and number % config.programs_per_iteration == 0:
+                yield step.step(infeasible)
+        if not active.hexes.size or active.least >= target:
+            break
+        if active.least < release_below and optimiser.release(active):
+            continue
+        first = first or active
+        groups -= 1
+        if active.least >= config.acceptable or not groups:
+            break
+        optimiser.freeze(active)
+    return first or active
+
+
+def active_set(optimiser: MaxMinOptimiser, active: ActiveCorners) -> ActiveSet:
+    """Corners that let the least rise no further, and hexes with corners that are locked below them."""
+    nodes = optimiser.mesh.hexes[active.hexes, active.corners].astype(np.int64)
+    locked = locked_below(optimiser, active) // 8
+    return ActiveSet(active.hexes, nodes, np.array(list(dict.fromkeys(locked.tolist())), dtype=np.int64))
+
+
+def locked_below(optimiser: MaxMinOptimiser, active: ActiveCorners) -> np.ndarray:
+    """Corners, 8 * hex + corner, that fixed nodes lock below the least, the lowest first; none without active ones."""
+    return optimiser.corners.locked_below(active.least if active.hexes.size else -np.inf)

@@ -1,0 +1,71 @@
+#include "bindings/arrays.hpp"
+#include "boundary/closest_point.hpp"
+#include "smoothers/sliding.hpp"
+
+namespace hexmend {
+
+void bind_closest_point(nb::module_ m) {
+    m.doc() =
+        "The closest point of a surface, by a tree of bounding boxes for each of its curves and patches.\n\n"
+        "A piece, a row of pieces (k, 3) int32, is a triangle (a, b, c) of points (n, 3), or a segment (a, b, b).";
+    nb::class_<BoxTrees>(m, "BoxTrees", "Trees over pieces.")
+        .def(
+            "__init__",
+            [](BoxTrees *self, Points points, std::span<const Piece> pieces, std::span<const Box> boxes,
+               std::span<const TreeLink> links) {
+                expect(links.size() == boxes.size(), "links: one for each of the boxes is expected");
+                new (self) BoxTrees{points, pieces, boxes, links};
+            },
+            "points"_a, "pieces"_a, "boxes"_a, "links"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "pieces (k, 3) int32 are in the order that `build_trees` returns, with its boxes (b, 6) float64 and\n"
+            "links (b, 2) int32. Arrays are not copied.");
+    m.def("build_trees", &build_trees, "points"_a, "pieces"_a, "start"_a, ReleaseGil(),
+          "Trees over pieces: tree t is made of pieces[start[t]:start[t + 1]], one at least; start (t + 1,) int32.\n\n"
+          "Returns the order (k,) int32 that the pieces are to be put in, boxes (b, 6) float64 and links (b, 2)\n"
+          "int32 of all trees, and the box that is the root of each, (t,) int32.");
+    m.def("refit", &refit, "points"_a, "pieces"_a, "links"_a, "boxes"_a, ReleaseGil(),
+          "Write the boxes of trees whose points have moved; pieces are in the order that `build_trees` returns.");
+    m.def("closest", &closest, "trees"_a, "x"_a, "roots"_a, "enough"_a, "piece"_a, "places"_a, "weights"_a,
+          ReleaseGil(),
+          "The point closest to each of x (j, 3) in the tree of its root (j,).\n\n"
+          "A point at a distance of at most `enough` counts as closest. Writes the piece (j,) int32, -1 where x is\n"
+          "not finite, the point on it (j, 3), and its barycentric weights in the piece (j, 3).");
+}
+
+void bind_sliding_surface(nb::module_ m) {
+    m.doc() =
+        "The surface on which nodes of the boundary slide: sweeps that take one project every trial point onto it.";
+    nb::class_<BoundaryQuads>(m, "BoundaryQuads",
+                              "Quads of the boundary at the nodes that slide. A step that flips one is rejected.\n\n"
+                              "A quad is flipped if its normal points against `outward`; one that is flipped\n"
+                              "already may stay so.")
+        .def(
+            "__init__",
+            [](BoundaryQuads *self, Indices start, Indices corners, std::span<const Quad> quads, Points outward) {
+                expect(!start.empty() && start.back() == static_cast<std::int64_t>(corners.size()),
+                       "start: its last number is expected to be the length of corners");
+                expect(outward.size() == quads.size(), "outward: one for each of the quads is expected");
+                new (self) BoundaryQuads{start, corners, quads, outward};
+            },
+            "start"_a, "corners"_a, "quads"_a, "outward"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "corners holds 4 * quad + corner of each of k sliding nodes, from start (k + 1,) on, all int32; quads\n"
+            "(f, 4) int32; outward (f, 3) float64 are normals of the original surface, 0 where it has none. Arrays\n"
+            "are not copied.");
+    nb::class_<SlidingSurface>(m, "SlidingSurface", "Curves and patches, with the nodes that slide on them.")
+        .def(
+            "__init__",
+            [](SlidingSurface *self, Indices slots, Indices roots, const BoxTrees &trees, const BoundaryQuads &quads) {
+                expect(quads.start.size() == roots.size() + 1, "quads: rows of each of the roots are expected");
+                new (self) SlidingSurface{slots, roots, trees, quads};
+            },
+            "slots"_a, "roots"_a, "trees"_a, "quads"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(),
+            "slots (n,) int32 numbers the nodes that slide, -1 for others; roots (k,) int32 are the roots of the\n"
+            "trees of their curves and patches. Arrays are not copied.");
+    m.def("flipped_quads", &flipped_quads, "before"_a, "after"_a, "quads"_a, "outward"_a, "flipped"_a, ReleaseGil(),
+          "Write flipped (f,) bool: True for a quad that is flipped at the points after and was not before.");
+}
+
+}  // namespace hexmend

@@ -1,0 +1,62 @@
+#include "bindings/arrays.hpp"
+#include "energy/assembly.hpp"
+#include "energy/objective.hpp"
+
+namespace hexmend {
+namespace {
+
+template <class Real> void bind_assemble(nb::module_ m) {
+    m.def("assemble", &assemble<Real>, "points"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a, "off_diagonal"_a,
+          "diagonal"_a, ReleaseGil(),
+          "Add the Hessian of sum eta(H)^p to off_diagonal and diagonal, in their precision.\n\n"
+          "Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal (blocks +\n"
+          "1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.");
+}
+
+}  // namespace
+
+void bind_assembly(nb::module_ m) {
+    m.doc() = "Assembly of the Hessian of a mesh's energy.";
+    nb::class_<HexShares>(m, "HexShares",
+                          "Slots divided into shares that are assembled in parallel, with the hexes at the slots\n"
+                          "of each.\n\n"
+                          "Each share computes all its hexes, some of which are in several, so that every block is\n"
+                          "summed over its hexes in one order for any number of shares.")
+        .def(
+            "__init__",
+            [](HexShares *self, Indices bounds, Indices start, Indices numbers, Hexes hexes, Hexes slots,
+               BlockTargets target) {
+                expect(!bounds.empty() && start.size() == bounds.size(), "start: one for each of bounds is expected");
+                expect(numbers.size() == hexes.size() && slots.size() == hexes.size() && target.size() == hexes.size(),
+                       "numbers, hexes, slots and target: as many rows in each are expected");
+                new (self) HexShares{bounds, start, numbers, hexes, slots, target};
+            },
+            "bounds"_a, "start"_a, "numbers"_a, "hexes"_a, "slots"_a, "target"_a, nb::keep_alive<1, 2>(),
+            nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>(), nb::keep_alive<1, 6>(),
+            nb::keep_alive<1, 7>(),
+            "Slots of share k: bounds[k] to bounds[k + 1] - 1; its hexes: rows start[k] to start[k + 1] - 1 of\n"
+            "numbers, in the mesh; hexes (.., 8); slots (.., 8), -1 where a corner is fixed; target (.., 28), from\n"
+            "`sparsity.pattern`; all int32. Arrays are not copied.");
+    bind_assemble<float>(m);
+    bind_assemble<double>(m);
+}
+
+void bind_objective(nb::module_ m) {
+    m.doc() = "Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.";
+    m.def("energies", &energies, "points"_a, "hexes"_a, "delta"_a, "offset"_a, "omitted"_a, "eta"_a, ReleaseGil(),
+          "eta(H), the mean of eta(T) minus offset, of every hex, with the barrier of (3.2) regularised by delta,\n"
+          "in the unit of sigma; writes eta (m,).\n\n"
+          "Bit t of omitted (m,) uint8 is set where corner tetrahedron t of the hex is omitted, that is, counts as\n"
+          "perfect.");
+    m.def("gradient", &gradient, "points"_a, "hexes"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a, ReleaseGil(),
+          "Gradient of sum eta(H)^p by the corners of every hex, (B.3), (B.21); writes shares (m, 8, 3).");
+    m.def("hessian_product", &hessian_product, "points"_a, "hexes"_a, "slots"_a, "values"_a, "delta"_a, "norm"_a,
+          "omitted"_a, "shares"_a, ReleaseGil(),
+          "Hessian of sum eta(H)^p times a displacement of the free nodes, (B.19) corrected; writes shares (m, 8,\n"
+          "3).\n\n"
+          "slots is the number of each corner among the free nodes, -1 if it is fixed; values has a row for each.");
+    m.def("gather", &gather, "shares"_a, "start"_a, "corners"_a, "nodes"_a, "rows"_a, ReleaseGil(),
+          "Sum of the contributions, shares (m, 8, 3), over the corners at each of `nodes` (k,); writes rows (k, 3).");
+}
+
+}  // namespace hexmend

@@ -1,0 +1,71 @@
+#include "bindings/arrays.hpp"
+#include "linear/conjugate_gradients.hpp"
+#include "linear/sparsity.hpp"
+#include "mesh/csr.hpp"
+
+namespace hexmend {
+namespace {
+
+template <class Real> void bind_for(nb::module_ m) {
+    m.def("solve", &solve<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "damping"_a, "rhs"_a, "tolerance"_a,
+          "max_iterations"_a, "x"_a, "work"_a, ReleaseGil(),
+          "Solve A x = rhs, stopping at a direction of negative curvature (Steihaug 1983).\n\n"
+          "At such a direction x is the iterate so far or, if it is the first, that direction. Vectors, (k, 4)\n"
+          "with a fourth number 0, are in the precision of the matrix; sums over them are in double precision.\n\n"
+          "off_diagonal (blocks + 1, 9): blocks above the diagonal, and an unused one. diagonal (k, 6). damping:\n"
+          "this multiple of D is added to the diagonal. tolerance: of the residual relative to the right-hand\n"
+          "side, both in the norm of M^-1. work (64 k + 16,): workspace. Writes x; returns the iterations and the\n"
+          "status.");
+    m.def("product", &product<Real>, "pattern"_a, "off_diagonal"_a, "diagonal"_a, "order"_a, "x"_a, "y"_a, ReleaseGil(),
+          "Product A x of x (k, 3) in double precision; writes y (k, 3).\n\n"
+          "Row k of x and y belongs to slot order[k].");
+}
+
+}  // namespace
+
+void bind_conjugate_gradients(nb::module_ m) {
+    m.doc() = "Conjugate gradients with an assembled Hessian, preconditioned by symmetric Gauss-Seidel.";
+    nb::enum_<SolveStatus>(m, "SolveStatus", "End of a solve.")
+        .value("DONE", DONE, "The tolerance is reached.")
+        .value("NEGATIVE_CURVATURE", NEGATIVE_CURVATURE, "A direction of negative curvature was met.")
+        .value("TOO_MANY", TOO_MANY, "The number of iterations is exhausted.");
+    nb::class_<BlockPattern>(m, "BlockPattern", "Pattern of a symmetric matrix of 3 x 3 blocks.")
+        .def(
+            "__init__",
+            [](BlockPattern *self, Indices bounds, Indices row_start, Indices columns) {
+                expect(!bounds.empty() && bounds.back() + 1 == static_cast<std::int64_t>(row_start.size()),
+                       "row_start: one more than the last of bounds is expected");
+                expect(row_start.back() == static_cast<std::int64_t>(columns.size()),
+                       "columns: as many as the last of row_start are expected");
+                new (self) BlockPattern{bounds, row_start, columns};
+            },
+            "bounds"_a, "row_start"_a, "columns"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(),
+            nb::keep_alive<1, 4>(),
+            "bounds (2 parts,) int32: `ordering.slots`; row_start (k + 1,) and columns (blocks,) int32: blocks\n"
+            "above the diagonal, `sparsity.pattern`. Arrays are not copied.");
+    bind_for<float>(m);
+    bind_for<double>(m);
+}
+
+void bind_ordering(nb::module_ m) {
+    m.doc() = "Ordering of the free nodes in an assembled Hessian.";
+    m.def("slots", &slots, "hexes"_a, "ring_start"_a, "ring"_a, "free"_a, "parts"_a, ReleaseGil(),
+          "The free nodes after Cuthill and McKee, in parts that share no hex, followed by the separators between\n"
+          "them.\n\n"
+          "ring_start, ring: `Topology.rings`; free (n,) bool. The number of parts, at least 1, is reduced until\n"
+          "none is too thin. Returns the node in each slot (k,), and the bounds of the parts and then the\n"
+          "separators, (2 parts,).");
+}
+
+void bind_sparsity(nb::module_ m) {
+    m.doc() = "Sparsity of a Hessian: the 3 x 3 blocks above its diagonal, one for each pair of free nodes of a hex.";
+    m.attr("PAIRS") = PAIRS;
+    m.def("pattern", &pattern, "slots"_a, "nodes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
+          "Blocks above the diagonal, and the block that each pair of a hex's corners adds to; all int32.\n\n"
+          "slots (m, 8): the slot of each corner, -1 if it is fixed; nodes (k,): the node of each slot; start,\n"
+          "corners: `Topology.node_corners`. Returns row_start (k + 1,) and columns, ascending within a row; and\n"
+          "target (m, 28), of the pairs 01, 02... 07, 12...: the block, -1 where a corner is fixed, -2 - slot where\n"
+          "both are one node. OverflowError where there are more than `max_items` blocks.");
+}
+
+}  // namespace hexmend

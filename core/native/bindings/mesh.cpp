@@ -1,0 +1,119 @@
+#include "bindings/arrays.hpp"
+#include "mesh/csr.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "mesh/incidence.hpp"
+#include "mesh/metrics.hpp"
+
+namespace hexmend {
+
+void bind_elements(nb::module_ m) {
+    m.doc() = "Quality of every hex from its eight corner tetrahedra, in one pass.";
+    m.def("measure", &measure, "points"_a, "hexes"_a, "q"_a, "sigma"_a, "jacobian"_a, "eta"_a, ReleaseGil(),
+          "Quality of every hex at delta = 0; writes four arrays (m,) float64.\n\n"
+          "q is q(H), the mean of q(T) = 3 sigma^(2/3)/|S|^2, 0 where sigma <= 0: (2.8), (2.10). sigma is the least\n"
+          "of the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner\n"
+          "with an edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner\n"
+          "whose determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.");
+    m.def("mean_edge_length", &mean_edge_length, "points"_a, "hexes"_a, ReleaseGil(),
+          "Mean length of the hexes' edges, each counted once a hex; 0 without hexes.");
+    m.def("corner_qualities", &corner_qualities, "points"_a, "hexes"_a, "q"_a, ReleaseGil(),
+          "q(T) of the eight corner tetrahedra of every hex, (2.8), 0 where sigma <= 0; writes q (m, 8) float64.");
+    m.def("corner_determinants", &corner_determinants, "points"_a, "hexes"_a, "sigma"_a, ReleaseGil(),
+          "sigma of the eight corner tetrahedra of every hex, (2.9); writes sigma (m, 8) float64.");
+}
+
+void bind_faces(nb::module_ m) {
+    m.doc() = "Metrics of every hex from its six faces. Each function writes arrays (m,) float64.";
+    m.def("angles", &angles, "points"_a, "hexes"_a, "smallest"_a, "largest"_a, ReleaseGil(),
+          "Angles between adjacent edges of the faces, four corners of six faces, in degrees; 0 and 180 where an\n"
+          "edge has no length.");
+    m.def("warpage", &warpage, "points"_a, "hexes"_a, "worst"_a, ReleaseGil(),
+          "Greatest over the faces of 1 - min((n0 . n2)^3, (n1 . n3)^3), n the unit normals at the face's corners;\n"
+          "2 where a corner of a face has no normal.");
+    m.def("volume", &volume, "points"_a, "hexes"_a, "enclosed"_a, ReleaseGil(),
+          "Volume inside the six bilinear faces, that of Verdict's 24 tetrahedra: negative for a hex turned inside\n"
+          "out.\n\n"
+          "Of a face a, b, c, d it is (a + b + c + d) . (c - a) x (d - b) / 24, in the cube of the mesh's unit of\n"
+          "length.");
+}
+
+void bind_hex_mesh(nb::module_ m) {
+    m.doc() = "Connectivity of a mesh, as sweeps take it.";
+    nb::class_<HexMesh>(m, "HexMesh", "Hexes, and the corners of hexes at each node.")
+        .def(
+            "__init__",
+            [](HexMesh *self, Hexes hexes, Indices start, Indices corners) {
+                expect(corners.size() == 8 * hexes.size(), "corners: eight for each of the hexes are expected");
+                expect(!start.empty() && start.back() == static_cast<std::int64_t>(corners.size()),
+                       "start: its last number is expected to be the length of corners");
+                new (self) HexMesh{hexes, start, corners};
+            },
+            "hexes"_a, "start"_a, "corners"_a, nb::keep_alive<1, 2>(), nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(),
+            "hexes (m, 8) int32; start (n + 1,) and corners (8 m,) int32: `incidence.node_corners`. Arrays are not\n"
+            "copied.");
+}
+
+void bind_incidence(nb::module_ m) {
+    m.doc() = "Incidence of nodes, hexes, faces and edges; components and colours. All linear in the number of hexes.";
+    m.def("node_corners", &node_corners, "hexes"_a, "n"_a, ReleaseGil(),
+          "Corners of hexes at each of n nodes, as compressed rows (start (n + 1,), corners (8 m,)), both int32.\n\n"
+          "Row i is corners[start[i]:start[i + 1]]: numbers 8 * hex + corner, ascending.");
+    m.def("face_neighbours", &face_neighbours, "hexes"_a, "start"_a, "corners"_a, ReleaseGil(),
+          "The hex behind each face, (m, 6) int32, and the number of non-manifold faces; start, corners:\n"
+          "`node_corners`.\n\n"
+          "-1 where there is no hex, or where more than two share the face. Such a face is non-manifold, a defect\n"
+          "of the mesh, and is counted once per hex.");
+    m.def("join", &join, "parent"_a, "items"_a, "width"_a, ReleaseGil(),
+          "Connect the items of each row of `width` items; changes parent (n,) int32, at first 0 to n - 1.\n\n"
+          "Union-find: parent[i] is an item of i's component, at most i.");
+    m.def("component_numbers", &component_numbers, "parent"_a, ReleaseGil(),
+          "Component of each item, (n,) int32, numbered in the order of their lowest items.\n");
+    m.def("node_rings", &node_rings, "hexes"_a, "start"_a, "corners"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
+          "Edge neighbours of each node, ascending, as compressed rows (ring_start (n + 1,), ring), both int32.\n\n"
+          "OverflowError where the rows have more than `max_items` items.");
+    m.def("greedy_colours", &greedy_colours, "start"_a, "corners"_a, "chosen"_a, ReleaseGil(),
+          "Colour the chosen nodes (n,) bool so that two of one hex never share a colour, greedily in node order.\n\n"
+          "Returns (n,) int32, -1 for nodes that were not chosen.");
+    m.def("grouped", &grouped, "colour"_a, "count"_a, ReleaseGil(),
+          "Nodes grouped by colour, each group in node order: (start (count + 1,), nodes), both int32.");
+    m.def("layers", &layers, "neighbours"_a, ReleaseGil(),
+          "Number of hexes between each hex and the boundary, counted through faces, breadth first; (m,) int32.\n\n"
+          "0 for a hex with a boundary face; one more than the deepest layer where there is no way to the\n"
+          "boundary.");
+    m.def("around", &around, "hexes"_a, "start"_a, "corners"_a, "chosen"_a, "rings"_a, ReleaseGil(),
+          "The hexes `chosen` (k,) int32 and those within `rings` steps between hexes with a common node; (m,) bool.");
+}
+
+void bind_metrics(nb::module_ m) {
+    m.doc() =
+        "Metrics of every hex from its edges, diagonals, principal axes and corners, as the Verdict library\n"
+        "defines them: SAND2007-1751. Each function writes arrays (m,) float64.";
+    m.def("lengths", &lengths, "points"_a, "hexes"_a, "edge_ratio"_a, "stretch"_a, "diagonal"_a, ReleaseGil(),
+          "Ratios of edges and diagonals; E the twelve edges' lengths, D the four diagonals'.\n\n"
+          "edge_ratio is max E / min E; +inf where an edge has no length. stretch is sqrt(3) min E / max D; 0\n"
+          "where neither edge nor diagonal has a length, +inf where only diagonals have none. diagonal is min D /\n"
+          "max D; 0 where no diagonal has a length.");
+    m.def("axes", &axes, "points"_a, "hexes"_a, "aspect_ratio"_a, "skew"_a, "taper"_a, ReleaseGil(),
+          "Figures of the principal axes X1, X2, X3, the sums of the four edges along x, y and z.\n\n"
+          "aspect_ratio is max |Xi| / min |Xi|, Verdict's \"maximum edge ratio\". skew is the greatest |cos| of\n"
+          "the angle of two axes. taper is the greatest |Xij| / min(|Xi|, |Xj|), Xij the cross derivatives. Where\n"
+          "an axis has no length they are +inf, 1 and +inf.");
+    m.def("corners", &corners, "points"_a, "hexes"_a, "shape"_a, "condition"_a, ReleaseGil(),
+          "Figures of the eight corner tetrahedra, with edges S = [e1, e2, e3] and sigma = det S.\n\n"
+          "shape is the least 3 sigma^(2/3) / |S|^2; 0 where sigma <= 0. condition is the greatest |S| |S^-1| / 3,\n"
+          "Frobenius norms; +inf where sigma <= 0.");
+    m.def("centre", &centre, "points"_a, "hexes"_a, "jacobian"_a, ReleaseGil(),
+          "Determinant of the Jacobian at the centre, det [X1, X2, X3] / 64 of the principal axes.");
+}
+
+void bind_structure(nb::module_ m) {
+    m.doc() = "Valence of edges, from which the block structure of a mesh follows.";
+    m.def("edges", &edges, "hexes"_a, "start"_a, "corners"_a, "neighbours"_a, "max_items"_a = MOST_ITEMS, ReleaseGil(),
+          "Every edge once, with the number of hexes around it: (ends (e, 2) int32, valence (e,) int32, outside\n"
+          "(e,) bool).\n\n"
+          "ends: the lower node first, ascending. valence: hexes that have the edge; one that has it twice, its\n"
+          "nodes being one, counts once. outside: True for an edge of a boundary face. start, corners and\n"
+          "neighbours are those of `incidence`. OverflowError where there are more than `max_items` edges.");
+}
+
+}  // namespace hexmend

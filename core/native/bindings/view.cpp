@@ -1,0 +1,83 @@
+#include "view/view.hpp"
+#include "bindings/arrays.hpp"
+
+namespace hexmend {
+
+void bind_binning(nb::module_ m) {
+    m.doc() = "Histograms. They run on one thread, because the window's thread calls them.";
+    m.def("count", &count, "values"_a, "inverted"_a, "low"_a, "scale"_a, "open_low"_a, "open_high"_a, "counts"_a,
+          ReleaseGil(),
+          "Count values (m,) float64 in equal bins from `low` on, `scale` bins per unit.\n\n"
+          "Writes counts (bins + 3,) int64, at least one bin: the bins; the values above and below them, where\n"
+          "that end is open (else they count in the outermost bin); the values that are inverted (m,) bool or NaN.");
+}
+
+void bind_clip_planes(nb::module_ m) {
+    m.doc() =
+        "Sides of planes on which hexes lie. A point is beyond a plane where x . normal > offset; normals (k, 3)\n"
+        "and offsets (k,) float64. The functions run on one thread, because the window's thread calls them.";
+    m.def("centres_kept", &centres_kept, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "kept"_a,
+          ReleaseGil(),
+          "Hexes whose centre remains after the cut; writes kept (m,) bool.\n\n"
+          "With `notch` what is beyond all planes is cut away, else what is beyond any of them.");
+    m.def("touched", &touched, "points"_a, "hexes"_a, "normals"_a, "offsets"_a, "notch"_a, "answer"_a, ReleaseGil(),
+          "Planes that cross or touch each hex where the section is visible; writes answer (m * k,) bool, hex by\n"
+          "hex.\n\n"
+          "None does where the hex lies wholly beyond one of them or, with `notch`, wholly before one.");
+}
+
+void bind_corner_values(nb::module_ m) {
+    m.doc() =
+        "Values of hexes, of_hexes (m,) float64, from values at their nodes, of_nodes (n,) float64. The functions\n"
+        "run on one thread, because the window's thread calls them.";
+    m.def("largest", &largest, "hexes"_a, "of_nodes"_a, "of_hexes"_a, ReleaseGil(), "The largest of the eight values.");
+    m.def("mean", &mean, "hexes"_a, "of_nodes"_a, "of_hexes"_a, ReleaseGil(), "The mean of the eight values.");
+}
+
+void bind_occlusion(nb::module_ m) {
+    m.doc() = "Ambient occlusion of polygons.";
+    m.def("normals", &normals, "points"_a, "start"_a, "places"_a, "answer"_a, ReleaseGil(),
+          "Unit normals of the mean planes of polygons; writes answer (k, 3), 0 for a polygon without area.\n\n"
+          "Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,)\n"
+          "and places int64. It runs on one thread, because the window's thread calls it.");
+    m.def("shine", &shine, "points"_a, "start"_a, "places"_a, "normals"_a, "directions"_a, "side"_a, "light"_a,
+          "whole"_a, ReleaseGil(),
+          "Light from directions (j, 3) float64, unit vectors, at every corner of polygons with normals (k, 3).\n\n"
+          "For each direction the polygons that face it are rasterised into a height map of `side` x `side` pixels.\n"
+          "Adds the light that reaches each corner to light (start[-1],) float64, and the light without occlusion to\n"
+          "whole.");
+}
+
+void bind_polygons(nb::module_ m) {
+    m.doc() = "Clipping of convex polygons. It runs on one thread, because the window's thread calls it.";
+    m.def("before", &before, "points"_a, "start"_a, "places"_a, "owner"_a, "normals"_a, "offsets"_a, ReleaseGil(),
+          "Clip polygons to x . normal <= offset for all planes.\n\n"
+          "Polygon i of k has the points (p, 3) numbered places[start[i]:start[i + 1]], in order; start (k + 1,),\n"
+          "places and owner (k,) int64; normals (j, 3) and offsets (j,) float64. Returns the points of the remaining\n"
+          "polygons, one after another, their start, and their owners.");
+}
+
+void bind_skin(nb::module_ m) {
+    m.doc() =
+        "Visible faces of a mesh of which the hexes with keep (m,) bool are shown. The functions run on one\n"
+        "thread, because the window's thread calls them.";
+    m.def("visible", &visible, "nodes"_a, "hexes"_a, "neighbours"_a, "keep"_a, ReleaseGil(),
+          "Faces of shown hexes behind which no hex is shown.\n\n"
+          "nodes is the number of nodes of the mesh; neighbours (m, 6) int32 the hex behind each face, -1 for\n"
+          "none. Returns the nodes of these faces (u,), the faces as positions among them (k, 4), and the hex of\n"
+          "each (k,), all int32.");
+    m.def("faces_of", &faces_of, "hexes"_a, "neighbours"_a, "keep"_a, "chosen"_a, "hidden"_a, ReleaseGil(),
+          "Faces of the hexes with chosen (m,) bool, each hex with its own eight nodes; returns the same as\n"
+          "`visible`.\n\n"
+          "Without `hidden`, only faces behind which no hex is shown.");
+    m.def("outer", &outer, "neighbours"_a, "keep"_a, "answer"_a, ReleaseGil(),
+          "Hexes that are shown and have a visible face; writes answer (m,) bool.");
+    m.def("shrunk", &shrunk, "points"_a, "nodes"_a, "shrink"_a, "places"_a, ReleaseGil(),
+          "Corners of hexes, nodes (8 k,) int32, moved by the fraction `shrink` towards their mean; writes places\n"
+          "(8 k, 3).");
+    m.def("edges_kept", &edges_kept, "hexes"_a, "start"_a, "corners"_a, "edges"_a, "keep"_a, "answer"_a, ReleaseGil(),
+          "Edges (k, 2) int32 that a shown hex has; writes answer (k,) bool.\n\n"
+          "start, corners: `Topology.node_corners`.");
+}
+
+}  // namespace hexmend

@@ -1,0 +1,48 @@
+// Patches of several free nodes, and a sweep over them: one Newton step of each, with the other nodes fixed.
+#pragma once
+
+#include <tuple>
+
+#include "energy/objective_norm.hpp"
+#include "mesh/hex_mesh.hpp"
+#include "mesh/incidence.hpp"
+#include "smoothers/line_search.hpp"
+
+namespace hexmend {
+
+// Settings of a step of a patch. Lengths are in mean edge lengths of the patch.
+struct PatchStepSettings {
+    double delta;
+    ObjectiveNorm norm;
+    LineSearch search;
+};
+
+// Evaluations of a hex's energy in line searches, and of its energy with derivatives.
+struct EvaluationCount {
+    std::int64_t energies = 0, derivatives = 0;
+};
+
+// Patches as `partition` makes them: the hexes of patch p, and the slots of their corners among its nodes (-1: fixed),
+// are the rows hex_start[p] to hex_start[p + 1] - 1, its nodes are nodes[node_start[p]] to nodes[node_start[p + 1] -
+// 1].
+struct PatchPartition {
+    Hexes hexes, slots;
+    Indices hex_start, node_start, nodes;
+};
+
+// Divide the free nodes into connected patches of at most `size` nodes, which then overlap. Returns node_start, nodes,
+// hex_start, patch_hexes and slots, see `PatchPartition`.
+std::tuple<IntArray, IntArray, IntArray, IntArray, OwnedArray<std::int32_t, 8>> partition(const HexMesh &mesh,
+                                                                                          std::span<const bool> free,
+                                                                                          std::int64_t size,
+                                                                                          int overlap);
+
+// Groups of patches that share no hex, by greedy colouring.
+CSR colours(Indices hex_start, Indices patch_hexes, std::int64_t hexes);
+
+// Move the nodes of every patch by one Newton step together, in place. Group g, patches[groups[g]] to patches[groups[g
+// + 1] - 1], shares no hex.
+EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
+                            const PatchStepSettings &settings);
+
+}  // namespace hexmend

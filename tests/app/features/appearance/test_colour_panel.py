@@ -1,0 +1,206 @@
+"""What the colours show, chosen by mouse and keys."""
+
+import dataclasses
+from html import escape
+
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel
+
+from hexmend.quality import METRICS, Metric
+from hexmend_app.features.appearance.colour_panel import ColourPanel
+from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.picture.colour_map import value_maps
+from hexmend_app.widgets.inputs.number_box import NumberBox
+from hexmend_app.widgets.inputs.segmented import Segmented
+from tests.app.driving import named
+
+_LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def unbounded(monkeypatch):
+    """A metric without an upper end, of which less is better."""
+    bounds = (1.0, float("inf"))
+    metric = Metric("long", "Long", "long / short", "nobody", bounds, bounds, -1, "None.", of=lambda *_: None)
+    monkeypatch.setattr(METRICS, "_entries", {**METRICS, "long": metric})
+    return metric
+
+
+@pytest.fixture
+def panel(shown, unbounded):
+    return shown(ColourPanel())
+
+
+@pytest.fixture
+def heard(panel):
+    scales = []
+    panel.scale_changed.connect(scales.append)
+    return scales
+
+
+def metrics(panel):
+    return named(panel, QComboBox, "Metric")
+
+
+def maps(panel):
+    return named(panel, QComboBox, "Colour map")
+
+
+def ranges(panel):
+    return named(panel, Segmented, "Range")
+
+
+def low(panel):
+    return named(panel, NumberBox, "Lowest value")
+
+
+def high(panel):
+    return named(panel, NumberBox, "Highest value")
+
+
+def reverse(panel):
+    return named(panel, QCheckBox, "Reverse")
+
+
+def problem(panel):
+    """What is said to be wrong with the range; empty while nothing is."""
+    said = [label.text() for label in panel.findChildren(QLabel) if label.isVisible() and "xpected" in label.text()]
+    return " ".join(said)
+
+
+def press(panel, mode):
+    QTest.mouseClick(ranges(panel).button(mode), _LEFT)
+
+
+def choose(combo, name):
+    """Walk to an entry with the arrow keys."""
+    combo.setFocus()
+    while combo.currentData() != name:
+        there, here = combo.findData(name), combo.currentIndex()
+        QTest.keyClick(combo, Qt.Key.Key_Down if there > here else Qt.Key.Key_Up)
+
+
+def type_in(box, text, *, enter=True):
+    box.lineEdit().setFocus()
+    box.lineEdit().selectAll()
+    QTest.keyClicks(box.lineEdit(), text)
+    if enter:
+        QTest.keyClick(box.lineEdit(), Qt.Key.Key_Return)
+
+
+def test_every_metric_is_offered_with_what_it_declares(panel):
+    assert metrics(panel).itemData(0) == "q"
+    for name, metric in METRICS.items():
+        at = metrics(panel).findData(name)
+        tip = metrics(panel).itemData(at, Qt.ItemDataRole.ToolTipRole)
+        assert escape(metric.source) in tip
+        assert f"acceptable {metric.acceptable[0]:g} to" in tip
+    tip = metrics(panel).itemData(metrics(panel).findData("long"), Qt.ItemDataRole.ToolTipRole)
+    assert "1 to ∞" in tip
+    assert "Less is better" in tip
+
+
+def test_every_map_is_offered_with_a_swatch(panel):
+    assert [maps(panel).itemData(k) for k in range(maps(panel).count())] == list(value_maps())
+    assert all(not maps(panel).itemIcon(k).isNull() for k in range(maps(panel).count()))
+
+
+def test_what_is_chosen_is_announced_once(panel, heard):
+    choose(metrics(panel), "scaled-jacobian")
+    choose(maps(panel), "cividis")
+    press(panel, "acceptable")
+    QTest.mouseClick(reverse(panel), _LEFT, pos=QPoint(8, reverse(panel).height() // 2))
+    assert heard == [
+        ColourScale("scaled-jacobian"),
+        ColourScale("scaled-jacobian", "cividis"),
+        ColourScale("scaled-jacobian", "cividis", RangeMode.ACCEPTABLE),
+        ColourScale("scaled-jacobian", "cividis", RangeMode.ACCEPTABLE, reverse=True),
+    ]
+
+
+def test_ranges_without_bound_cannot_be_chosen(panel, heard):
+    choose(metrics(panel), "long")
+    assert heard[-1].mode is RangeMode.FITTED
+    for mode in ("full", "acceptable"):
+        assert not ranges(panel).button(mode).isEnabled()
+        assert "without bound" in ranges(panel).button(mode).toolTip()
+        press(panel, mode)
+    assert panel.scale().mode is RangeMode.FITTED
+    choose(metrics(panel), "q")
+    assert ranges(panel).button("full").isEnabled()
+
+
+def test_pinning_holds_the_range_that_is_shown(panel, heard):
+    press(panel, "fitted")
+    panel.set_ends(0.123456, 0.987654)
+    assert not low(panel).isEnabled()
+    press(panel, "pinned")
+    assert heard[-1].pinned == (0.123, 0.988)
+    panel.set_ends(0, 1)  # of a later iteration
+    assert (low(panel).value(), high(panel).value()) == (0.123, 0.988)
+
+
+def test_a_half_typed_number_is_no_wish(panel, heard):
+    press(panel, "pinned")
+    heard.clear()
+    type_in(high(panel), "0.35", enter=False)
+    panel.set_ends(0.1, 0.2)  # a frame arrives meanwhile
+    assert high(panel).lineEdit().text() == "0.35"
+    assert heard == []
+    QTest.keyClick(high(panel).lineEdit(), Qt.Key.Key_Tab)
+    assert [scale.pinned for scale in heard] == [(0, 0.35)]
+
+
+def test_numbers_that_are_no_range_are_said_and_stay_as_typed(panel, heard):
+    press(panel, "pinned")
+    heard.clear()
+    for text, words in (("2", "the lower value first"), ("1e", "Expected a number"), ("1", "the lower value first")):
+        type_in(low(panel), text)
+        assert words in problem(panel)
+        choose(maps(panel), "plasma")
+        choose(maps(panel), "viridis")
+        assert low(panel).lineEdit().text() == text
+    assert all(scale.pinned == (0, 1) for scale in heard)
+    type_in(low(panel), "-1e-1")
+    assert heard[-1].pinned == (-0.1, 1)
+    assert problem(panel) == ""
+
+
+def test_arrow_keys_step_a_pinned_end(panel, heard):
+    press(panel, "pinned")
+    high(panel).lineEdit().setFocus()
+    QTest.keyClick(high(panel), Qt.Key.Key_Down)
+    assert heard[-1].pinned == (0, 0.9)
+
+
+def test_ends_that_were_typed_are_found_again_for_their_metric_only(panel, heard):
+    press(panel, "pinned")
+    type_in(low(panel), "0.25")
+    choose(metrics(panel), "scaled-jacobian")
+    assert heard[-1].mode is RangeMode.FULL
+    choose(metrics(panel), "q")
+    press(panel, "full")
+    press(panel, "pinned")
+    assert heard[-1].pinned == (0.25, 1)
+
+
+def test_what_is_set_is_shown_silently(panel, heard):
+    scale = ColourScale("scaled-jacobian", "inferno", RangeMode.PINNED, (-0.5, 0.5), True)
+    panel.set_scale(scale)
+    assert heard == []
+    assert panel.scale() == scale
+    assert metrics(panel).currentData() == "scaled-jacobian"
+    assert maps(panel).currentData() == "inferno"
+    assert ranges(panel).value() == "pinned"
+    assert (low(panel).value(), high(panel).value()) == (-0.5, 0.5)
+    assert reverse(panel).isChecked()
+
+
+def test_a_scale_checks_its_range():
+    for pinned in ((1, 1), (2, 1), (0, float("inf")), (float("nan"), 1)):
+        with pytest.raises(ValueError, match="the lower first"):
+            ColourScale(pinned=pinned)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        ColourScale().map = "plasma"

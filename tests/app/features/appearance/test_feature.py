@@ -1,0 +1,85 @@
+"""The look in the window: what the colours show, over which range, and what is drawn anew when."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox
+
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.state.mesh.document import State
+from tests.app.driving import key, named, pixels, press, walk_to
+from tests.patience import PATIENCE
+
+
+@pytest.fixture
+def panel(window):
+    """The panel of the colours, in front."""
+    window.show_panel("look")
+    window.refresh()
+    return window.features["appearance"].panel
+
+
+def differ(before, after):
+    """The share of pixels that are clearly others."""
+    return (np.abs(after - before).sum(axis=2) > 60).mean()
+
+
+@pytest.mark.slow
+def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
+    whole, bar = pixels(window), window.canvas.colour_bar
+    walk_to(window, named(panel, QComboBox, "Metric"), "scaled-jacobian")
+    assert window.session.view.look.scale.metric == "scaled-jacobian"
+    assert "Scaled Jacobian from -1 to 1" in bar.accessibleDescription()
+    recoloured = pixels(window)
+    assert differ(whole, recoloured) > 0.05
+    maps = named(panel, QComboBox, "Colour map")
+    maps.setFocus()
+    QTest.keyClick(maps, Qt.Key.Key_Down)
+    assert differ(recoloured, pixels(window)) > 0.05
+    low, high = (named(panel, QAbstractSpinBox, f"{which} value") for which in ("Lowest", "Highest"))
+    press(named(panel, QAbstractButton, "Range: Fitted"))
+    assert f"from {low.value():g} to {high.value():g}" in bar.accessibleDescription()
+    assert not low.isEnabled()
+    start = window.session.document.now
+    key(window, Qt.Key.Key_F10)
+    qtbot.waitUntil(lambda: window.session.document.now is not start, timeout=PATIENCE)
+    window.refresh()
+    now = window.session.document.now.figures
+    values = now.scaled_jacobian[~now.inverted]
+    assert (low.value(), high.value()) == pytest.approx((values.min(), values.max()), abs=0.01)
+    press(named(panel, QAbstractButton, "Range: Pinned"))
+    assert window.session.view.look.scale.pinned == (low.value(), high.value())
+
+
+def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, monkeypatch):
+    viewport, now = window.canvas.viewport, window.session.document.now
+    rebuilt = []
+    rebuild = viewport.body.rebuild
+    monkeypatch.setattr(viewport.body, "rebuild", lambda *what: (rebuilt.append(1), rebuild(*what)))
+    window.session.view.change(quality_range=ValueRange("q", 0.4, 1))
+    window.refresh()
+    moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
+    window.session.document.preview(moved)
+    window.refresh()
+    assert len(rebuilt) == 1
+    np.testing.assert_allclose(viewport.body.whole.points, viewport.body.faces.places(moved.mesh.points), rtol=1e-6)
+    shaken = now.mesh.points + 0.3 * now.mesh.mean_edge_length * np.random.default_rng(0).random(now.mesh.points.shape)
+    window.session.document.preview(State.of(now.mesh.with_points(shaken)))
+    window.refresh()
+    assert len(rebuilt) == 2
+    figures = window.session.document.now.figures
+    assert viewport.shown == np.count_nonzero((figures.q >= 0.4) & ~figures.inverted)
+
+
+def test_the_mesh_is_drawn_once_for_all_that_changes_in_a_turn(window, qtbot, monkeypatch):
+    drawn, draw = [], window.canvas.draw
+    monkeypatch.setattr(window.canvas, "draw", lambda *what: (drawn.append(1), draw(*what)))
+    for edges in (False, True, False):
+        window.session.view.change(edges=edges)
+    assert drawn == []
+    qtbot.waitUntil(lambda: len(drawn) > 0, timeout=PATIENCE)
+    window.refresh()
+    assert len(drawn) == 1

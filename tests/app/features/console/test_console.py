@@ -1,0 +1,154 @@
+"""The console: commands run beside the window, change the mesh as an edit, and can be interrupted."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+
+from hexmend_app.features.console.interpreter import Interpreter, is_complete
+from hexmend_app.features.console.panel import ConsolePanel
+from tests.patience import PATIENCE
+
+
+@pytest.fixture
+def console(window, qtbot):
+    """The console of the shared window, and what enters a command and waits for its end."""
+    feature = window.features["console"]
+    window.action("console").trigger()
+    feature.panel.output.clear()
+
+    def enter(source):
+        qtbot.keyClicks(feature.panel.input, source)
+        qtbot.keyClick(feature.panel.input, Qt.Key.Key_Return)
+        qtbot.waitUntil(lambda: not feature.running, timeout=PATIENCE)
+        return feature.panel.output.toPlainText()
+
+    feature.enter_and_wait = enter
+    return feature
+
+
+def test_it_opens_and_evaluates(window, console):
+    assert window.in_front("console")
+    mesh = window.session.document.now.mesh
+    assert f"\n{mesh.n_hexes}\n" in console.enter_and_wait("mesh.n_hexes")
+    assert "\n'hexmend'\n" in console.enter_and_wait("hx.__name__")
+    assert "None" not in console.enter_and_wait("result")
+    text = console.enter_and_wait("1 / 0")
+    assert "ZeroDivisionError" in text
+    assert "1 / 0" in text.split("Traceback")[1]
+    assert "interpreter.py" not in text
+
+
+def test_assigning_to_mesh_is_an_undoable_edit(window, console):
+    document = window.session.document
+    before = document.now
+    console.enter_and_wait("mesh = mesh.with_points(2 * mesh.points)")
+    assert np.allclose(document.now.mesh.points, 2 * before.mesh.points)
+    assert document.undo_title == "console"
+    assert "True" in console.enter_and_wait("bool(mesh.points.max() > 0)")
+    window.session.commands.undo()
+    assert document.now is before
+    window.session.commands.redo()
+    window.session.commands.undo()
+    assert "expected a hexmend Mesh" in console.enter_and_wait("mesh = 3")
+    assert document.now is before
+
+
+def test_another_topology_is_drawn_and_undone(window, console):
+    document, before = window.session.document, window.session.document.now
+    console.enter_and_wait("mesh = hx.gallery.make('cube', size=64)")
+    assert document.now.mesh.n_hexes == 64
+    window.refresh()
+    assert window.canvas.viewport.frame.mesh is document.now.mesh
+    window.session.commands.undo()
+    assert document.now is before
+    window.refresh()
+
+
+def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
+    qtbot.keyClicks(console.panel.input, "while True: pass")
+    qtbot.keyClick(console.panel.input, Qt.Key.Key_Return)
+    assert console.running
+    qtbot.wait(100)  # the window is alive
+    qtbot.keyClick(console.panel.input, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
+    assert "KeyboardInterrupt" in console.panel.output.toPlainText()
+    assert "\n2\n" in console.enter_and_wait("1 + 1")
+
+
+def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
+    console.run("while True: print('again')")
+    qtbot.waitUntil(lambda: console.panel.output.blockCount() > 1000, timeout=PATIENCE)
+    console.interrupt()
+    qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
+    assert "KeyboardInterrupt" in console.panel.output.toPlainText()
+
+
+def test_the_plotter_and_the_session_are_used_in_the_windows_thread(window, console):
+    text = console.enter_and_wait("import pyvista as pv; actor = plotter.add_mesh(pv.Sphere(), color='red')")
+    assert "Error" not in text
+    assert len(window.canvas.plotter.actors) == 1
+    console.enter_and_wait("actor.prop.color = 'blue'")
+    (actor,) = window.canvas.plotter.actors.values()
+    assert actor.prop.color == "blue"
+    console.enter_and_wait("plotter.remove_actor(actor)")
+    assert not window.canvas.plotter.actors
+    mesh = window.session.document.now.mesh
+    assert f"\n{mesh.n_nodes}\n" in console.enter_and_wait("session.document.now.mesh.n_nodes")
+    assert "AttributeError" in console.enter_and_wait("session.nothing")
+
+
+def test_lines_history_and_completion(window, console, qtbot):
+    panel = console.panel
+    qtbot.keyClicks(panel.input, "for i in range(2):")
+    qtbot.keyClick(panel.input, Qt.Key.Key_Return)
+    qtbot.keyClicks(panel.input, "print(7 + i)")
+    qtbot.keyClick(panel.input, Qt.Key.Key_Return)
+    assert not console.running
+    assert "\n7\n8" in console.enter_and_wait("")
+    qtbot.keyClick(panel.input, Qt.Key.Key_Up)
+    assert panel.input.toPlainText().startswith("for i in range(2):")
+    qtbot.keyClick(panel.input, Qt.Key.Key_Down)
+    qtbot.keyClick(panel.input, Qt.Key.Key_Down)
+    assert panel.input.toPlainText() == ""
+    qtbot.keyClicks(panel.input, "session.docu")
+    qtbot.keyClick(panel.input, Qt.Key.Key_Tab)
+    assert panel.input.toPlainText() == "session.document"
+    panel.input.clear()
+
+
+@pytest.mark.parametrize(
+    ("source", "complete"),
+    [
+        ("1 + 1", True),
+        ("x = (1,", False),
+        ("def f():", False),
+        ("def f():\n    return 1", False),
+        ("def f():\n    return 1\n    ", True),
+        ("a = 1\nb = 2", True),
+        ("a b", True),
+        ("", True),
+    ],
+)
+def test_what_is_complete(source, complete):
+    assert is_complete(source) == complete
+
+
+def test_other_threads_print_elsewhere(capsys):
+    interpreter = Interpreter({})
+    assert interpreter.execute("print('here')\nx = 2\nx")
+    assert "".join(text for text, _ in interpreter.output()) == "here\n2\n"
+    assert not interpreter.execute("raise SystemExit")
+    sys.stdout.write("there\n")
+    assert capsys.readouterr().out == "there\n"
+
+
+def test_the_panel_keeps_a_colon_indented(shown, qtbot):
+    panel = shown(ConsolePanel())
+    panel.input.setPlainText("if x:")
+    panel.input.moveCursor(panel.input.textCursor().MoveOperation.End)
+    panel.new_line()
+    assert panel.input.toPlainText() == "if x:\n    "

@@ -1,0 +1,273 @@
+"""Finding and looking at elements in the window, with mouse and keys."""
+
+from __future__ import annotations
+
+import csv
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QLabel, QLineEdit
+
+from hexmend import io
+from hexmend.boundary import NodeClass
+from hexmend.quality import METRICS
+from hexmend.run import StoppingCriteria
+from hexmend_app.bench.windows import save_and_wait
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.theme.palette import KEPT
+from tests.app.driving import LEFT, choose, click, drag, key, open_and_wait
+from tests.core.boundary.solids import slid
+from tests.core.grids import grid
+from tests.patience import PATIENCE
+
+
+def centre(window):
+    return window.canvas.interactor.rect().center()
+
+
+def click_view(window, modifier=Qt.KeyboardModifier.NoModifier, pos=None):
+    """Click in the view, and let the window show what came of it."""
+    QTest.mouseClick(window.canvas.interactor, LEFT, modifier, pos=centre(window) if pos is None else pos)
+    window.refresh()
+
+
+def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
+    window.show_panel("worst")
+    click_view(window)
+    chosen = window.session.selection.hex
+    assert chosen is not None
+    neighbours = window.session.document.now.mesh.topology.face_neighbours[chosen]
+    assert (neighbours < 0).any()  # what is seen lies at the surface
+    assert window.in_front("hex")
+    click_view(window, pos=QPoint(3, 3))
+    assert window.session.selection.hex is None
+    drag(window.canvas.interactor, centre(window), centre(window) + QPoint(40, 0))
+    assert window.session.selection.hex is None
+
+
+def test_a_click_in_the_view_leaves_it_its_room(window):
+    size = window.canvas.size()
+    click_view(window)
+    assert window.session.selection.hex is not None
+    assert not window.in_front("hex")
+    assert window.canvas.size() == size
+    window.docks.set_folded(False)
+    assert window.in_front("hex")
+
+
+@pytest.mark.slow
+def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
+    camera = window.canvas.viewport.camera
+    before = np.array(camera.GetFocalPoint())
+    key(window, Qt.Key.Key_N)
+    worst = window.session.selection.hex
+    assert worst == window.features["hex_inspector"].worst_list.elements[0]
+    middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
+    qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
+    assert not np.allclose(before, middle)
+    key(window, Qt.Key.Key_N)
+    key(window, Qt.Key.Key_N, Qt.KeyboardModifier.ShiftModifier)
+    assert window.session.selection.hex == worst
+    assert window.session.view.look.isolation.hexes == (worst,)
+    key(window, Qt.Key.Key_Escape)
+    assert window.session.view.look.isolation is None
+    assert window.session.selection.hex == worst
+    key(window, Qt.Key.Key_Escape)
+    assert window.session.selection.hex is None
+
+
+def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
+    key(window, Qt.Key.Key_N)
+    drawn, worst = window.canvas.viewport, window.session.selection.hex
+    assert set(drawn.body.faces.hexes) == {worst}
+    around = window.session.document.now.mesh.topology.hexes_around([worst], 1)
+    assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
+
+
+@pytest.mark.slow
+def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
+    key(window, Qt.Key.Key_N)
+    worst = window.session.selection.hex
+    choose(window, window.session.run_setup.method, StoppingCriteria(tolerance=1e-2))
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
+        click(window, "Run")
+    window.show_panel("worst")
+    window.refresh()
+    assert window.session.selection.hex == worst
+    assert not window.session.document.now.figures.inverted[worst]
+    assert window.features["hex_inspector"].worst_list.elements[0] == window.session.document.now.figures.q.argmin()
+
+
+def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
+    assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
+    lines = (tmp_path / "worst.csv").read_text().splitlines()
+    assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.elements)
+    assert not window.features["hex_inspector"].save(tmp_path / "nowhere" / "worst.csv")
+    assert window.messages.messages()[-1][0] == "error"
+
+
+@pytest.mark.slow
+def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
+    mesh = window.session.document.now.mesh
+    inner = int(np.flatnonzero(mesh.free)[50])
+    h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
+    window.session.selection.choose(h)
+    window.features["hex_inspector"].panel.node_chosen.emit(inner)
+    assert window.session.selection.node == inner
+    window.show_panel("hex")
+    window.refresh()
+    pin = next(b for b in window.features["hex_inspector"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert not pin.isChecked()
+    QTest.mouseClick(pin, LEFT, pos=QPoint(8, pin.height() // 2))
+    assert window.session.document.now.mesh.pinned[inner]
+    assert window.session.document.undo_title == "pin"
+    choose(window, "laplacian")
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
+        click(window, "Run")
+    np.testing.assert_array_equal(window.session.document.now.mesh.points[inner], mesh.points[inner])
+    window.session.commands.undo()
+    window.refresh()
+    assert pin.isChecked()
+    window.session.commands.undo()
+    assert window.session.document.now.mesh.free[inner]
+    window.refresh()
+    assert not pin.isChecked()
+
+
+@pytest.mark.slow
+def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, qtbot, tmp_path):
+    io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
+    open_and_wait(qtbot, window, tmp_path / "slid.vtu")
+    mesh = window.session.document.now.mesh
+    middle = (grid(4).points == (2, 2, 4)).all(axis=1)  # of the top
+    node = int(np.flatnonzero(middle)[0])
+    h = np.flatnonzero((mesh.hexes == node).any(axis=1))[0]
+    assert not window.window_actions["pin"].isEnabled()
+    window.session.selection.choose(int(h), node)
+    window.show_panel("hex")
+    window.refresh()
+    pin = next(b for b in window.features["hex_inspector"].panel.findChildren(QCheckBox) if b.text() == "Pinned")
+    assert pin.isEnabled()
+    assert not pin.isChecked()
+    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ShiftModifier)
+    assert pin.isChecked()
+    assert window.window_actions["pin"].isChecked()
+    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
+    assert any(f"Node {node}: boundary, pinned" in label.text() for label in labels)
+    choose(window, "mend", boundary="slide")
+    with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
+        click(window, "Run")
+    moved = (window.session.document.now.mesh.points != mesh.points).any(axis=1)
+    assert moved[mesh.topology.boundary].sum() > 20
+    assert not moved[node]
+    save_and_wait(window.session, tmp_path / "pinned.vtu")
+    assert io.read(tmp_path / "pinned.vtu").pinned[node]
+    window.session.commands.undo()
+    window.session.commands.undo()
+    window.refresh()
+    assert not pin.isChecked()
+
+
+def test_what_a_node_of_the_boundary_may_do_is_said(window, qtbot):
+    mesh = window.session.document.now.mesh
+    window.show_panel("show")
+    window.refresh()
+    qtbot.waitUntil(lambda: window.session.boundary_classifier.of(mesh) is not None, timeout=PATIENCE)
+    node = int(np.flatnonzero(window.session.boundary_classifier.classes.kinds == NodeClass.CORNER)[0])
+    window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
+    window.refresh()
+    said = [label.text() for label in window.features["hex_inspector"].panel.findChildren(QLabel)]
+    assert any(f"Node {node:,}: boundary, a corner, " in text for text in said)
+
+
+def test_every_command_is_found_by_name(window, qtbot):
+    key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
+    palette = window.findChild(CommandPalette)
+    qtbot.waitExposed(palette)
+    assert any("Isometric" in text for text in palette.found())
+    QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
+    QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
+def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
+    path = tmp_path / f"histogram{suffix}"
+    assert window.features["histogram"].save(path)
+    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
+    assert path.read_bytes().startswith(starts[suffix])
+    if suffix == ".csv":
+        rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
+        assert sum(int(row[3]) for row in rows) == window.session.document.now.mesh.n_hexes
+        assert int(rows[0][3]) == window.session.document.now.summary.inverted
+
+
+def test_what_is_saved_is_what_is_drawn(window, tmp_path):
+    histogram, now = window.features["histogram"].panel, window.session.document.now
+    histogram.metric_chosen.emit("condition")
+    window.refresh()
+    histogram.keep_requested.emit()
+    histogram.renamed.emit(0, "as it was, before")
+    histogram.head.bins.setValue(20)
+    histogram.head.cumulative.setChecked(True)
+    histogram.head.scale.button("log").click()
+    window.refresh()
+    for suffix in (".csv", ".svg"):
+        assert window.features["histogram"].save(tmp_path / f"drawn{suffix}")
+    with open(tmp_path / "drawn.csv", newline="") as file:
+        head, inverted, *rows = csv.reader(file)
+    assert head == ["condition from", "condition to"] + [
+        f"% of hexes up to: {name}" for name in ("at the start", "now", "as it was, before")
+    ]
+    assert len(rows) == 21  # the last beyond the end of the axis
+    assert rows[-1][1:] == ["inf", "100", "100", "100"]
+    assert float(inverted[3]) == pytest.approx(100 * now.summary.inverted / 4000, rel=1e-5)
+    shares = [float(row[3]) for row in rows]
+    assert shares == sorted(shares)
+    values = METRICS["condition"].of(now.mesh.points, now.mesh.hexes, now.figures)
+    up_to = np.count_nonzero(now.figures.inverted | (values < float(rows[4][1])))
+    assert shares[4] == pytest.approx(100 * up_to / 4000, rel=1e-5)
+    drawing = (tmp_path / "drawn.svg").read_text()
+    for text in ("Condition number", "as it was, before (", "inverted", "% of hexes up to x, inverted first"):
+        assert f">{text}" in drawing
+    assert all(colour in drawing for colour in (KEPT[0].of(dark=False), "#0072b2"))
+    histogram.head.scale.button("linear").click()
+    window.refresh()
+    assert window.features["histogram"].save(tmp_path / "linear.svg")
+    assert (tmp_path / "linear.svg").read_text() != drawing
+
+
+def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
+    assert not window.features["histogram"].save(tmp_path / "histogram.txt")
+    kind, title, text = window.messages.messages()[-1]
+    assert (kind, title) == ("error", "The histogram was not saved")
+    assert ".svg, .pdf, .png" in text
+    assert list(tmp_path.glob("histogram*")) == []
+
+
+def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
+    click_view(window)
+    first = window.session.selection.hex
+    click_view(window, Qt.KeyboardModifier.ControlModifier)
+    assert window.session.view.look.dug == {first}
+    assert window.session.selection.hex is None
+    window.canvas.draw_still()
+    click_view(window)
+    behind = window.session.selection.hex
+    assert behind not in (None, first)
+    key(window, Qt.Key.Key_Delete)
+    assert window.session.view.look.dug == {first, behind}
+    key(window, Qt.Key.Key_Backspace)
+    assert window.session.view.look.dug == {first}
+    key(window, Qt.Key.Key_Backspace)
+    assert not window.session.view.look.dug
+
+
+def test_the_chosen_element_is_isolated_by_key(window):
+    click_view(window)
+    key(window, Qt.Key.Key_I)
+    assert window.session.view.look.isolation.hexes == (window.session.selection.hex,)
+    key(window, Qt.Key.Key_Escape)
+    assert window.session.view.look.isolation is None

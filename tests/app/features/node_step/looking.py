@@ -1,0 +1,61 @@
+"""What a window shows of a node's step."""
+
+from __future__ import annotations
+
+from html import unescape
+
+import numpy as np
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
+
+from tests.app.driving import named
+from tests.patience import PATIENCE
+
+
+def shown(window):
+    return window.canvas.viewport.extras.selection.node_step
+
+
+def wait_for_step(window, qtbot, method, node=None):
+    window.refresh()
+    qtbot.waitUntil(
+        lambda: (
+            shown(window) is not None
+            and shown(window).method == method
+            and shown(window).node == (window.session.selection.node if node is None else node)
+        ),
+        timeout=PATIENCE,
+    )
+    window.refresh()
+    return shown(window)
+
+
+def button(window, text):
+    return next(b for b in window.features["node_step"].panel.findChildren(QPushButton) if b.text() == text)
+
+
+def patch_alone(window):
+    return named(window.features["node_step"].panel, QCheckBox, "Patch alone")
+
+
+def seen(image, role, dark=False):
+    """How many pixels of a picture, (h, w, 3), have the colour of a role."""
+    colour = [int(role.of(dark)[k : k + 2], 16) for k in (1, 3, 5)]
+    return int((np.abs(image[..., :3].astype(int) - colour).max(axis=2) < 12).sum())
+
+
+def grabbed(widget):
+    """What a widget shows, (h, w, 4), red first."""
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGBA8888)
+    return np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)
+
+
+def texts(window):
+    window.refresh()
+    panel = window.features["node_step"].panel
+    labels = " ".join(unescape(one.text()) for one in panel.findChildren(QLabel) if one.isVisible())
+    return labels + (panel.figures.toPlainText().replace("\xa0", " ") if panel.figures.isVisible() else "")
+
+
+def said(window, qtbot, words):
+    qtbot.waitUntil(lambda: words in texts(window), timeout=PATIENCE)

@@ -1,0 +1,229 @@
+"""The node debugger in the window, with mouse and keys: a node's step explained."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QLabel, QPushButton, QTabBar
+
+from hexmend.node_step import explain
+from hexmend.smoothers import METHODS
+from hexmend_app.picture.appearance import Isolation
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.tasks.task import running
+from hexmend_app.theme import theme_choice
+from hexmend_app.theme.palette import SEARCH, UPHILL
+from hexmend_app.theme.theme_choice import ThemeChoice
+from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
+from tests.app.features.node_step.looking import button, grabbed, patch_alone, said, seen, shown, texts, wait_for_step
+from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
+
+# One node
+
+
+def test_a_key_explains_a_free_node_of_the_worst_element(at_work):
+    window, step = at_work, shown(at_work)
+    mesh = window.session.document.now.mesh
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]
+    assert window.session.selection.node in mesh.hexes[window.session.selection.hex]
+    assert mesh.free[step.node]
+    np.testing.assert_array_equal(step.after, explain(mesh, METHODS["local-sd"](), step.node).after)
+    assert window.in_front("node")
+    words = texts(window)
+    assert f"Node {step.node:,}" in words
+    assert "Local steepest descent. Will be moved." in words
+    assert "Eigenvalues" in words
+    assert window.session.document.now is window.session.document.start  # nothing has moved
+
+
+def test_the_trials_are_numbered_in_the_plot(at_work):
+    step = shown(at_work)
+    drawn = at_work.features["node_step"].panel.plot.shown_trials()
+    assert drawn
+    for number, alpha, height in drawn:
+        trial = step.trials[number - 1]
+        assert alpha == trial.alpha
+        if number == len(step.trials):
+            assert height == pytest.approx(trial.energy - step.energy)
+    assert drawn[-1][0] == len(step.trials)  # the accepted one is never left out
+
+
+def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once(at_work, qtbot):
+    window = at_work
+    label = named(window.features["node_step"].panel, QLabel, "Free nodes")
+    mesh, before = window.session.document.now.mesh, window.session.selection.node
+    other = next(int(i) for i in mesh.hexes[window.session.selection.hex] if mesh.free[i] and i != before)
+    assert f'href="{other}"' in label.text()
+    label.setFocus()
+    for _ in range(8):
+        if window.session.selection.node == other:
+            break
+        QTest.keyClick(label, Qt.Key.Key_Tab)
+        QTest.keyClick(label, Qt.Key.Key_Return)
+        window.refresh()
+    assert window.session.selection.node != before
+    wait_for_step(window, qtbot, "local-sd")
+    choose_by_keys(window, "local-mnr")
+    step = wait_for_step(window, qtbot, "local-mnr")
+    assert "Shift" in texts(window)
+    window.features["smooth"].panel.stage.parameters.set_values({"p": 3.0})
+    window.features["smooth"].panel.stage.parameters.changed.emit()
+    qtbot.waitUntil(lambda: shown(window).norm.p == 3, timeout=PATIENCE)
+    assert shown(window).energy != step.energy
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", list(METHODS))
+def test_every_method_is_explained(at_work, qtbot, name):
+    choose_by_keys(at_work, name)
+    wait_for_step(at_work, qtbot, "getme" if name == "general" else name)
+    assert at_work.features["node_step"].panel.plot.isVisible() == bool(len(shown(at_work).curve))
+    words = texts(at_work)
+    assert "Energy" in words
+    assert ("Armijo" in words) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
+    assert ("Goes to" in words) == (name in ("laplacian", "smart-laplacian", "getme", "general"))
+
+
+def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
+    choose_by_keys(window, "local-sd")
+    window.show_panel("node")
+    said(window, qtbot, "Click a hex in the view")
+    QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
+    assert window.session.selection.hex is not None
+    assert window.in_front("node")  # a click does not bring another panel to the front
+    said(window, qtbot, "lies on the boundary: no method moves it")
+    choose(window, "local-sd", boundary="slide")
+    said(window, qtbot, "lies on the boundary, which slides: steps are shown of nodes inside")
+    choose(window, "local-sd")
+    assert shown(window) is None
+    mesh = window.session.document.now.mesh
+    inner = int(np.flatnonzero(mesh.free)[50])
+    window.session.selection.choose(int(mesh.topology.node_corners[inner][0] // 8), inner)
+    wait_for_step(window, qtbot, "local-sd", inner)
+    window.session.commands.pin(inner, True)
+    said(window, qtbot, "is pinned: no method moves it")
+    assert shown(window) is None
+
+
+def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
+    window = at_work
+    if not window.features["smooth"].panel.stage.parameters.isVisible():
+        press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
+    editor = window.features["smooth"].panel.stage.parameters.editor("p")
+    target = editor.widget if hasattr(editor, "widget") else editor
+    target.setFocus()
+    line = target.lineEdit() if hasattr(target, "lineEdit") else target
+    line.selectAll()
+    QTest.keyClicks(line, "0.1")
+    said(window, qtbot, "Correct the marked value")
+    assert shown(window) is None
+    assert not button(window, "Next node").isEnabled()
+    assert not window.window_actions["next_node"].isEnabled()
+
+
+@pytest.mark.slow
+def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
+    window = at_work
+    with qtbot.waitSignal(window.session.run.phase_changed, timeout=PATIENCE):
+        click(window, "Run")
+    window.refresh()
+    if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
+        assert "A run is under way" in texts(window)
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    choose_by_keys(window, "local-sd")
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    wait_for_step(window, qtbot, "local-sd")
+    assert not button(window, "Next node").isEnabled()
+    assert "paused" in button(window, "Next node").toolTip()
+    now = window.session.document.now
+    key(window, Qt.Key.Key_F11)
+    assert window.session.document.now is now
+    click(window, "Stop")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=PATIENCE)
+
+
+def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
+    window = at_work
+    window.show_panel("convergence")
+    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
+    choose_by_keys(window, "getme")
+    assert not window.session.node_step_task.busy
+    window.show_panel("node")
+    wait_for_step(window, qtbot, "getme")
+
+
+# What is seen
+
+
+@pytest.mark.slow
+def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictures(at_work, qtbot, tmp_path):
+    window = at_work
+    box = patch_alone(window)
+    tick(box)
+    step = shown(window)
+    assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
+    assert window.canvas.viewport.shown == step.hexes.size
+    qtbot.waitUntil(lambda: not window.canvas.travel.active, timeout=PATIENCE)
+
+    assert min(seen(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
+    window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
+    window.session.view.set_handles(False)
+    window.refresh()
+    assert window.canvas.viewport.shown == 0
+    assert seen(pixels(window), UPHILL) > 20
+    assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
+    assert seen(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
+    window.messages.clear()  # Esc is for a message first
+    qtbot.waitUntil(lambda: window.window_actions["back"].isEnabled(), timeout=PATIENCE)
+    key(window, Qt.Key.Key_Escape)
+    assert window.session.view.look.isolation is None
+    assert not box.isChecked()
+    window.session.selection.choose(None)
+    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
+    assert seen(pixels(window), UPHILL) == 0
+
+
+def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
+    try:
+        assert seen(pixels(at_work), UPHILL, dark=True) < 20
+        assert seen(grabbed(at_work.features["node_step"].panel.plot), SEARCH, dark=True) < 20
+        theme_choice.choose(ThemeChoice.DARK)
+        at_work.refresh()
+        assert seen(pixels(at_work), UPHILL, dark=True) > 20
+        assert seen(grabbed(at_work.features["node_step"].panel.plot), SEARCH, dark=True) > 20
+    finally:
+        theme_choice.choose(ThemeChoice.LIGHT)
+
+
+def test_closing_while_a_step_is_worked_out_leaves_no_thread(fresh_window, qtbot):
+    window = fresh_window
+    choose_by_keys(window, "global-nr")
+    key(window, Qt.Key.Key_D)
+    qtbot.waitUntil(lambda: window.session.node_step_task.busy, timeout=PATIENCE)
+    window.close()
+    assert running() == ()
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
+def test_nothing_is_cut_off(at_work, qtbot, size):
+    window = at_work
+    key(window, Qt.Key.Key_F11)
+    window.resize(*size)
+    panel = window.features["node_step"].panel
+    tools = named(window, QTabBar, "Tools")
+    qtbot.waitUntil(lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x())
+    assert window.width() == size[0]
+    labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
+    for part in [*panel.findChildren(QPushButton), patch_alone(window), *labels]:
+        assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(part, QPushButton)
+        assert panel.rect().contains(part.mapTo(panel, part.rect().bottomRight())), part.text()
+    assert panel.figures.document().idealWidth() <= panel.figures.viewport().width()
+    assert min(panel.figures.height(), panel.plot.height()) > 100

@@ -1,0 +1,150 @@
+"""A sweep of a local method gone through node by node in the window, with mouse and keys."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+
+from hexmend.node_step import StepStatus
+from hexmend.smoothers import METHODS
+from hexmend_app.state.run.run_controller import Phase
+from tests.app.driving import choose_by_keys, click, key, phase, press
+from tests.app.features.node_step.looking import button, shown, texts, wait_for_step
+from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
+
+
+def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot):
+    window = at_work
+    start = window.session.document.now
+    press(button(window, "Next node"))
+    step = wait_for_step(window, qtbot, "local-sd")
+    assert step.status is StepStatus.MOVED
+    points = window.session.document.now.mesh.points
+    np.testing.assert_array_equal(points[step.node], step.after)
+    assert (points != start.mesh.points).any(axis=1).sum() == 1
+    assert "Local steepest descent. Moved." in texts(window)
+    assert "1 of" in texts(window)
+    press(button(window, "10 nodes"))
+    key(window, Qt.Key.Key_F11)
+    assert window.session.node_sweep.sweep.done == 12
+    assert window.session.document.undo_title is None
+    assert window.window_actions["undo"].text() == "&Undo sweep of local-sd, 12 nodes"
+    now = window.session.document.now
+    key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert window.session.document.now is start
+    assert window.session.node_sweep.sweep is None
+    key(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
+    assert window.session.document.now is now
+    assert window.session.document.undo_title == "sweep of local-sd, 12 nodes"
+
+
+def test_a_finished_sweep_is_the_methods_iteration(at_work, qtbot):
+    window = at_work
+    mesh = window.session.document.now.mesh
+    expected = next(itertools.islice(METHODS["local-sd"]().steps(mesh), 1, None)).points
+    key(window, Qt.Key.Key_F11, Qt.KeyboardModifier.ShiftModifier)
+    press(button(window, "Finish"))
+    np.testing.assert_allclose(window.session.document.now.mesh.points, expected, rtol=0, atol=1e-13)
+    assert window.session.node_sweep.sweep is None
+    free = int(mesh.free.sum())
+    assert window.session.document.undo_title == f"sweep of local-sd, {free:,} nodes"
+    qtbot.waitUntil(lambda: shown(window).node == window.session.selection.node, timeout=PATIENCE)
+    assert "Moved." in texts(window)
+
+
+def test_a_node_looked_at_in_a_sweep_is_explained_as_the_sweep_would_treat_it(at_work, qtbot):
+    window = at_work
+    key(window, Qt.Key.Key_F11)
+    sweep = window.session.node_sweep.sweep
+    coming = int(sweep.nodes[5])
+    window.session.selection.choose(int(window.session.document.now.mesh.topology.node_corners[coming][0] // 8), coming)
+    step = wait_for_step(window, qtbot, "local-sd", coming)
+    assert "Will be moved" in texts(window)
+    assert window.session.node_sweep.sweep is sweep
+    np.testing.assert_array_equal(step.after, sweep.preview(coming).after)
+
+
+@pytest.mark.parametrize("what", ["run", "method", "tag", "save", "reset"])
+def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, tmp_path, what):
+    window = at_work
+    start = window.session.document.now
+    key(window, Qt.Key.Key_F11)
+    key(window, Qt.Key.Key_F11)
+    stepped = window.session.document.now
+    if what == "run":
+        choose_by_keys(window, "laplacian")
+        click(window, "Step")
+        qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+        click(window, "Stop")
+        qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+        window.session.commands.undo()
+    elif what == "method":
+        choose_by_keys(window, "local-nr")
+        wait_for_step(window, qtbot, "local-nr")
+        key(window, Qt.Key.Key_F11)
+        assert window.session.node_sweep.sweep.done == 1
+        window.session.commands.undo()
+    elif what == "tag":
+        window.session.commands.tag("bad", [7])
+        assert window.session.document.undo_title == "tag"
+        window.session.commands.undo()
+    elif what == "save":
+        assert window.features["save"].save_and_wait(tmp_path / "saved.vtu")
+        assert not window.session.document.modified
+    else:
+        window.session.commands.reset()
+        np.testing.assert_array_equal(window.session.document.now.mesh.points, start.mesh.points)
+        window.session.commands.undo()
+    assert window.session.document.undo_title == "sweep of local-sd, 2 nodes"
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, stepped.mesh.points)
+
+
+@pytest.mark.slow
+def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qtbot):
+    window = at_work
+    choose_by_keys(window, "laplacian")
+    click(window, "Step")
+    qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
+    click(window, "Stop")
+    qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
+    choose_by_keys(window, "local-sd")
+    wait_for_step(window, qtbot, "local-sd")
+    key(window, Qt.Key.Key_F11)
+    stepped = window.session.document.now
+    timeline = window.session.timeline
+    timeline.go(timeline.record, 0)
+    assert window.session.node_sweep.sweep is None
+    np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
+    assert window.session.document.undo_title == "sweep of local-sd, 1 node"
+    now = window.session.document.now.mesh.points
+    qtbot.waitUntil(lambda: np.array_equal(shown(window).before, now[shown(window).node]), timeout=PATIENCE)
+    wait_for_step(window, qtbot, "local-sd")
+    window.session.commands.undo()
+    window.session.commands.redo()
+    assert window.session.document.now is stepped
+
+
+def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
+    window = at_work
+    choose_by_keys(window, "mend")
+    wait_for_step(window, qtbot, "mend")
+    for id in ("next_node", "ten_nodes", "finish_sweep"):
+        assert not window.window_actions[id].isEnabled()
+    assert "Local steepest descent" in button(window, "10 nodes").toolTip()
+    now = window.session.document.now
+    key(window, Qt.Key.Key_F11)
+    assert window.session.document.now is now
+
+
+def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
+    choose_by_keys(window, "local-nr")
+    key(window, Qt.Key.Key_F11)
+    qtbot.waitUntil(lambda: window.session.node_sweep.sweep is not None, timeout=PATIENCE)
+    step = wait_for_step(window, qtbot, "local-nr")
+    assert step.node == window.session.node_sweep.sweep.nodes[0]
+    np.testing.assert_array_equal(window.session.document.now.mesh.points[step.node], step.after)

@@ -1,0 +1,176 @@
+"""Scenes as TOML: what is written is read again, and what is wrong is said with its place."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from hexmend.errors import FileError, ParameterError
+from hexmend_app.picture import (
+    AxesStyle,
+    Box,
+    Camera,
+    Captions,
+    ColourBarStyle,
+    Colours,
+    Corner,
+    Cut,
+    CutStyle,
+    Isolate,
+    LineStyle,
+    Page,
+    PicturePanel,
+    Plane,
+    Range,
+    Scene,
+    Show,
+    TextPlace,
+    WipeLayout,
+    camera_from,
+    camera_text,
+    from_toml,
+    read_scene,
+    to_toml,
+    write_scene,
+)
+from hexmend_app.picture.appearance import Structure, Traces
+
+STAND = Camera(position=(0.1, -2.0, 3e-7), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=1 / 3, parallel=True)
+FULL = Scene(
+    camera=STAND,
+    cameras={"a b": Camera("+x", up="y"), "side": Camera((1.0, 2.0, 3.0))},
+    panels=(PicturePanel("side", 2, 'quoted " \\ $x$ ×', WipeLayout(1, 0.25)), PicturePanel()),
+    cut=Cut((Plane((1, 1, 0), 0.3), Plane((0, 0, 1), point=(0.1, 0.2, 0.3))), style=CutStyle.SMOOTH, notch=True),
+    show=Show((float("-inf"), 0.5), "scaled-jacobian", True, 2, Isolate((3, 4), 2), (1, 7), 0.1, False),
+    structure=Structure(sharp=True, others=False),
+    movement=Traces(factor=3.0),
+    colours=Colours("edge-ratio", "plasma", (1.0, 4.5), True),
+    lines=LineStyle(0.4),
+    bar=ColourBarStyle(TextPlace.RIGHT, (1.0, 2.0), "ratio"),
+    axes=AxesStyle(False, Corner.UPPER_RIGHT),
+    page=Page(170, 90, dpi=600, background="#102030", margin=2, columns=1, captions=Captions.LETTERS, font_size=7.5),
+)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        Scene(),
+        FULL,
+        Scene(cut=Cut(box=Box(shares=True)), colours=Colours(range=Range.FITTED)),
+        Scene(cut=Cut((Plane(),), hexes="0-7, 9, 20-2000000000")),
+    ],
+)
+def test_what_is_written_is_read_again(scene, tmp_path):
+    assert from_toml(to_toml(scene)) == scene
+    write_scene(tmp_path / "scene.toml", scene)
+    assert read_scene(tmp_path / "scene.toml") == scene
+
+
+@pytest.mark.parametrize("scene", [Scene(), FULL])
+def test_what_is_as_in_any_scene_can_be_left_out(scene):
+    short = to_toml(scene, whole=False)
+    assert len(short) < len(to_toml(scene))
+    assert from_toml(short) == scene
+
+
+def test_every_key_has_a_default():
+    assert from_toml("") == Scene()
+    assert from_toml("[page]\nwidth = 85") == Scene(page=Page(width=85))
+
+
+@pytest.mark.parametrize("camera", [Camera(), STAND, Camera((1.0, 0.0, -2.5), up="x")])
+def test_a_camera_is_one_line(camera):
+    text = camera_text(camera)
+    assert "\n" not in text
+    assert camera_from(text) == camera_from(f" camera = {text}\n") == camera
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[bar]\ntick = 3", "[bar] has an unknown key 'tick': expected place, ticks, title"),
+        ("bars = 1", "the scene has an unknown key 'bars': expected format, camera"),
+        ("format = 2", "format = 2 is newer"),
+        ("cut = 3", "[cut] is no table"),
+        ("[page]\ndpi = 'x'", "[page] dpi = 'x' is no number: expected a number from 5 to 4,800"),
+        ("[page]\nwidth = nan", "[page] width = nan is out of range: expected a number from 5 to 3,000 mm"),
+        ("[page]\npixels = [16384, 16384]", "[page]: the page has 16,384 × 16,384 pixels: expected 67,108,864 at most"),
+        ("[page]\nwidth = 3000\ndpi = 4800", "expected sides of 16 to 16,384"),
+        ("[page]\nwidth = 3\n", "width = 3 is out of range"),
+        ("[page]\nwidth = 30\npixels = [64, 64]", "expected one of them"),
+        ("[page]\nmargin = 300", "margin = 300 leaves no room"),
+        ("[page]\nbackground = 'red'", "expected white, transparent or #rrggbb"),
+        ("[[panels]]\n[[panels]]\nmesh = 0", "[panels 2] mesh = 0 is out of range"),
+        ("[[panels]]\ncamera = 'a'", "there is no camera 'a': [cameras] has none"),
+        ("[cut]\nplanes = [{}, { normal = [1, 2] }]", "[cut] planes 2 normal = [1, 2] has 2 entries: expected 3"),
+        ("[cut]\nplanes = [{ normal = [0, 0, 0] }]", "[cut] planes 1: normal = [0, 0, 0] is no direction"),
+        ("[cut]\nplanes = [{ position = 0.1, point = [0, 0, 0] }]", "a position and a point"),
+        ("[cut]\nplanes = [{}]\nbox = {}", "planes and a box"),
+        ("[cut]\nplanes = [{}]\nhexes = '3-1'", "hexes: hexes 3 to 1 come after -1: expected ascending ranges"),
+        ("[cut]\nplanes = [{}]\nhexes = '0-2, 2'", "hexes 2 to 2 come after 2"),
+        (
+            "[cut]\nplanes = [{}]\nhexes = '0-2, all'",
+            "hexes: 'all' is no range of numbers: expected such as 0-120, 130",
+        ),
+        ("[cut]\nplanes = [{}]\nhexes = '0'\nstyle = 'smooth'", "a cut by whole hexes alone"),
+        ("[cut]\nhexes = '0'", "a cut by whole hexes alone"),
+        ("[cut]\nstyle = 'rough'", "[cut] style = 'rough' is unknown: expected crinkle, smooth"),
+        ("[camera]\nfrom = 'up'", "[camera]: from = 'up' is unknown"),
+        ("[camera]\nposition = [1, 2, 3]", "an exact stand lacks a part"),
+        ("[cameras.a]\nup = 'w'", "[cameras.a]: up = 'w' is unknown"),
+        ("[show]\nisolate = { hexes = [1, 2.5] }", "[show] isolate hexes = 2.5 is no whole number"),
+        ("[show]\nquality = [1, 0]", "expected the lower number first"),
+        ("[colours]\nmetric = 'beauty'", "metric = 'beauty' is unknown: expected one of q"),
+        ("[colours]\nrange = [1]", "[colours] range = [1] has 1 entries: expected 2"),
+        ("[structure]\nsharp = 1", "[structure] sharp = 1 is no switch"),
+        ('[bar]\ntitle = "a\\u001b"', "is no text of a line"),
+        ("[lines]\nedges = " + "9" * 400, "a huge number"),
+        ("[lines]\nedges = " + "9" * 5000, "is not TOML"),
+        ("a" + ".a" * 40 + " = 1", "a key of more than 8 parts"),
+        ("a = " + "[" * 5000, "nested too deeply"),
+        ("[page]\nwidth = " + "{a.a.a.a.a.a.a.a=" * 150 + "1" + "}" * 150, "[page] width = a table is no number"),
+        ("[bar", "is not TOML: expected"),
+    ],
+)
+def test_what_is_wrong_is_said_with_its_place(text, said, tmp_path):
+    with pytest.raises(ParameterError) as error:
+        from_toml(text)
+    assert said in str(error.value)
+    (tmp_path / "scene.toml").write_text(text)
+    with pytest.raises(FileError, match=r"scene\.toml: "):
+        read_scene(tmp_path / "scene.toml")
+
+
+@pytest.mark.parametrize("text", ["", "iso", "{", "{ from = 'iso' }\nx = 1", "{ a = 1 }", "[1]"])
+def test_what_is_no_camera_is_refused(text):
+    with pytest.raises(ParameterError):
+        camera_from(text)
+
+
+VALUES = st.recursive(
+    st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.sampled_from(["q", "iso", "white"]),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.sampled_from(["normal", "hexes", "a"]), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+KEYS = [f"{table}.{key}" for table in ("page", "cut", "show", "camera", "bar", "cameras", "colours") for key in
+        ("width", "pixels", "dpi", "planes", "box", "hidden", "isolate", "from", "ticks", "a", "range", "scale")]  # fmt: skip
+
+
+@example({"bar.ticks": []})
+@given(st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=4))
+def test_whatever_stands_in_a_file_gives_a_scene_or_an_error_of_ours(data):
+    import tomli_w
+
+    tables = {}
+    for name, value in data.items():
+        table, key = name.split(".")
+        tables.setdefault(table, {})[key] = value
+    try:
+        scene = from_toml(tomli_w.dumps(tables))
+    except ParameterError:
+        return
+    assert from_toml(to_toml(scene)) == scene

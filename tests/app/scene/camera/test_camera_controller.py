@@ -1,0 +1,178 @@
+"""The camera of views, brought to where it sees what it is to see."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import Isolation, Look
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.camera.vtk_pose import pose_of
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.panes import Panes
+from hexmend_app.state.view.side_views import Wipe
+from tests.core.grids import grid
+
+MESH = grid(6)
+FIGURES = measure(MESH.points, MESH.hexes)
+CORNER = Look(isolation=Isolation((0,), 1))
+LOOKS = [
+    Look(),
+    CORNER,
+    Look(clip=PlaneClip.at((1, 0, 0), (2.5, 3, 3))),
+    Look(clip=PlaneClip.at((1, 1, 0), (2, 2, 3), False)),
+    Look(peel=2),
+]
+
+
+@pytest.fixture
+def panes():
+    with Stage((300, 200)) as stage:
+        panes = Panes(stage.window)
+        panes.draw(Frame(MESH, FIGURES))
+        yield panes
+
+
+def seen(panes, places, aspect=1.5):
+    """Where places lie in the picture, which reaches from -1 to 1; (k, 2)."""
+    matrix = pv.array_from_vtkmatrix(panes.eye.camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1))
+    projected = np.column_stack([places, np.ones(len(places))]) @ matrix.T
+    return projected[:, :2] / projected[:, 3:]
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("look", LOOKS)
+def test_what_is_shown_fills_the_picture(panes, look, parallel):
+    panes.eye.set_parallel(parallel)
+    panes.draw(Frame(MESH, FIGURES, look=look))
+    panes.eye.fit()
+    places = seen(panes, panes.first.places)
+    ends = np.array([places.min(axis=0), places.max(axis=0)])
+    assert np.abs(ends).max() == pytest.approx(0.96, abs=1e-3)
+    tight = np.abs(ends).max(axis=0).argmax()
+    np.testing.assert_allclose(ends[:, tight], [-0.96, 0.96], atol=1e-3)
+
+
+def test_the_first_view_of_a_mesh_is_fitted(panes):
+    small = grid(2)
+    panes.draw(Frame(small, measure(small.points, small.hexes)))
+    assert np.abs(seen(panes, small.points)).max() == pytest.approx(0.96, abs=1e-3)
+    assert panes.eye.fitted
+
+
+def test_a_look_or_moved_nodes_leave_the_camera(panes):
+    before = pose_of(panes.eye.camera)
+    panes.draw(Frame(MESH, FIGURES, look=CORNER))
+    moved = MESH.with_points(MESH.points * 1.1)
+    panes.draw(Frame(moved, measure(moved.points, moved.hexes), look=CORNER))
+    assert pose_of(panes.eye.camera) == before
+
+
+def test_where_nothing_is_left_the_mesh_is_fitted(panes):
+    whole = pose_of(panes.eye.camera)
+    panes.draw(Frame(MESH, FIGURES, look=Look(dug=frozenset(range(MESH.n_hexes)))))
+    panes.eye.fit()
+    assert pose_of(panes.eye.camera).looks_like(whole)
+
+
+@pytest.mark.parametrize("wipe", [None, Wipe(0, 1, 0.4)])
+def test_what_is_shown_in_any_view_is_in_the_picture(panes, wipe):
+    wide = MESH.with_points(MESH.points * (2, 1, 1))
+    panes.show([(wide, measure(wide.points, wide.hexes))], wipe)
+    panes.eye.fit()
+    aspect = 1.5 if wipe else 0.75
+    assert np.abs(seen(panes, wide.points, aspect)).max() == pytest.approx(0.96, abs=1e-3)
+    assert np.abs(seen(panes, MESH.points, aspect)).max() < 0.96
+
+
+def test_a_view_that_is_fitted_stays_so_in_a_window_of_another_size(panes):
+    window = panes.first.layers[0].GetRenderWindow()
+    window.Render()
+    far = panes.eye.camera.GetDistance()
+    window.SetSize(150, 200)
+    window.Render()
+    assert panes.eye.camera.GetDistance() > 1.2 * far
+    panes.eye.camera.Dolly(1.5)
+    far = panes.eye.camera.GetDistance()
+    window.SetSize(300, 200)
+    window.Render()
+    assert panes.eye.camera.GetDistance() == far  # the user has come nearer
+
+
+def test_directions_follow_what_is_up(panes):
+    eye = panes.eye
+    for axis, up in (("y", (0, 1, 0)), ("x", (1, 0, 0)), ("z", (0, 0, 1))):
+        eye.set_up(axis)
+        assert eye.up == axis
+        np.testing.assert_allclose(eye.camera.GetViewUp(), up)
+        assert np.dot(eye.camera.GetDirectionOfProjection(), up) < -0.3  # from above
+        assert eye.fitted
+    eye.set_up("y")
+    eye.look_along("-z")
+    np.testing.assert_allclose(eye.camera.GetViewUp(), (0, 1, 0))
+    small = grid(3)
+    panes.draw(Frame(small, measure(small.points, small.hexes)))
+    np.testing.assert_allclose(eye.camera.GetViewUp(), (0, 1, 0))  # of the next mesh too
+
+
+def test_the_picture_rolls_counter_clockwise(panes):
+    eye = panes.eye
+    eye.look_along("+z")
+    eye.roll(90)
+    np.testing.assert_allclose(eye.camera.GetViewUp(), (1, 0, 0), atol=1e-9)  # what was right is up
+
+
+def test_what_is_looked_at_stays_as_large_in_the_other_projection(panes):
+    eye = panes.eye
+    eye.flight_to(MESH.points[MESH.hexes[[0]]]).at(1.0)
+    focal, up = np.array(eye.camera.GetFocalPoint()), np.array(eye.camera.GetViewUp())
+    places = np.array([focal, focal + 0.2 * up])
+    before = seen(panes, places)
+    eye.set_parallel(True)
+    np.testing.assert_allclose(seen(panes, places), before, atol=0.01)
+    eye.camera.SetParallelScale(2 * eye.camera.GetParallelScale())
+    half = seen(panes, places)
+    eye.set_parallel(False)
+    np.testing.assert_allclose(seen(panes, places), half, atol=0.01)
+
+
+@pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, -1), (1, 2, 3)])
+def test_a_plane_is_faced_from_where_it_is_open(panes, normal):
+    clip = PlaneClip.at(normal, (3, 3, 3), False)
+    panes.draw(Frame(MESH, FIGURES, look=Look(clip=clip)))
+    panes.eye.flight_along(clip.planes[0].normal).at(1.0)
+    ahead = np.array(panes.eye.camera.GetDirectionOfProjection())
+    np.testing.assert_allclose(ahead, -np.array(clip.planes[0].normal), atol=1e-9)
+    assert np.abs(seen(panes, panes.first.places)).max() == pytest.approx(0.96, abs=1e-3)
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_the_camera_turns_about_a_place_without_coming_nearer(panes, parallel):
+    eye = panes.eye
+    eye.set_parallel(parallel)
+    before, place = pose_of(eye.camera), np.array([6.0, 0.0, 6.0])
+    eye.flight_around(place).at(1.0)
+    after = pose_of(eye.camera)
+    assert after.focal == tuple(place)
+    assert after.distance == pytest.approx(before.distance)
+    assert (after.scale, after.up, after.parallel) == (before.scale, before.up, parallel)
+    np.testing.assert_allclose(
+        np.subtract(after.focal, after.position), np.subtract(before.focal, before.position), atol=1e-9
+    )
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_an_element_is_seen_among_its_neighbours(panes, parallel):
+    panes.eye.set_parallel(parallel)
+    corners = MESH.points[MESH.hexes[[100]]]
+    panes.eye.flight_to(corners).at(1.0)
+    places = seen(panes, corners.reshape(-1, 3))
+    assert 0.2 < np.abs(places).max() < 0.6
+
+
+def test_whatever_is_near_or_far_is_drawn(panes):
+    panes.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((1, 0, 0), (1.2, 3, 3)))))
+    panes.eye.fit()  # of the outline of the whole too, which is larger
+    depth = (MESH.points - panes.eye.camera.GetPosition()) @ panes.eye.camera.GetDirectionOfProjection()
+    assert panes.eye.camera.GetClippingRange()[1] >= depth.max()

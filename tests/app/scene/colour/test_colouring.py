@@ -1,0 +1,101 @@
+"""Colours of elements."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from hexmend.errors import ParameterError
+from hexmend.quality import METRICS
+from hexmend_app.picture.appearance import ColourScale, RangeMode
+from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
+from hexmend_app.scene.colour.colouring import INVERTED, Colouring, range_label, resolve
+
+NONE = np.zeros(4, bool)
+VALUES = np.array([0.9, 0.2, np.nan, 0.4])
+
+
+def colouring(low, high):
+    return Colouring("q(H)", low, high, COLOUR_MAPS["viridis"].table)
+
+
+@pytest.mark.parametrize("name", value_maps())
+def test_a_map_has_256_colours_from_dark_to_light_and_none_near_the_inverted(name):
+    colour = COLOUR_MAPS[name].table.astype(int)
+    assert colour.shape == (256, 3)
+    lightness = colour @ [0.299, 0.587, 0.114]
+    assert lightness[-1] > lightness[0] + 50
+    assert np.abs(colour - INVERTED).sum(axis=1).min() > 60
+
+
+@pytest.mark.parametrize("name", COLOUR_MAPS)
+def test_a_map_is_that_of_matplotlib(name):
+    colormaps = pytest.importorskip("matplotlib").colormaps
+    np.testing.assert_allclose(COLOUR_MAPS[name].table / 255, colormaps[name](np.arange(256))[:, :3], atol=0.501 / 255)
+
+
+def test_ends_beyond_and_between():
+    got = colouring(0.2, 0.8).colours(np.array([-1, 0.2, 0.8, 2, np.inf, -np.inf]), np.zeros(6, bool))
+    np.testing.assert_array_equal(got, COLOUR_MAPS["viridis"].table[[0, 0, 255, 255, 255, 0]])
+
+
+def test_inverted_elements_have_their_own_colour_whatever_their_value():
+    got = colouring(0, 1).colours(np.array([0.0, np.nan, 1.0]), np.array([True, True, False]))
+    assert got.tolist() == [list(INVERTED), list(INVERTED), COLOUR_MAPS["viridis"].table[255].tolist()]
+
+
+def test_an_unknown_map_is_said():
+    with pytest.raises(ParameterError, match="no colour map"):
+        COLOUR_MAPS["jet"]
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_declared_ranges_are_taken_where_they_end(name):
+    for mode, declared in (
+        (RangeMode.FULL, METRICS[name].full_range),
+        (RangeMode.ACCEPTABLE, METRICS[name].acceptable),
+    ):
+        got = resolve(ColourScale(name, mode=mode), VALUES, NONE)
+        assert got.title == METRICS[name].title
+        assert (got.low, got.high) == (declared if np.isfinite(declared).all() else (0.2, 0.9))
+
+
+def test_a_range_is_fitted_to_what_is_finite_and_not_inverted():
+    fitted = ColourScale(mode=RangeMode.FITTED)
+    got = resolve(fitted, VALUES, NONE)
+    assert (got.low, got.high) == (0.2, 0.9)
+    got = resolve(fitted, VALUES, np.array([False, True, False, False]))
+    assert (got.low, got.high) == (0.4, 0.9)
+    got = resolve(fitted, VALUES, ~NONE)  # all inverted: better than nothing
+    assert (got.low, got.high) == (0.2, 0.9)
+    got = resolve(fitted, np.full(4, np.nan), NONE)
+    assert (got.low, got.high) == (0, 1)
+
+
+@pytest.mark.parametrize("value", [0.0, 1.0, -3e9, 1e-200])
+def test_equal_values_have_a_colour_from_the_middle(value):
+    got = resolve(ColourScale(mode=RangeMode.FITTED), np.full(4, value), NONE)
+    assert got.low < got.high
+    assert got.colours(np.full(4, value), NONE)[0].tolist() in COLOUR_MAPS["viridis"].table[127:129].tolist()
+
+
+def test_a_pinned_range_is_as_it_was_set():
+    got = resolve(ColourScale(mode=RangeMode.PINNED, pinned=(-2, 3)), VALUES, NONE)
+    assert (got.low, got.high) == (-2, 3)
+
+
+@pytest.mark.parametrize(("better", "reverse", "dark_is_low"), [
+    (1, False, True), (1, True, False), (-1, False, False), (-1, True, True), (0, False, True), (0, True, False),
+])  # fmt: skip
+def test_the_dark_end_is_the_worst_unless_reversed(monkeypatch, better, reverse, dark_is_low):
+    monkeypatch.setattr("hexmend_app.scene.colour.colouring.better", lambda metric: better)
+    got = resolve(ColourScale(reverse=reverse), VALUES, NONE).table
+    assert (got[0].sum() < got[-1].sum()) == dark_is_low
+
+
+@given(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9), st.floats(0, 1))
+def test_labels_read_back_within_a_hundredth_of_the_range(low, high, share):
+    assume(high - low > 1e-5 * max(abs(low), abs(high), 1e-30))
+    value = low + share * (high - low)
+    assert abs(float(range_label(value, low, high)) - value) <= 0.01 * (high - low)
+    assert range_label(low, low, high) != range_label(high, low, high)

@@ -1,0 +1,120 @@
+"""The skin against brute force, and as a closed surface that faces outwards."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexmend.errors import MeshError
+from hexmend.kernels import skin
+from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend_app.scene.geometry.plane_sides import centres_kept, touched
+from hexmend_app.scene.geometry.skin import Skin
+from tests.core.grids import grid
+
+SIZES = st.tuples(*[st.integers(1, 4)] * 3)
+
+
+def visible_faces(mesh, keep):
+    faces = Skin(mesh).visible(keep)
+    return faces, faces.nodes[faces.quads]
+
+
+@given(SIZES)
+def test_all_kept_is_the_boundary(size):
+    mesh = grid(*size)
+    _, quads = visible_faces(mesh, None)
+    boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
+    assert {frozenset(quad) for quad in quads.tolist()} == boundary
+    assert len(quads) == len(boundary)
+
+
+@given(SIZES, st.integers(0, 2**32 - 1))
+def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.5
+    faces, quads = visible_faces(mesh, keep)
+    expected = Counter()
+    for h in np.flatnonzero(keep):
+        expected.update(frozenset(face) for face in mesh.hexes[h][FACES].tolist())
+    assert {frozenset(quad) for quad in quads.tolist()} == {face for face, times in expected.items() if times == 1}
+    edges = Counter(frozenset((quad[k], quad[k - 1])) for quad in quads.tolist() for k in range(4))
+    assert all(times % 2 == 0 for times in edges.values())
+    x = mesh.points[quads]
+    normals = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
+    outwards = x.mean(axis=1) - mesh.points[mesh.hexes[faces.hexes]].mean(axis=1)
+    assert (np.einsum("ij,ij->i", normals, outwards) > 0).all()
+    assert keep[faces.hexes].all()
+    assert sorted(faces.nodes.tolist()) == sorted(set(quads.ravel().tolist()))
+
+
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]), st.booleans())
+def test_shrunk_hexes_have_nodes_of_their_own_nearer_to_their_mean(size, seed, whole, fine):
+    mesh, shrink = grid(*size), 0.3
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.7
+    few = keep.sum() <= whole
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", whole)
+        faces = Skin(mesh).shrunk(shrink, keep, fine)
+    behind = mesh.topology.face_neighbours
+    seen = keep[:, None] & ((behind < 0) | ~keep[behind])
+    chosen = keep if few else seen.any(axis=1)
+    drawn = chosen[:, None] & (seen | fine | few)
+    hexes = np.flatnonzero(chosen)
+    np.testing.assert_array_equal(faces.nodes, mesh.hexes[hexes].ravel())
+    np.testing.assert_array_equal(faces.hexes, np.nonzero(drawn)[0])
+    np.testing.assert_array_equal(faces.nodes[faces.quads], mesh.hexes[:, FACES][drawn])
+    assert (hexes[faces.quads // 8] == faces.hexes[:, None]).all()
+    assert faces.many == (not few)
+    x = mesh.points[mesh.hexes[hexes]]
+    places = x + shrink * (x.mean(axis=1, keepdims=True) - x)
+    np.testing.assert_allclose(faces.places(mesh.points), places.reshape(-1, 3), atol=1e-14)
+
+
+@given(SIZES, st.integers(0, 2**32 - 1))
+def test_edges_are_kept_with_a_hex_that_has_them(size, seed):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.4
+    rows, edges = mesh.topology.node_corners, mesh.topology.edges
+    kept = np.empty(len(edges), bool)
+    skin.edges_kept(mesh.hexes, rows.start, rows.items, edges, keep, kept)
+    expected = {frozenset(edge) for edge in mesh.hexes[keep][:, EDGES].reshape(-1, 2).tolist()}
+    assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
+
+
+def test_nothing_kept_is_nothing_seen():
+    mesh = grid(2)
+    faces, _ = visible_faces(mesh, np.zeros(8, dtype=bool))
+    assert len(faces.quads) == len(faces.nodes) == 0
+
+
+@given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
+def test_a_face_is_opened_where_the_mesh_goes_on_behind_it(size, seed, shrunk):
+    mesh = grid(*size)
+    keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.6
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 10_000 if shrunk == "all" else 0)
+        one = Skin(mesh)
+        faces = one.visible(keep) if shrunk is None else one.shrunk(0.2, keep, shrunk == "fine")
+    boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
+    nodes = faces.nodes[faces.quads] if shrunk is None else None
+    if nodes is None:  # they have nodes of their own, eight by eight
+        nodes = mesh.hexes[faces.hexes[:, None], faces.quads % 8]
+    expected = [frozenset(face) not in boundary for face in nodes.tolist()]
+    np.testing.assert_array_equal(one.opened(faces, keep), np.array(expected, bool))
+
+
+def test_what_does_not_fit_the_mesh_is_refused_before_a_kernel_sees_it():
+    mesh = grid(2)
+    with pytest.raises(MeshError, match=r"keep has shape \(7,\): expected \(8,\)"):
+        Skin(mesh).visible(np.ones(7, bool))
+    with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
+        Skin(mesh).shrunk(0.5).places(mesh.points[:5])
+    normals, offsets = np.eye(3), np.zeros(3)
+    for of in (centres_kept, touched):
+        with pytest.raises(MeshError, match="expected numbers from 0 to 4"):
+            of(mesh.points[:5], mesh.hexes, normals, offsets, False)
+        with pytest.raises(MeshError, match=r"offsets have shape \(2,\): expected \(3,\)"):
+            of(mesh.points, mesh.hexes, normals, offsets[:2], False)

@@ -1,0 +1,59 @@
+"""Outlines of inverted elements, and of the regions that they form."""
+
+import numpy as np
+import pytest
+
+from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.layers.inverted_outline import InvertedOutline, outlines
+from hexmend_app.scene.layers.surface import quads
+from hexmend_app.scene.render.graphics import prepare_off_screen
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.pane import Pane
+
+WHITE = np.array([255, 255, 255])
+
+
+def board(side, chosen, own_points=False):
+    """A board of unit squares in which some, by (column, row), are inverted."""
+    x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
+    points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
+    low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
+    faces = np.column_stack([low, low + 1, low + side + 2, low + side + 1])
+    colours = np.full((len(faces), 3), 90, np.uint8)
+    for column, row in chosen:
+        colours[row * side + column] = INVERTED
+    if own_points:
+        points, faces = points[faces.ravel()], np.arange(4 * len(faces)).reshape(-1, 4)
+    return quads(points, faces, colours, np.arange(len(faces)).astype(np.int32))
+
+
+@pytest.mark.parametrize("own_points", [False, True], ids=["shared points", "own points"])
+def test_the_rim_of_a_region_is_what_one_of_its_elements_alone_has(own_points):
+    chosen = [(1, 1), (2, 1), (1, 2), (2, 2)]
+    poly = board(4, chosen, own_points)
+    marked = np.isin(np.arange(16), [row * 4 + column for column, row in chosen])
+    ends, once = outlines(poly, marked)
+    assert (len(ends), once.sum()) == (12, 8)
+    middles = poly.points[ends].mean(axis=1)
+    assert (np.isin(middles[once], (1, 3)).any(axis=1)).all()  # on the square around the four
+    assert not (np.isin(middles[~once], (1, 3)).any(axis=1)).any()
+
+
+def white_inside(side, size):
+    """White pixels in the middle third of a picture of a board, all of it inverted."""
+    prepare_off_screen()
+    with Stage((size, size)) as stage:
+        pane = Pane(stage.window)
+        poly = board(side, [(c, r) for c in range(side) for r in range(side)])
+        halo = InvertedOutline(pane.renderer)
+        halo.follow(poly)
+        pane.camera.SetPosition(0, 0, 1)
+        pane.renderer.ResetCamera()
+        seen = stage.picture().astype(int)
+    third = size // 3
+    return int((np.abs(seen[third:-third, third:-third] - WHITE).sum(axis=2) < 30).sum())
+
+
+def test_elements_are_outlined_where_there_is_room_and_their_region_where_not():
+    assert white_inside(8, 300) > 200
+    assert white_inside(80, 300) == 0

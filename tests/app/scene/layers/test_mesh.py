@@ -1,0 +1,138 @@
+"""Fine frames: the light in them is worked out once, and stays until something else is drawn."""
+
+import numpy as np
+import pytest
+import pyvista as pv
+
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import ColourScale, Look
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.colour.colouring import OPENED, OUTSIDE
+from hexmend_app.scene.geometry import occlusion
+from hexmend_app.scene.layers import mesh as module
+from hexmend_app.scene.layers.surface import colours_of
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid
+
+MESH = grid(4)
+STEP = Look(dug=frozenset(int(h) for h in np.flatnonzero((MESH.points[MESH.hexes].mean(axis=1) > 2).all(axis=1))))
+
+
+@pytest.fixture
+def viewport():
+    with Stage((200, 150)) as stage:
+        yield Viewport(Pane(stage.window))
+
+
+def draw(viewport, look=STEP, mesh=MESH):
+    viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
+    viewport.still()
+
+
+def drawn(viewport):
+    """The skin as it is drawn."""
+    return pv.wrap(viewport.body.skin.actor.GetMapper().GetInput())
+
+
+def shades(viewport):
+    """How bright the corners are drawn, by what their elements' colours are."""
+    poly = drawn(viewport)
+    own = np.repeat(colours_of(poly), 4, axis=0).astype(float)
+    return np.asarray(poly.point_data["shaded"]).astype(float).sum(axis=1) / own.sum(axis=1)
+
+
+def test_a_step_is_darker_within_once_its_light_is_known(viewport):
+    draw(viewport)
+    np.testing.assert_allclose(shades(viewport), 1)
+    viewport.shade()
+    within = (np.abs(drawn(viewport).points - 2) < 1e-9).sum(axis=1) >= 2
+    np.testing.assert_allclose(shades(viewport).max(), 1, atol=0.02)
+    assert shades(viewport)[within].min() < 0.85
+
+
+def test_light_that_is_known_or_not_wanted_is_not_worked_out(viewport):
+    assert viewport.body.needs_shading is None  # nothing is drawn
+    draw(viewport)
+    assert viewport.body.needs_shading is not None
+    viewport.shade()
+    assert viewport.body.needs_shading is None
+    draw(viewport, Look(dug=STEP.dug, shading=False))
+    assert viewport.body.needs_shading is None
+    np.testing.assert_allclose(shades(viewport), 1)
+
+
+def test_other_colours_are_under_the_same_light(viewport):
+    draw(viewport)
+    viewport.shade()
+    before = shades(viewport)
+    draw(viewport, Look(dug=STEP.dug, scale=ColourScale(map="plasma", reverse=True)))
+    assert viewport.body.needs_shading is None
+    np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
+
+
+def test_light_is_dropped_as_nodes_move(viewport):
+    draw(viewport)
+    viewport.shade()
+    moved = MESH.with_points(MESH.points + 0.1 * MESH.free[:, None])
+    draw(viewport, mesh=moved)
+    assert viewport.body.needs_shading is not None
+    np.testing.assert_allclose(shades(viewport), 1)
+
+
+def test_light_for_a_scene_that_is_gone_is_not_taken(viewport):
+    draw(viewport)
+    scene = viewport.body.needs_shading
+    light = occlusion.light(scene)
+    draw(viewport, Look())
+    assert not viewport.body.apply_shading(scene, light)
+    np.testing.assert_allclose(shades(viewport), 1)
+
+
+def test_light_stays_as_the_camera_turns(viewport, monkeypatch):
+    draw(viewport)
+    viewport.shade()
+    fine = drawn(viewport)
+    viewport.turning()
+    assert drawn(viewport) is fine or drawn(viewport).n_points == fine.n_points
+    monkeypatch.setattr(module, "MANY", 10)
+    viewport.still()
+    viewport.turning()
+    coarse = drawn(viewport)
+    assert coarse.n_points < fine.n_points
+    assert len(np.unique(colours_of(coarse), axis=0)) > len(np.unique(colours_of(fine), axis=0))
+
+
+def test_a_fine_quad_has_one_normal_and_every_corner_its_own(viewport):
+    mesh = MESH.with_points(MESH.points + 0.2 * np.random.default_rng(0).random(MESH.points.shape))
+    draw(viewport, Look(), mesh)
+    poly = drawn(viewport)
+    normals = np.asarray(poly.point_normals).reshape(-1, 4, 3)
+    assert poly.n_points == 4 * poly.n_cells
+    np.testing.assert_array_equal(normals, np.repeat(normals[:, :1], 4, axis=1))
+    corners = poly.points.reshape(-1, 4, 3)
+    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    np.testing.assert_allclose(normals[:, 0], across / np.linalg.norm(across, axis=1, keepdims=True), atol=1e-6)
+
+
+def test_sections_of_a_smooth_cut_face_who_looks_into_them(viewport):
+    draw(viewport, Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2.5), False)))
+    section = pv.wrap(viewport.body.section.actor.GetMapper().GetInput())
+    np.testing.assert_allclose(section.point_normals, np.tile([0, 0, 1], (section.n_points, 1)), atol=1e-6)
+    viewport.shade()
+    assert viewport.body.needs_shading is None
+
+
+def test_a_neutral_look_comes_and_goes(viewport):
+    draw(viewport)
+    coloured = colours_of(viewport.body.whole).copy()
+    draw(viewport, Look(dug=STEP.dug, neutral=True))
+    inside = (np.abs(viewport.body.whole.cell_centers().points - 2) < 1e-9).any(axis=1)
+    seen = colours_of(viewport.body.whole)
+    assert inside.any()
+    assert (seen[inside] == OPENED).all()
+    assert (seen[~inside] == OUTSIDE).all()
+    draw(viewport)
+    np.testing.assert_array_equal(colours_of(viewport.body.whole), coloured)

@@ -1,0 +1,87 @@
+"""The boundary as it was opened: seen where the mesh has left it, and nowhere else."""
+
+import numpy as np
+import pytest
+
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid
+
+MESH = grid(4)
+ON, OFF = Look(structure=Structure(original=True)), Look()
+
+
+def frame(points, look=ON):
+    mesh = MESH.with_points(points)
+    return Frame(mesh, measure(points, MESH.hexes), look=look, original=MESH.points)
+
+
+@pytest.fixture
+def drawn():
+    """A function that draws a frame and gives its pixels, and the viewport."""
+    stage = Stage((240, 180))
+    viewport = Viewport(Pane(stage.window))
+
+    def draw(one):
+        viewport.draw(one)
+        if not draw.looked:
+            viewport.view("iso")
+            draw.looked = True
+        viewport.moving()
+        return stage.picture().astype(int)
+
+    draw.viewport, draw.looked = viewport, False
+    yield draw
+    stage.close()
+
+
+def differ(one, other):
+    return int((np.abs(one - other).sum(axis=2) > 20).sum())
+
+
+def test_it_is_not_seen_where_the_boundary_still_is(drawn):
+    assert differ(drawn(frame(MESH.points, OFF)), drawn(frame(MESH.points))) < 40  # a rim
+
+
+def test_it_is_seen_around_a_mesh_that_has_shrunk(drawn):
+    centre = MESH.points.mean(axis=0)
+    shrunk = centre + 0.7 * (MESH.points - centre)
+    drawn(frame(MESH.points))
+    without, seen = drawn(frame(shrunk, OFF)), drawn(frame(shrunk))
+    assert differ(without, seen) > 2000
+    assert drawn.viewport.extras.optional["original"].shown
+    np.testing.assert_array_equal(np.ptp(drawn.viewport.extras.optional["original"].places, axis=0), 4)
+
+
+def test_it_stays_while_the_nodes_move(drawn):
+    drawn(frame(MESH.points))
+    poly = drawn.viewport.extras.optional["original"].poly
+    drawn(frame(MESH.points * 1.1))
+    assert drawn.viewport.extras.optional["original"].poly is poly
+    drawn(Frame(MESH, measure(MESH.points, MESH.hexes), look=ON))  # nothing is known of the opened mesh
+    assert not drawn.viewport.extras.optional["original"].shown
+
+
+def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
+    half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
+    drawn(frame(MESH.points))
+    assert len(drawn.viewport.extras.optional["original"].places) == MESH.topology.boundary.sum()
+    drawn(frame(MESH.points, half))
+    assert 0 < np.ptp(drawn.viewport.extras.optional["original"].places, axis=0)[2] < 3
+    drawn(frame(MESH.points, Look(peel=1, structure=Structure(original=True))))
+    assert not drawn.viewport.extras.optional["original"].shown
+    drawn(frame(MESH.points))
+    assert drawn.viewport.extras.optional["original"].shown
+
+
+def test_beside_it_stands_too_where_the_hexes_are_the_same():
+    first = frame(MESH.points)
+    beside = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).neighbour(first)
+    assert beside.original is first.original
+    other = grid(2)
+    assert Frame(other, measure(other.points, other.hexes)).neighbour(first).original is None

@@ -1,0 +1,97 @@
+"""Cells beside the hexes: their outside is drawn, and nothing that hexes or others of them share."""
+
+import numpy as np
+import pytest
+
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.layers.optional.other_cells import FACES, outer_faces
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid
+
+OFF = Look(structure=Structure(others=False))
+
+
+def hybrid() -> Mesh:
+    """Two by two hexes, on two of which a pyramid stands, with two tetrahedra between these."""
+    bare = grid(2, 2, 1)
+    top = bare.hexes[:2, 4:]
+    tips = bare.points[top].mean(axis=1) + [0, 0, 1]
+    a, b = bare.n_nodes, bare.n_nodes + 1
+    ridge = np.intersect1d(top[0], top[1])
+    tetra = np.array([[*ridge, a, b]])
+    return Mesh(
+        np.vstack([bare.points, tips]),
+        bare.hexes,
+        cells=(Cells("pyramid", np.column_stack([top, [a, b]])), Cells("tetra", tetra), Cells("line", tetra[:, :2])),
+    )
+
+
+def frame(mesh, look=None):
+    return Frame(mesh, measure(mesh.points, mesh.hexes), look=look or Look())
+
+
+@pytest.fixture
+def drawn():
+    """A function that draws a frame and gives its pixels, and the viewport."""
+    stage = Stage((240, 180))
+    viewport = Viewport(Pane(stage.window))
+
+    def draw(one):
+        viewport.draw(one)
+        viewport.view("iso")
+        viewport.moving()
+        return stage.picture().astype(int)
+
+    draw.viewport = viewport
+    yield draw
+    stage.close()
+
+
+def test_every_kind_of_cell_that_fills_space_is_closed():
+    for faces in FACES.values():
+        edges = [frozenset(pair) for face in faces for pair in zip(face, (*face[1:], face[0]), strict=True)]
+        assert all(edges.count(edge) == 2 for edge in edges)
+
+
+def test_what_cells_share_is_inside():
+    triangles, quads = outer_faces(hybrid())
+    assert len(quads) == 0  # the pyramids stand on hexes
+    assert len(triangles) == 2 * 4 + 4 - 2 * 2
+
+
+def test_a_clip_takes_cells_away_by_their_centres():
+    triangles, _ = outer_faces(hybrid(), PlaneClip.at((1, 0, 0), (0.7, 0, 0)))
+    assert len(triangles) == 4
+
+
+def test_they_are_seen_unless_they_are_switched_off(drawn):
+    mesh = hybrid()
+    seen = drawn(frame(mesh))
+    assert drawn.viewport.extras.optional["others"].shown
+    assert drawn.viewport.places[:, 2].max() == 2
+    poly = drawn.viewport.extras.optional["others"].poly
+    drawn(frame(mesh))
+    assert drawn.viewport.extras.optional["others"].poly is poly
+    without = drawn(frame(mesh, OFF))
+    assert not drawn.viewport.extras.optional["others"].shown
+    assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
+
+
+def test_they_move_with_their_nodes(drawn):
+    mesh = hybrid()
+    drawn(frame(mesh))
+    drawn(frame(mesh.with_points(mesh.points + [0, 0, 3])))
+    assert drawn.viewport.extras.optional["others"].places[:, 2].max() == 5
+
+
+def test_a_mesh_of_hexes_alone_has_none(drawn):
+    drawn(frame(hybrid()))
+    drawn(frame(grid(2)))
+    assert not drawn.viewport.extras.optional["others"].shown

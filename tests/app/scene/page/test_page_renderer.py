@@ -1,0 +1,245 @@
+"""Pages: sizes, formats, paper, and what is written on them."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from hexmend.boundary.displacement import Displacement, ReferenceState
+from hexmend.errors import ParameterError
+from hexmend_app.picture import (
+    AxesStyle,
+    Camera,
+    Captions,
+    ColourBarStyle,
+    Colours,
+    Corner,
+    Cut,
+    LineStyle,
+    Page,
+    PicturePanel,
+    Plane,
+    Range,
+    Scene,
+    Show,
+    TextPlace,
+    WipeLayout,
+)
+from hexmend_app.picture.appearance import Arrows, Traces
+from hexmend_app.picture.colour_map import COLOUR_MAPS
+from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page
+from tests.core.grids import grid, scrambled
+
+BARE = {"bar": ColourBarStyle(TextPlace.NONE), "axes": AxesStyle(show=False)}
+
+
+def subjects(*meshes):
+    return [PageMesh.of(mesh, name) for mesh, name in zip(meshes, "abcd", strict=False)]
+
+
+def drawn(*meshes, scene=None, **tables):
+    scene = Scene(**tables) if scene is None else scene
+    return draw_page(scene, subjects(*meshes))
+
+
+def pixels(sheet):
+    return np.asarray(sheet.image()).astype(int)
+
+
+@pytest.mark.parametrize(
+    ("page", "size"),
+    [
+        (Page(85, 60), (1004, 709)),
+        (Page(85, 60, dpi=127), (425, 300)),
+        (Page(pixels=(333, 217)), (333, 217)),
+        (Page(pixels=(400, 300), dpi=97.3), (400, 300)),
+        (Page(width=80, dpi=100), (315, 197)),
+        (Page(pixels=(17, 16)), (17, 16)),
+    ],
+)
+def test_a_page_has_exactly_the_pixels_asked_for(tmp_path, page, size):
+    sheet = drawn(grid(2), page=page)
+    assert sheet.size == page.size == size
+    for name in ("p.png", "p.tif"):
+        sheet.write(tmp_path / name)
+        with Image.open(tmp_path / name) as image:
+            assert image.size == size
+            assert float(image.info["dpi"][0]) == pytest.approx(page.resolution, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["p.pdf", "p.svg", "p.png", "p.tif"])
+def test_the_same_page_is_the_same_file(tmp_path, name):
+    files = []
+    for folder in ("one", "two"):
+        (tmp_path / folder).mkdir()
+        drawn(scrambled(grid(3), 0.5), grid(3), page=Page(85, 50, dpi=150)).write(tmp_path / folder / name)
+        files.append((tmp_path / folder / name).read_bytes())
+    assert files[0] == files[1]
+    assert b"Date" not in files[0].replace(b"CreationDate (D", b"")
+
+
+@pytest.mark.slow
+def test_vectors_have_the_size_in_millimetres_and_texts_that_stay_texts(tmp_path):
+    sheet = drawn(grid(2), grid(2), page=Page(170, 80), bar=ColourBarStyle(title="quality $x_1$ <b>"))
+    sheet.write(tmp_path / "p.svg")
+    text = (tmp_path / "p.svg").read_text()
+    sides = re.search(r'<svg [^>]*width="([0-9.]+)pt" height="([0-9.]+)pt"', text).groups()
+    assert [float(side) / 72 * 25.4 for side in sides] == pytest.approx([170, 80], abs=0.1)
+    texts = re.findall(r"<text[^>]*>([^<]*)</text>", text)
+    assert {"quality $x_1$ &lt;b&gt;", "a", "b", "X", "Y", "Z", "0", "1", "inverted"} <= set(texts)
+    assert text.count("<image") == 2
+    sheet.write(tmp_path / "p.pdf")
+    box = re.search(rb"/MediaBox \[ ?0 0 ([0-9.]+) ([0-9.]+) ?\]", (tmp_path / "p.pdf").read_bytes())
+    assert [float(side) / 72 * 25.4 for side in box.groups()] == pytest.approx([170, 80], abs=0.1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("place", [TextPlace.BELOW, TextPlace.RIGHT])
+def test_the_gradient_of_the_bar_has_no_seams(place):
+    image = pixels(
+        drawn(grid(1), page=Page(pixels=(1600, 1000)), bar=ColourBarStyle(place), show=Show(quality=(0, 0.1)))
+    )
+    colours = COLOUR_MAPS["viridis"].table.astype(int)
+    apart = np.abs(image[:, :, None] - colours[[0, 255]]).sum(axis=3)
+    dark = np.argwhere(apart[:, :, 0] < 12).mean(axis=0).astype(int)
+    line = image[dark[0]] if place is TextPlace.BELOW else image[::-1, dark[1]]
+    distance = np.abs(line[:, None] - colours[None]).sum(axis=2)
+    inside = np.flatnonzero(distance.min(axis=1) < 12)
+    run = distance[inside[0] : inside[-1] + 1]
+    assert (run.min(axis=1) < 12).all()  # nothing that is no colour of the map
+    assert (np.diff(run.argmin(axis=1)) >= 0).all()
+    assert len(np.unique(run.argmin(axis=1))) > 250
+
+
+def test_transparent_paper_lies_under_what_is_drawn_unchanged():
+    on, off = (drawn(scrambled(grid(3), 0.5), page=Page(pixels=(400, 250), background=ground)).image()
+               for ground in ("#e0a080", "transparent"))  # fmt: skip
+    assert off.mode == "RGBA"
+    assert off.getpixel((2, 2))[3] == 0
+    paper = Image.new("RGBA", off.size, "#e0a080")
+    paper.alpha_composite(off)
+    assert np.abs(np.asarray(paper.convert("RGB")).astype(int) - np.asarray(on)).mean() < 0.5
+
+
+def test_a_cropped_page_has_the_mesh_at_its_sides():
+    whole = drawn(grid(2), page=Page(pixels=(900, 300)), **BARE)
+    cropped = drawn(grid(2), page=Page(pixels=(900, 300), crop=True), **BARE)
+    assert whole.size == (900, 300)
+    assert cropped.size[0] < 500
+    seen = (pixels(cropped) < 250).any(axis=2)
+    assert seen[:, 0].any() and seen[:, -1].any() and seen[0].any() and seen[-1].any()  # noqa: PT018
+    nothing = drawn(grid(2), page=Page(pixels=(90, 70), crop=True), show=Show(quality=(0, 0.1), outline=False), **BARE)
+    assert nothing.size == (90, 70)
+    with_bar = drawn(grid(2), page=Page(pixels=(900, 300), crop=True))
+    assert with_bar.size[1] < 300 or with_bar.size[0] < 900
+
+
+def test_a_margin_stays_free():
+    image = pixels(drawn(grid(2), page=Page(100, 60, dpi=127, margin=5), axes=AxesStyle(show=False)))
+    assert (image[:25] == 255).all() and (image[:, :25] == 255).all() and (image[-25:] == 255).all()  # noqa: PT018
+
+
+@pytest.mark.slow
+def test_edges_are_as_thick_as_asked_whatever_the_resolution():
+    shares = []
+    for edges, dpi in ((0.0, 300), (0.5, 150), (0.5, 300), (1.0, 300)):
+        page = Page(100, 60, dpi=dpi, shading=False)
+        image = pixels(drawn(grid(3), lines=LineStyle(edges), page=page, colours=Colours(neutral=True), **BARE))
+        shares.append(255 - image.mean())
+    none, coarse, fine, thick = shares
+    assert coarse - none == pytest.approx(fine - none, rel=0.3)
+    assert 1.4 < (thick - none) / (fine - none) < 3.2
+
+
+@pytest.mark.slow
+def test_axes_stand_in_the_corner_that_is_asked_for():
+    colours = {}
+    for corner in Corner:
+        bare = {
+            "page": Page(pixels=(400, 400)),
+            "show": Show(quality=(0, 0.1), outline=False),
+            "bar": ColourBarStyle(TextPlace.NONE),
+        }
+        image = pixels(drawn(grid(1), axes=AxesStyle(place=corner), **bare))
+        rows, columns = np.nonzero((image < 200).any(axis=2))
+        colours[corner] = ("lower" if rows.mean() > 200 else "upper", "left" if columns.mean() < 200 else "right")
+    assert colours == {corner: tuple(corner.value.split()) for corner in Corner}
+
+
+def test_one_mesh_is_seen_from_several_directions():
+    scene = Scene(
+        cameras={"side": Camera("+x"), "top": Camera("+z", parallel=True)},
+        panels=(PicturePanel("side", caption="side"), PicturePanel("top", caption="top")),
+        page=Page(pixels=(800, 420), captions=Captions.LETTERS),
+        cut=Cut((Plane((0, 0, 1), 0.5),)),
+    )
+    sheet = drawn(scrambled(grid(5), 0.7), scene=scene)
+    image = pixels(sheet)
+    magenta = (np.abs(image[:340] - INVERTED).sum(axis=2) < 60).sum(axis=0)
+    assert magenta[400:].sum() > 0
+    left, right = image[40:330, :390], image[40:330, 410:]
+    assert np.abs(left - right).mean() > 10
+
+
+@pytest.mark.slow
+def test_a_wipe_shows_one_mesh_on_either_side():
+    plain, tangled = grid(5), scrambled(grid(5), 0.7)
+    scene = Scene(panels=(PicturePanel(wipe=WipeLayout(2, 0.5)),), page=Page(pixels=(600, 400), shading=False), **BARE)
+    sides = [pixels(drawn(*pair, scene=scene)) for pair in ((plain, plain), (tangled, tangled), (plain, tangled))]
+    for seen, alone in ((slice(0, 295), sides[0]), (slice(305, 600), sides[1])):
+        assert np.abs(sides[2][40:, seen] - alone[40:, seen]).mean() < 0.5
+
+
+def test_panels_share_a_range_that_is_fitted():
+    scene = Scene(colours=Colours(range=Range.FITTED), page=Page(pixels=(600, 300)))
+    good, bad = grid(3), scrambled(grid(3), 0.3)
+    drawn_together = pixels(drawn(good, bad, scene=scene))
+    pinned = Scene(colours=Colours(range=(float(PageMesh.of(bad).figures.q.min()), 1.0)), page=scene.page)
+    assert np.abs(drawn_together - pixels(drawn(good, bad, scene=pinned))).mean() < 0.5
+
+
+@pytest.mark.slow
+def test_what_has_moved_is_drawn_from_the_first_mesh_on():
+    before, after = grid(3), scrambled(grid(3), 0.4)
+    first, second = subjects(before, after)
+    then = ReferenceState(before.points, first.figures, "before")
+    first = PageMesh("a", before, first.figures, Displacement(before, then, before.points, first.figures))
+    scene = Scene(
+        movement=Traces(arrows=Arrows.ALL), page=Page(pixels=(600, 300)), panels=(PicturePanel(mesh=2),), **BARE
+    )
+    still = Scene(page=scene.page, panels=scene.panels, **BARE)
+    assert np.abs(pixels(draw_page(scene, [first, second])) - pixels(draw_page(still, [first, second]))).mean() > 0.1
+
+
+def test_hexes_that_the_mesh_has_not_are_refused():
+    with pytest.raises(ParameterError, match="names hex 8: expected one of the mesh, below 8"):
+        drawn(grid(2), show=Show(hidden=(3, 8)))
+    with pytest.raises(ParameterError, match="panel 1 shows mesh 2, and there are 1"):
+        drawn(grid(2), panels=(PicturePanel(mesh=2),))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["a" * 300, "$x^2$ \\alpha {", "‮×", ""])
+def test_a_name_is_written_as_it_is_and_never_beyond_its_panel(name):
+    page = Page(pixels=(500, 260))
+    plain, other = (draw_page(Scene(page=page, **BARE), [PageMesh.of(grid(2), "b"), PageMesh.of(grid(2), text)])
+                    for text in ("", name))  # fmt: skip
+    assert np.array_equal(pixels(plain)[:, :245], pixels(other)[:, :245])
+
+
+def test_captions_have_letters_of_one_size(tmp_path):
+    page = Page(90, 40)
+    sizes = {}
+    for name in ("b", "mended by m"):
+        sheet = draw_page(Scene(page=page, **BARE), [PageMesh.of(grid(2), "a"), PageMesh.of(grid(2), name)])
+        sheet.write(tmp_path / "p.svg")
+        texts = re.findall(r'<text style="[^"]*font-size: ([0-9.]+)px[^>]*>([^<]*)', (tmp_path / "p.svg").read_text())
+        assert name in [text for _, text in texts]
+        (sizes[name],) = {float(size) for size, _ in texts}
+    assert sizes["mended by m"] < sizes["b"]

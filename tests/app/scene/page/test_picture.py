@@ -1,0 +1,275 @@
+"""Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtGui import QOpenGLContext
+
+from hexmend.errors import FileError, ParameterError
+from hexmend.io import write
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import METRICS, measure
+from hexmend_app.cli.cut_options import parse_plane
+from hexmend_app.cli.render import command
+from hexmend_app.cli.scene_options import look_of
+from hexmend_app.picture import ColourBarStyle, Page, Scene, TextPlace
+from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
+from hexmend_app.scene.colour.colouring import INVERTED, resolve
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.state.mesh.metric_cache import metric_values
+from tests.core.grids import grid, scrambled
+
+#: Runs the commands that it is sent, a line each, and answers with their exit status, whatever they say.
+COMMANDS = """
+import contextlib, io, json, sys
+from hexmend.cli.main import main
+for line in sys.stdin:
+    with contextlib.redirect_stdout(io.StringIO()):
+        status = main(json.loads(line))
+    print(status, flush=True)
+"""
+
+
+@pytest.fixture(scope="module")
+def pictures(tmp_path_factory):
+    """Pictures of one mesh under several looks, drawn in a process that has no display."""
+    folder = tmp_path_factory.mktemp("pictures")
+    mesh = scrambled(grid(5), 0.7)
+    write(folder / "mesh.vtu", mesh)
+    environment = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    pipe = subprocess.PIPE
+    with subprocess.Popen(
+        [sys.executable, "-c", COMMANDS], env=environment, stdin=pipe, stdout=pipe, stderr=pipe, text=True
+    ) as process:
+
+        def draw(*words):
+            path = folder / ("-".join(word.strip("-") or "none" for word in words).replace(":", "_") + ".png")
+            line = ["render", str(folder / "mesh.vtu"), "-o", str(path), "--size", "320x240", *words]
+            print(json.dumps(line), file=process.stdin, flush=True)
+            assert process.stdout.readline().strip() == "0", process.communicate()[1]
+            return np.asarray(Image.open(path).convert("RGB")).astype(int)
+
+        yield draw
+        assert process.communicate()[1] == ""
+        assert process.returncode == 0
+
+
+def ink(image):
+    """Share of the view, colour bar left out, that is not background."""
+    view = image[: int(image.shape[0] * 0.85), 60:]
+    return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
+
+
+@pytest.mark.slow
+def test_the_command_draws_at_the_size_asked_for(pictures):
+    whole = pictures("--view", "iso")
+    assert whole.shape == (240, 320, 3)
+    assert ink(whole) > 0.15
+
+
+def test_structure_is_drawn_by_name(pictures):
+    bare = pictures("--no-edges")
+    black = np.array([0x11, 0x15, 0x1C])
+    assert (bare == black).all(axis=2).sum() == 0
+    assert (pictures("--no-edges", "--structure", "sharp,irregular") == black).all(axis=2).sum() > 50
+
+
+def test_a_plane_hides_half(pictures):
+    whole = ink(pictures("--view", "+z"))
+    for cut in ("--crinkle", "--smooth"):
+        half = ink(pictures("--view", "+z", "--clip", "x:0.4", cut))
+        assert 0.25 * whole < half < 0.65 * whole
+
+
+def test_a_smooth_cut_shows_inverted_elements_inside(pictures):
+    inside = pictures("--view", "+z", "--clip", "z:0.5", "--smooth")[:200]
+    assert (np.abs(inside - INVERTED).sum(axis=2) < 90).sum() > 50
+
+
+def test_a_quality_range_hides_the_others(pictures):
+    assert ink(pictures("--quality-range", "0.99,1")) < 0.3 * ink(pictures("--view", "iso"))
+
+
+@pytest.mark.parametrize("name", METRICS)
+def test_every_metric_has_a_range_of_colours(name):
+    parser = argparse.ArgumentParser()
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--metric", name])
+    for mesh in (grid(2), scrambled(grid(3), 0.6), scrambled(grid(1), 0), grid(2).with_points(grid(2).points * 0)):
+        figures = measure(mesh.points, mesh.hexes)
+        scale = look_of(args, mesh).scale
+        assert scale.metric == name
+        shown = resolve(scale, metric_values(name, mesh.points, mesh.hexes, figures), figures.inverted)
+        low, high = shown.low, shown.high
+        assert np.isfinite((low, high)).all()
+        assert low < high
+
+
+def test_a_metric_other_than_q_is_drawn(pictures):
+    drawn, q = pictures("--metric", "max-angle"), pictures("--metric", "q")
+    assert ink(drawn) > 0.15
+    assert (drawn[:200] != q[:200]).any()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--clip", "w"], "--clip 'w' cannot be used"),
+        (["--clip", "0,0,0"], "a direction that is not zero"),
+        (["--clip", "x:1.5"], "a position from 0 to 1"),
+        (["--size", "big"], "as in 1600x1000"),
+        (["--size", "16x16"], "64 to 8192 pixels"),
+        (["--quality-range", "0.8,0.2"], "the lower number first"),
+        (["--colour-range", "0.5,0.5"], "the lower number first"),
+        (["--metric", "beauty"], "there is no metric 'beauty'"),
+        (["--colour-map", "jet"], "one of viridis"),
+        (["--structure", "sharp,round"], "names among irregular, boundary, sharp, fixed, free, locked"),
+        (["--view", "up"], "3 numbers separated by commas"),
+        (["--view", "0,0,0"], "a direction that is not zero"),
+    ],
+)
+def test_wrong_words_are_said(words, message, tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "out.png"), *words]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    paths = [str(tmp_path / f"{name}.vtu") for name in ("plain", "tangled")]
+    write(paths[0], grid(5))
+    write(paths[1], scrambled(grid(5), 0.7))
+    out = tmp_path / "out.png"
+    assert main(["render", *paths, "-o", str(out), "--size", "640x320", "--clip", "z:0.5", "--smooth"]) == 0
+    drawn = np.asarray(Image.open(out).convert("RGB")).astype(int)
+    assert drawn.shape == (320, 640, 3)
+    assert min(ink(drawn[:, :320]), ink(drawn[:, 320:])) > 0.1
+    magenta = (np.abs(drawn[:280] - INVERTED).sum(axis=2) < 90).sum(axis=0)
+    assert magenta[:320].sum() == 0
+    assert magenta[320:].sum() > 50
+    for words, message in (
+        ([paths[0]] * 13, "12 at most"),
+        ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
+    ):
+        assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
+        assert message in capsys.readouterr().err
+        assert not (tmp_path / "none.png").exists()
+
+
+def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
+    scene = Scene.of(look, page=Page(**page), bar=ColourBarStyle(TextPlace.BELOW if bar else TextPlace.NONE))
+    return draw_page(scene, [PageMesh.of(mesh, name) for mesh, name in zip(meshes, names, strict=False)])
+
+
+@pytest.mark.parametrize("size", [(64, 64), (200, 600), (640, 400)])
+def test_a_figure_has_the_size_asked_for(size):
+    assert sheet(grid(2), grid(3), pixels=size).image().size == size
+
+
+def test_words_that_begin_with_a_minus_are_values():
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
+    assert (args.view, args.clip, args.output, args.no_bar) == ("-x", ["-1,0,0:0.4"], "a.png", True)
+    assert parser.parse_args(["a.vtk", "-o", "a.png", "--clip", "-.5,1,0"]).clip == ["-.5,1,0"]
+
+
+@pytest.mark.parametrize("size", [(64, 64), (128, 96), (320, 160), (200, 600)])
+def test_a_picture_has_the_size_asked_for_with_room_for_the_bar_or_not(size):
+    assert sheet(grid(2), pixels=size).image().size == size
+
+
+def asked(mesh, *words):
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    command.arguments(parser)
+    return look_of(parser.parse_args(["a.vtk", "-o", "a.png", *words]), mesh).clip
+
+
+def test_planes_are_named_by_axis_or_normal_and_position():
+    mesh = grid(4)
+    assert asked(mesh) is None
+    assert asked(mesh, "--clip", "x:0.25") == PlaneClip.at((1, 0, 0), (1, 0, 0))
+    assert asked(mesh, "--clip", "z", "--flip", "--smooth") == PlaneClip.at((0, 0, -1), (0, 0, 2), False)
+    slanted = parse_plane("1,1,0:0.5").of(mesh)
+    assert slanted.signed_distance(np.array([[2.0, 2.0, 0.0]]))[0] == pytest.approx(0)
+    assert parse_plane("1e300,0,0:0.25").of(mesh) == ClipPlane((1, 0, 0), (1, 0, 0))
+
+
+def test_several_planes_and_boxes_are_asked_for():
+    mesh = grid(4)
+    two = asked(mesh, "--clip", "x:0.25", "--clip", "y:0.5", "--notch")
+    assert two == PlaneClip((ClipPlane((1, 0, 0), (1, 0, 0)), ClipPlane((0, 1, 0), (0, 2, 0))), True, True)
+    assert asked(mesh, "--clip-box", "0,0.5,0.25,1,0,1") == BoxClip((0, 1, 0), (2, 4, 4))
+    with pytest.raises(ParameterError, match="the lower first"):
+        asked(mesh, "--clip-box", "0.5,0,0,1,0,1")
+
+
+def test_nodes_that_no_hex_uses_do_not_count():
+    mesh = grid(4)
+    stray = Mesh(np.vstack([mesh.points, [[100.0, 0.0, 0.0]]]), mesh.hexes)
+    assert parse_plane("x").of(stray) == ClipPlane((1, 0, 0), (2, 0, 0))
+
+
+def test_looks_are_values():
+    figures = measure(grid(2).points, grid(2).hexes)
+    assert figures.n_inverted == 0
+    assert Look() == Look()
+    with pytest.raises(ValueError, match="expected a direction"):
+        ClipPlane((0, 0, 0))
+
+
+def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
+    from hexmend.cli.main import main
+
+    write(tmp_path / "mesh.vtu", grid(2))
+    assert main(["render", str(tmp_path / "mesh.vtu"), "-o", str(tmp_path / "p.jpg")]) != 0
+    assert "p.jpg: a picture cannot be written as .jpg. Use .png, .tif, .tiff, .pdf or .svg." in capsys.readouterr().err
+    assert [one.name for one in tmp_path.iterdir()] == ["mesh.vtu"]
+    page = sheet(grid(2), pixels=(40, 30))
+    for name, kind in (("p.PNG", "PNG"), ("p", "PNG"), ("p.tif", "TIFF")):
+        page.write(tmp_path / name)
+        with Image.open(tmp_path / name) as read:
+            assert (read.format, read.size) == (kind, (40, 30))
+    with pytest.raises(FileError, match=r"Use \.png"):
+        page.write(tmp_path / "p.jpg")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("panels", [1, 2])
+@pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
+def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
+    if QOpenGLContext.currentContext() is not None:
+        QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library
+    look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
+    shares = []
+    for size in ((1440, 900), (2880, 1800)):
+        page = sheet(*[grid(2)] * panels, look=look, pixels=size, supersampling=1)
+        image = np.asarray(page.image().convert("L"))[100 : round(0.75 * size[1])]  # without words and axes
+        shares.append((image < 110).mean())
+    assert shares[0] > 5e-4
+    assert shares[1] == pytest.approx(shares[0], rel=0.4)
+
+
+@pytest.mark.slow
+def test_each_caption_of_a_figure_stands_above_its_view():
+    grey = {"background": "#c0c0c0"}
+    drawn = np.asarray(sheet(*[grid(2)] * 4, pixels=(640, 430), bar=False, **grey).image().convert("L")).astype(int)
+    for column in (slice(0, 320), slice(320, 640)):
+        for top in (0, 215):
+            assert (drawn[top : top + 20, column] < 90).any()  # what is written
+    for left in (0, 322):
+        for top in (0, 217):
+            letters = (drawn[top : top + 20, left : left + 300] < 90).any(axis=0)
+            assert letters[:20].any()
+            assert not letters[180:].any()

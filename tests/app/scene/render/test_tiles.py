@@ -1,0 +1,72 @@
+"""Pictures too large to be drawn at once: the tiles fit together without a seam."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hexmend_app.picture import Camera, Cut, CutStyle, Page, PicturePanel, Plane, Scene, WipeLayout
+from hexmend_app.picture.appearance import Structure
+from hexmend_app.scene.page.layout import Layout
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.render.rasters import rasters
+from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
+from tests.core.grids import grid, scrambled
+
+#: Pixels at once, of which the pictures have more.
+FEW = 2**17
+
+SUBJECTS = [PageMesh.of(scrambled(grid(6), share), name) for share, name in ((0.7, "a"), (0.2, "b"))]
+
+
+def images(scene, **how):
+    found = rasters(Layout.of(scene, SUBJECTS[: 1 + bool(scene.panels)]), **how).images
+    return [np.asarray(image).astype(int) for image in found]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("supersampling", [1, 2, 3])
+@pytest.mark.parametrize(
+    "tables",
+    [
+        {"structure": Structure(sharp=True, irregular=True, fixed=True), "cut": Cut((Plane((0, 0, 1), 0.6),))},
+        {
+            "camera": Camera((0.3, -1.0, 0.2), parallel=True),
+            "cut": Cut((Plane((1, 1, 0), 0.4),), style=CutStyle.SMOOTH),
+        },
+        {"panels": (PicturePanel(wipe=WipeLayout(2, 0.37)),)},
+    ],
+)
+@pytest.mark.parametrize("background", ["white", "transparent"])
+def test_a_picture_in_tiles_is_the_one_drawn_at_once(tables, background, supersampling):
+    scene = Scene(page=Page(pixels=(601, 400), supersampling=supersampling, background=background), **tables)
+    (whole,), (parts,) = (images(scene, **how) for how in ({}, {"at_once": FEW}))
+    assert parts.shape == whole.shape
+    assert np.ptp(whole[..., :3]) > 100
+    off = np.abs(parts - whole).max(axis=2)
+    assert off.mean() < 0.05  # an edge that stands upright is rounded to one pixel or the next
+    tiles = Tiles.of(whole.shape[1::-1], supersampling, supersampling * scene.page.pen(scene.lines), FEW)
+    seams = [off[:, tile.left - 2 : tile.left + 2] for tile in tiles if tile.left]
+    seams += [off[tile.top - 2 : tile.top + 2] for tile in tiles if tile.top]
+    assert len(seams) > 1
+    assert max((seam > 16).mean() for seam in seams) < 0.02
+
+
+@pytest.mark.parametrize("size", [(16, 16), (6000, 4000), (16384, 4096), (8192, 8192), (17, 16384)])
+@pytest.mark.parametrize("fine", [1, 2, 4])
+@pytest.mark.parametrize("pen", [1.0, 40.0, 5000.0])
+def test_tiles_cover_a_page_once_and_none_is_too_large(size, fine, pen):
+    tiles = Tiles.of(size, fine, pen)
+    assert max(tiles.drawn) <= 16384
+    assert tiles.drawn[0] * tiles.drawn[1] <= AT_ONCE
+    area = 0
+    for tile in tiles:
+        assert 0 < tile.width <= tiles.inner[0]
+        assert 0 < tile.height <= tiles.inner[1]
+        assert tile.left + tile.width <= size[0]
+        assert tile.top + tile.height <= size[1]
+        area += tile.width * tile.height
+    assert area == size[0] * size[1]
+    alone = fine * max(size) <= 16384 and fine * fine * size[0] * size[1] <= AT_ONCE
+    assert (len(list(tiles)) == 1) == alone
+    assert tiles.around == 0 or not alone

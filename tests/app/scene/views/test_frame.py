@@ -1,0 +1,125 @@
+"""What is to be seen, as one value; and that what two of them share is not drawn again."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from hexmend.boundary.displacement import Displacement, ReferenceState
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import ColourScale, Look, Structure
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame, same_hexes
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid, scrambled
+
+MESH = grid(4)
+FIGURES = measure(MESH.points, MESH.hexes)
+MOVED = scrambled(MESH, 0.2)
+MOVED_FIGURES = measure(MOVED.points, MOVED.hexes)
+
+
+@pytest.fixture
+def watched(monkeypatch):
+    """A viewport, and a function that draws a frame and says what was done for it."""
+    stage = Stage((80, 60))
+    viewport = Viewport(Pane(stage.window))
+    done = []
+
+    def watch(part, name):
+        act = getattr(part, name)
+        monkeypatch.setattr(part, name, lambda *what: (done.append(name), act(*what)))
+
+    for part, name in (
+        (viewport.body, "set_mesh"),
+        (viewport.body, "rebuild"),
+        (viewport.body, "move"),
+        (viewport.colours, "measure"),
+        (viewport.extras.selection, "set_mesh"),
+    ):
+        watch(part, name)
+
+    def draw(frame):
+        done.clear()
+        viewport.draw(frame)
+        return set(done)
+
+    yield draw, viewport
+    stage.close()
+
+
+def test_another_mesh_is_drawn_from_its_skin_on(watched):
+    draw, _ = watched
+    assert draw(Frame(MESH, FIGURES)) == {"set_mesh", "rebuild", "measure"}
+    copy = Mesh(MESH.points, MESH.hexes)  # as when the same file is opened again
+    assert draw(Frame(copy, FIGURES)) == {"set_mesh", "rebuild", "measure"}
+
+
+def test_the_same_frame_costs_nothing(watched):
+    draw, viewport = watched
+    frame = Frame(MESH, FIGURES)
+    draw(frame)
+    assert draw(frame) == set()
+    assert draw(dataclasses.replace(frame, look=Look())) == set()  # another look that says the same
+    assert viewport.frame is not frame
+
+
+def test_nodes_elsewhere_are_moved(watched):
+    draw, viewport = watched
+    draw(Frame(MESH, FIGURES))
+    faces = viewport.body.faces
+    assert draw(Frame(MESH.with_points(MOVED.points), MOVED_FIGURES)) == {"move", "measure"}
+    assert viewport.body.faces is faces
+    np.testing.assert_allclose(viewport.body.whole.points, faces.places(MOVED.points), rtol=1e-6)
+
+
+def test_another_movement_is_measured(watched):
+    draw, viewport = watched
+    look = Look(scale=ColourScale("moved-most"))
+    draw(Frame(MESH, FIGURES, None, look))
+    movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
+    assert draw(Frame(MESH, FIGURES, movement, look)) == {"move", "measure"}
+    np.testing.assert_array_equal(viewport.colours.values, movement.values("moved-most"))
+    assert draw(Frame(MESH, FIGURES, movement, look)) == set()
+
+
+def test_another_look_is_built_and_measured_only_where_its_colours_are_others(watched):
+    draw, _ = watched
+    draw(Frame(MESH, FIGURES))
+    assert draw(Frame(MESH, FIGURES, look=Look(edges=False))) == {"rebuild"}
+    assert draw(Frame(MESH, FIGURES, look=Look(edges=False, scale=ColourScale("edge-ratio")))) == {"rebuild", "measure"}
+
+
+def test_other_pins_are_drawn(watched):
+    draw, viewport = watched
+    look = Look(structure=Structure(free=True), peel=1)
+    draw(Frame(MESH, FIGURES, look=look))
+    pinned = np.zeros(MESH.n_nodes, bool)
+    pinned[62] = True  # the centre
+    assert draw(Frame(MESH.replace(pinned=pinned), FIGURES, look=look)) == {"move"}
+    assert draw(Frame(viewport.frame.mesh, FIGURES, look=look)) == set()
+
+
+def test_hexes_are_the_same_wherever_the_nodes_are():
+    assert same_hexes(MESH, MOVED)
+    assert same_hexes(MESH, Mesh(MOVED.points, MESH.hexes))
+    assert not same_hexes(MESH, grid(3))
+    assert Frame(MESH.with_points(MOVED.points), FIGURES).is_of(Frame(MESH, FIGURES))
+    assert not Frame(Mesh(MESH.points, MESH.hexes), FIGURES).is_of(Frame(MESH, FIGURES))
+    assert not Frame(MESH, FIGURES).is_of(None)
+
+
+def test_beside_another_frame_the_look_and_the_moment_are_the_same():
+    movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
+    first = Frame(MESH, FIGURES, movement, Look(edges=False))
+    other = Frame(MESH.with_points(MESH.points * 2), FIGURES).neighbour(first)
+    assert other.look is first.look
+    assert other.movement.before is movement.before
+    np.testing.assert_array_equal(other.movement.points, 2 * MESH.points)
+    assert other.neighbour(dataclasses.replace(first, look=Look())).movement is other.movement  # measured once
+    renamed = dataclasses.replace(movement, before=dataclasses.replace(movement.before, name="later"))
+    assert other.neighbour(dataclasses.replace(first, movement=renamed)).movement.before.name == "later"
+    small = grid(2)
+    assert Frame(small, measure(small.points, small.hexes)).neighbour(first).movement is None

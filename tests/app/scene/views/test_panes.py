@@ -1,0 +1,242 @@
+"""Several views in one window, off screen: what is where, seen in the pixels."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary.displacement import Displacement, ReferenceState
+from hexmend.quality import measure
+from hexmend_app.picture import Page, Scene
+from hexmend_app.picture.appearance import Arrows, ColourScale, Look, RangeMode, Traces
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.arrangement import columns, grid
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.panes import Panes
+from hexmend_app.state.view.side_views import Wipe
+from tests.core.grids import grid as hexes
+from tests.core.grids import scrambled
+
+MESH = hexes(4)
+OTHERS = [scrambled(MESH, amount) for amount in (0.2, 0.4, 0.7)]
+SIZE = (240, 160)
+
+
+def shown(mesh):
+    return mesh, measure(mesh.points, mesh.hexes)
+
+
+def look_at(panes, look, movement=None):
+    """Draw the same mesh under another look."""
+    panes.draw(Frame(panes.first.frame.mesh, panes.first.frame.figures, movement, look))
+
+
+@pytest.fixture
+def stage():
+    with Stage(SIZE) as stage:
+        yield stage
+
+
+@pytest.fixture
+def panes(stage):
+    panes = Panes(stage.window)
+    panes.draw(Frame(*shown(MESH)))
+    return panes
+
+
+@pytest.fixture
+def pixels(stage, panes):
+    """A function that draws a fine frame and returns it."""
+
+    def drawn():
+        panes.still()
+        return stage.picture().astype(int)
+
+    return drawn
+
+
+@pytest.mark.parametrize("views", [1, 2, 3, 4])
+def test_views_side_by_side_fill_the_window_and_do_not_overlap(views):
+    places = grid(views)
+    assert len(places) == views
+    assert sum((right - left) * (high - low) for left, low, right, high in places) == pytest.approx(1)
+    assert len({high for *_, high in places}) == views // columns(views)
+    assert places[0][0] == 0
+    assert places[0][3] == 1  # reading order: from the upper left
+
+
+def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
+    panes.show([shown(OTHERS[2])])
+    panes.first.axes.widget.EnabledOff()
+    both = pixels()
+    left, right = both[:, :119], both[:, 121:239]
+    assert np.abs(left[:, :118] - right).max() > 100
+    panes.show([shown(MESH)])
+    both = pixels()
+    assert np.abs(both[:, 5:115] - both[:, 125:235]).max() < 16  # the same mesh, so the same picture, but for rounding
+
+
+@pytest.mark.parametrize("views", [1, 2, 4])
+def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes, views):
+    panes.leave_heads(16)
+    panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
+    expected = [(left, low, right, high - (0.1 if views > 1 else 0)) for left, low, right, high in grid(views)]
+    for view, place in zip(panes.all, expected, strict=True):
+        for layer in view.layers:
+            assert layer.GetViewport() == pytest.approx(place)
+    panes.show([shown(OTHERS[0])], Wipe(0, 1, 0.5))
+    assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
+
+
+def test_one_camera_leads_all_views(panes, pixels):
+    panes.show([shown(mesh) for mesh in OTHERS])
+    assert all(view.camera is panes.first.camera for view in panes.all)
+    before = pixels()
+    panes.first.camera.Azimuth(40)
+    panes.eye.reset_depth()
+    after = pixels()
+    for left, low, right, high in grid(4):
+        part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
+        assert np.abs(after[part] - before[part]).max() > 50
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
+def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel, pixels):
+    panes.eye.set_parallel(parallel)
+    panes.eye.fit()
+    panes.first.axes.widget.EnabledOff()
+    whole = pixels()
+    panes.show([shown(MESH)], Wipe(0, 1, at))
+    wiped = pixels()
+    edge = round(at * 240)
+    far = np.abs(np.arange(240) - edge) > 2  # lines end at the edge
+    assert (np.abs(wiped - whole).max(axis=2)[:, far] > 60).mean() < 0.002
+    panes.show([], None)
+    assert np.abs(pixels() - whole).max() <= 1
+
+
+def test_a_wipe_shows_one_mesh_on_either_side(panes, pixels):
+    panes.first.axes.widget.EnabledOff()
+    whole = pixels()
+    panes.show([shown(mesh) for mesh in OTHERS], Wipe(0, 3, 0.5))
+    wiped = pixels()
+    different = np.abs(wiped - whole).max(axis=2) > 60
+    assert different[:, :118].mean() < 0.002
+    assert different[:, 122:].mean() > 0.05
+    panes.show([shown(mesh) for mesh in OTHERS], Wipe(3, 0, 0.5))
+    swapped = np.abs(pixels() - whole).max(axis=2) > 60
+    assert swapped[:, :118].mean() > 0.05
+    assert swapped[:, 122:].mean() < 0.002
+
+
+def test_a_fitted_range_of_colours_spans_all_views_and_shrinks_again(panes):
+    scale = ColourScale(mode=RangeMode.FITTED)
+    look_at(panes, Look(scale=scale))
+    alone = panes.first.colouring.low, panes.first.colouring.high
+    panes.show([shown(mesh) for mesh in OTHERS[:2]])
+    ranges = {(view.colouring.low, view.colouring.high) for view in panes.all}
+    assert len(ranges) == 1
+    (low, high), q = ranges.pop(), [shown(mesh)[1] for mesh in OTHERS[:2]]
+    assert low == pytest.approx(min(one.q[~one.inverted].min() for one in q))
+    assert high >= 1 - 1e-6
+    look_at(panes, Look(scale=ColourScale(mode=RangeMode.PINNED, pinned=(0.2, 0.3))))
+    assert {(view.colouring.low, view.colouring.high) for view in panes.all} == {(0.2, 0.3)}
+    look_at(panes, Look(scale=scale))
+    panes.show([])
+    assert (panes.first.colouring.low, panes.first.colouring.high) == alone
+
+
+def test_a_cut_leaves_the_same_elements_in_all_views(panes):
+    panes.show([shown(mesh) for mesh in OTHERS])
+    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (2, 2, 2))))
+    first, *others = (view.kept() for view in panes.all)
+    assert 0 < first.sum() < first.size
+    for kept in others:
+        np.testing.assert_array_equal(kept, first)
+
+
+def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes, pixels):
+    panes.show([shown(OTHERS[0])])
+    pixels()
+    assert panes.at(60, 80) is panes.first
+    assert panes.at(180, 80) is panes.all[1]
+    left, right = panes.pick(60, 80), panes.pick(180, 80)
+    assert left.hex == right.hex
+    panes.show([shown(MESH)], Wipe(0, 1, 0.5))
+    pixels()
+    wiped = [found(panes, x) for x in (100, 140)]
+    panes.show([])
+    pixels()
+    assert wiped == [found(panes, x) for x in (100, 140)]
+
+
+def found(panes, x):
+    hit = panes.pick(x, 80)
+    return hit.hex, hit.node
+
+
+def test_meshes_with_other_hexes_are_shown_too(panes):
+    small = hexes(2)
+    panes.show([shown(small)])
+    look_at(panes, Look(clip=PlaneClip.at((1, 0, 0), (1, 0, 0))))
+    assert [view.kept().size for view in panes.all] == [MESH.n_hexes, small.n_hexes]
+
+
+def test_a_closed_view_leaves_nothing_behind(panes, pixels, stage):
+    panes.first.axes.widget.EnabledOff()
+    before, renderers = pixels(), stage.window.GetRenderers().GetNumberOfItems()
+    for _ in range(3):
+        panes.show([shown(mesh) for mesh in OTHERS])
+        pixels()
+        panes.show([])
+    assert stage.window.GetRenderers().GetNumberOfItems() == renderers
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):
+    wide = np.array(panes.first.camera.GetPosition())
+    panes.show([shown(OTHERS[0])])
+    assert np.linalg.norm(panes.first.camera.GetPosition()) > np.linalg.norm(wide)
+    panes.first.camera.Dolly(2)
+    near = panes.first.camera.GetPosition()
+    panes.show([])
+    assert panes.first.camera.GetPosition() == near
+
+
+def test_a_figure_holds_all_meshes_with_captions():
+    subjects = [PageMesh(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
+    four = np.asarray(draw_page(Scene(page=Page(pixels=(640, 480))), subjects).image()).astype(int)
+    assert four.shape == (480, 640, 3)
+    assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
+    colourful = four.max(axis=2) - four.min(axis=2) > 60
+    for rows in (slice(40, 220), slice(240, 420)):
+        for across in (slice(0, 320), slice(320, 640)):
+            assert colourful[rows, across].mean() > 0.1
+
+
+def test_views_beside_the_first_compare_with_the_same_moment(panes):
+    first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
+    look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
+    look_at(panes, look, Displacement(MESH, ReferenceState(MESH.points, first, "then"), MESH.points, first))
+    panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
+    other = panes.all[1]
+    far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
+    assert panes.first.extras.arrows.drawn == panes.first.extras.arrows.moved == 0
+    assert other.extras.arrows.drawn == MESH.free.sum()
+    assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
+    look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
+    assert other.colouring.title.endswith("since later")
+    np.testing.assert_array_equal(other.frame.movement.before.points, OTHERS[0].points)
+
+
+def test_a_view_that_is_no_longer_shown_leaves_the_window(stage, panes):
+    alone = stage.window.GetRenderers().GetNumberOfItems()
+    panes.show([shown(OTHERS[0])])
+    one = stage.window.GetRenderers().GetNumberOfItems()
+    for others in ([shown(OTHERS[0])] * 3, [shown(OTHERS[1])] * 2, [shown(OTHERS[2])]):
+        panes.show(others)
+    assert stage.window.GetRenderers().GetNumberOfItems() == one > alone
+    panes.show([])
+    assert stage.window.GetRenderers().GetNumberOfItems() == alone

@@ -1,0 +1,54 @@
+"""What is under the pointer."""
+
+import numpy as np
+import pytest
+
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import Look
+from hexmend_app.picture.cut_planes import PlaneClip
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid
+
+MESH = grid(5)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+@pytest.fixture
+def seen():
+    """A viewport that looks at a grid from above."""
+    with Stage((200, 200)) as stage:
+        viewport = Viewport(Pane(stage.window))
+        viewport.draw(Frame(MESH, FIGURES))
+        viewport.view("+z")
+        stage.picture()
+        yield viewport
+
+
+@pytest.mark.parametrize("place", [(100, 100), (60, 130), (150, 45)])
+def test_a_hit_lies_on_its_hex_and_its_node_is_the_nearest(seen, place):
+    hit = seen.pick(*place)
+    corners = MESH.points[MESH.hexes[hit.hex]]
+    assert (corners.min(axis=0) - 1e-6 <= hit.place).all()
+    assert (hit.place <= corners.max(axis=0) + 1e-6).all()
+    assert hit.place[2] == pytest.approx(5)
+    away = np.linalg.norm(MESH.points - hit.place, axis=1)
+    assert hit.node == away.argmin()
+
+
+def test_beside_the_mesh_there_is_none(seen):
+    assert seen.pick(1, 1) is None
+
+
+def test_on_a_cut_the_place_is_on_its_plane(seen):
+    seen.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((0, 0, 1), (2.5, 2.5, 2.3), False))))
+    hit = seen.pick(100, 100)
+    assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
+    assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4
+
+
+def test_before_a_mesh_is_drawn_there_is_none():
+    with Stage((80, 60)) as stage:
+        assert Viewport(Pane(stage.window)).pick(40, 30) is None

@@ -1,0 +1,274 @@
+"""The view of a mesh, off screen: what is drawn follows points, qualities and look."""
+
+import numpy as np
+import pytest
+
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from hexmend_app.picture.appearance import ColourScale, Look, RangeMode, ValueRange
+from hexmend_app.picture.cut_planes import ClipPlane, PlaneClip
+from hexmend_app.scene.camera.camera_controller import CameraController
+from hexmend_app.scene.colour.colouring import INVERTED
+from hexmend_app.scene.cutting.plane_widget import PlaneWidget
+from hexmend_app.scene.render.stage import Stage
+from hexmend_app.scene.views.frame import Frame
+from hexmend_app.scene.views.pane import Pane
+from hexmend_app.scene.views.viewport import Viewport
+from tests.core.grids import grid, scrambled
+
+MESH = grid(4)
+INSIDE = PlaneClip.at((0, 0, 1), (0, 0, 2), False)
+
+
+def figures_of(mesh):
+    return measure(mesh.points, mesh.hexes)
+
+
+def show(viewport, mesh=None, look=None):
+    """Draw another mesh under the same look, or the same under another."""
+    last = viewport.frame
+    mesh = mesh or (last and last.mesh) or MESH
+    viewport.draw(Frame(mesh, figures_of(mesh), look=look or (last.look if last else Look())))
+
+
+@pytest.fixture
+def stage():
+    with Stage((200, 150)) as stage:
+        yield stage
+
+
+@pytest.fixture
+def pane(stage):
+    return Pane(stage.window)
+
+
+@pytest.fixture
+def seen(stage, pane):
+    """A viewport with a grid in it, seen from above, and a function that returns its pixels."""
+    viewport = Viewport(pane)
+    show(viewport, MESH)
+    viewport.view("+z")
+    return viewport, lambda: stage.picture().astype(int)
+
+
+def magenta(image):
+    """Number of pixels in the colour of inverted elements, shade aside."""
+    share = image / np.maximum(image.max(axis=2, keepdims=True), 1)
+    return int((np.abs(share - np.array(INVERTED) / max(INVERTED)).max(axis=2) < 0.1).sum())
+
+
+def test_pixels_follow_the_points_and_come_back_with_them(seen):
+    viewport, pixels = seen
+    before = pixels()
+    show(viewport, MESH.with_points(MESH.points * 0.5))  # the colours stay
+    assert np.abs(pixels() - before).max() > 50
+    show(viewport, MESH)
+    np.testing.assert_array_equal(pixels(), before)
+
+
+@pytest.mark.parametrize("crinkle", [True, False])
+def test_inside_a_cut_elements_turn_over_and_back(seen, crinkle):
+    viewport, pixels = seen
+    show(viewport, look=Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2), crinkle)))
+    before = pixels()
+    assert magenta(before) == 0
+    tangled = scrambled(MESH, 1.5)
+    assert figures_of(tangled).n_inverted > 10
+    show(viewport, tangled)
+    assert magenta(pixels()) > 50
+    show(viewport, MESH)
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_a_cut_through_nodes_is_closed(seen):
+    viewport, pixels = seen
+    show(viewport, look=Look(edges=False))
+    whole = pixels()
+    show(viewport, look=Look(edges=False, clip=INSIDE))
+    middle = np.s_[60:90, 85:115]
+    assert np.abs(pixels()[middle] - whole[middle]).max() <= 2  # q = 1 everywhere, lit alike
+
+
+def test_faces_turned_inside_out_are_seen(seen):
+    viewport, pixels = seen
+    show(viewport, look=Look(edges=False, outline=False))
+    background = pixels()[0, 0]
+    drawn = (pixels() != background).any(axis=2).sum()
+    mirrored = MESH.with_points(MESH.points * [-1, 1, 1] + [4, 0, 0])
+    show(viewport, mirrored)
+    assert magenta(pixels()) > 0.9 * drawn
+
+
+def test_a_vector_along_z_is_a_direction_like_any_other(seen, capfd):
+    viewport, pixels = seen
+    before = pixels()
+    viewport.view((0.0, 0.0, 2.0))
+    np.testing.assert_array_equal(pixels(), before)
+    assert capfd.readouterr().err == ""  # VTK would say that it had to turn the camera
+
+
+def test_edges_are_drawn_or_not(seen):
+    viewport, pixels = seen
+    middle = np.s_[40:110, 65:135]
+    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) > 1
+    show(viewport, look=Look(edges=False))
+    assert len(np.unique(pixels()[middle].reshape(-1, 3), axis=0)) == 1
+
+
+def test_the_same_picture_however_its_look_was_reached(seen):
+    viewport, pixels = seen
+    tangled = scrambled(MESH, 0.6)
+    look = Look(clip=INSIDE, quality_range=ValueRange("q", 0.3, 0.9), scale=ColourScale(map="plasma"))
+    show(viewport, look=look)
+    show(viewport, tangled)
+    moved = pixels()
+    lower = Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 1)))
+    show(viewport, look=lower)
+    crinkle = pixels()
+    assert np.abs(crinkle - moved).max() > 50
+    show(viewport, look=look)
+    np.testing.assert_array_equal(pixels(), moved)
+    show(viewport, look=Look())
+    show(viewport, look=lower)
+    np.testing.assert_array_equal(pixels(), crinkle)
+
+
+def white(image):
+    """Number of pixels in the colour of the outlines of inverted elements."""
+    return int((image.min(axis=2) > 250).sum())
+
+
+@pytest.mark.parametrize("edges", [True, False])
+@pytest.mark.parametrize(
+    "clip", [None, PlaneClip.at((0, 0, 1), (0, 0, 2)), PlaneClip.at((0, 0, 1), (0, 0, 2.2), False)]
+)
+def test_inverted_elements_that_are_seen_are_outlined(seen, edges, clip):
+    viewport, pixels = seen
+    show(viewport, look=Look(edges=edges, clip=clip))
+    before = pixels()
+    assert white(before) == 0
+    tangled = scrambled(MESH, 1.5)
+    if clip is None:  # the skin's own nodes are held; an element at its corner is turned over through one of them
+        tangled = MESH.with_points(
+            MESH.points + 1.5 * (MESH.points == MESH.points.max(axis=0)).all(axis=1)[:, None] * -1
+        )
+    show(viewport, tangled)
+    assert white(pixels()) > 30
+    show(viewport, MESH)
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_an_outline_moves_with_its_element(seen):
+    viewport, pixels = seen
+    background = pixels()[0, 0]
+    for size in (1, 0.5, 0.8):
+        mirrored = MESH.with_points(MESH.points * [-size, size, size] + [4, 0, 0])
+        show(viewport, mirrored)
+        image = pixels()[:, 60:]  # without the axes in the corner
+        drawn, outline = (np.argwhere(where) for where in ((image != background).any(axis=2), image.min(axis=2) > 250))
+        np.testing.assert_allclose(drawn.min(axis=0), outline.min(axis=0), atol=3)
+        np.testing.assert_allclose(drawn.max(axis=0), outline.max(axis=0), atol=3)
+
+
+def test_inverted_elements_that_are_hidden_are_not_outlined(seen):
+    viewport, pixels = seen
+    tangled = scrambled(MESH, 1.5)
+    show(viewport, tangled)
+    show(viewport, look=Look(quality_range=ValueRange("q", 1.5, 2)))  # nothing
+    assert white(pixels()) == 0
+
+
+def test_a_fitted_range_follows_the_points(seen):
+    viewport, _ = seen
+    show(viewport, look=Look(scale=ColourScale(mode=RangeMode.FITTED)))
+    assert viewport.colouring.high - viewport.colouring.low < 1e-5
+    other = scrambled(MESH, 0.2)
+    figures = figures_of(other)
+    show(viewport, other)
+    assert (viewport.colouring.low, viewport.colouring.high) == (figures.q.min(), figures.q.max())
+    show(viewport, look=Look(scale=ColourScale("scaled-jacobian", mode=RangeMode.FITTED)))
+    assert viewport.colouring.title == "Scaled Jacobian"
+    assert viewport.colouring.low == figures.scaled_jacobian.min()
+
+
+def test_nodes_that_no_hex_uses_do_not_count(seen):
+    viewport, pixels = seen
+    before = pixels()
+    stray = Mesh(np.vstack([MESH.points, [[100.0, 0.0, 0.0]]]), MESH.hexes)
+    show(viewport, stray)
+    viewport.view("+z")
+    assert viewport.bounds == (0, 4, 0, 4, 0, 4)
+    np.testing.assert_array_equal(pixels(), before)
+
+
+def test_setting_the_plane_is_no_wish_of_the_user(pane):
+    told = []
+    pane.window.Render()
+    widget = PlaneWidget(pane, told.append)
+    widget.set_bounds((0, 4, 0, 4, 0, 4))
+    for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
+        widget.set(plane)
+    assert told == []
+    widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
+    assert told == [INSIDE.planes[0]]
+    widget.close()
+
+
+def test_what_is_picked_is_what_is_seen(seen):
+    viewport, pixels = seen
+    pixels()
+    hit = viewport.pick(100, 75)
+    h, node = hit.hex, hit.node
+    assert h in np.flatnonzero(MESH.points[MESH.hexes][:, :, 2].max(axis=1) == MESH.points[:, 2].max())
+    assert node in MESH.hexes[h]
+    assert viewport.pick(1, 1) is None
+    show(viewport, look=Look(clip=INSIDE))  # cut through at z = 2: the section is what is seen
+    pixels()
+    below = viewport.pick(100, 75).hex
+    assert MESH.points[MESH.hexes[below]][:, 2].min() < 2
+    np.testing.assert_allclose(
+        MESH.points[MESH.hexes[below]].mean(axis=0)[:2], MESH.points[MESH.hexes[h]].mean(axis=0)[:2]
+    )
+
+
+def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there_is_room(seen, pane):
+    viewport, pixels = seen
+    plain = pixels()
+    inner = 21
+    viewport.extras.selection.select(inner, False, None)
+    marked = pixels()
+    assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
+    viewport.extras.selection.select(inner, True, None)
+    np.testing.assert_array_equal(pixels(), marked)  # too small for figures
+    eye = CameraController.of(viewport)
+    eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
+    eye.reset_depth()
+    centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
+    np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
+    pane.camera.Dolly(2.0)
+    near = pixels()
+    viewport.extras.selection.select(inner, False, None)
+    assert (near != pixels()).any()
+
+
+def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_rest(seen, monkeypatch):
+    viewport, pixels = seen
+    monkeypatch.setattr("hexmend_app.scene.layers.mesh.MANY", 50)
+    viewport.still()
+    fine = pixels()
+    viewport.turning()
+    mapper = viewport.body.skin.actor.GetMapper()
+    rough = mapper.GetInput()
+    assert 0 < rough.GetNumberOfCells() != viewport.body.whole.GetNumberOfCells()
+    turned = pixels()
+    body = (fine != fine[0, 0]).any(axis=2)
+    assert ((turned != turned[0, 0]).any(axis=2) == body).mean() > 0.98  # the same shape
+    viewport.turning()
+    assert mapper.GetInput() is rough  # made once
+    h = viewport.pick(100, 75).hex
+    assert (MESH.topology.face_neighbours[h] < 0).any()
+    show(viewport, MESH)
+    viewport.turning()
+    assert mapper.GetInput() is viewport.body.whole  # nodes that move are seen as they are
+    viewport.still()
+    np.testing.assert_array_equal(pixels(), fine)

@@ -1,0 +1,125 @@
+"""Typing in lists of a window of which single letters are keys."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QComboBox, QListWidget, QSpinBox, QTableView, QVBoxLayout, QWidget
+
+from hexmend_app.shell.palette.type_to_find import TypeToFind
+from tests.app.driving import LEFT, named
+
+WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
+
+
+class Lists(QWidget):
+    """A window with lists, and keys of which it remembers those that were pressed."""
+
+    def __init__(self):
+        super().__init__()
+        self.box, self.list, self.number = QComboBox(), QListWidget(), QSpinBox()
+        self.other = QComboBox()
+        layout = QVBoxLayout(self)
+        for part in (self.box, self.other, self.list, self.number):
+            layout.addWidget(part)
+        for part in (self.box, self.other, self.list):
+            part.addItems(WORDS)
+        self.pressed = []
+        for letter in "LMNST1":
+            QShortcut(QKeySequence(letter), self, lambda letter=letter: self.pressed.append(letter))
+        QShortcut(QKeySequence("Ctrl+S"), self, lambda: self.pressed.append("Ctrl+S"))
+        TypeToFind(self)
+
+
+@pytest.fixture
+def lists(shown):
+    return shown(Lists(), 300, 400)
+
+
+def choose_by_mouse(box, at, qtbot):
+    """Open a box by a click, and choose in it by another."""
+    QTest.mouseClick(box, LEFT)
+    view = box.view()
+    qtbot.waitUntil(view.isVisible)
+    # Qt holds a click back that comes with the one that opened it.
+    qtbot.waitUntil(lambda: _clicked(view, at) or not view.isVisible(), timeout=5000)
+    assert box.currentIndex() == at
+
+
+def _clicked(view, at):
+    QTest.mouseClick(view.viewport(), LEFT, pos=view.visualRect(view.model().index(at, 0)).center())
+    return not view.isVisible()
+
+
+@pytest.mark.parametrize("typed", ["s", "S"])
+def test_a_letter_typed_in_a_box_finds_its_entry(lists, typed):
+    lists.box.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClicks(lists.box, typed)
+    assert lists.box.currentText() == "Steepest descent"
+    assert lists.pressed == []
+
+
+def test_a_word_is_typed_without_a_key_of_the_window_whether_it_is_found_or_not(lists):
+    lists.box.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClicks(lists.box, "trussnl1")
+    assert lists.box.currentText() == "Truss"
+    assert lists.pressed == []
+
+
+def test_what_is_no_letter_is_the_windows(lists):
+    lists.box.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(lists.box, Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
+    assert lists.pressed == ["Ctrl+S"]
+
+
+def test_letters_are_the_boxs_while_it_is_open_and_the_windows_once_the_mouse_has_chosen(lists, qtbot):
+    QTest.mouseClick(lists.box, LEFT)
+    qtbot.waitUntil(lists.box.view().isVisible)
+    QTest.keyClicks(QApplication.focusWidget(), "t")
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
+    assert lists.box.currentText() == "Truss"
+    assert lists.pressed == []
+    choose_by_mouse(lists.other, 1, qtbot)
+    QTest.keyClicks(lists.other, "s")
+    assert (lists.other.currentText(), lists.pressed) == ("Mend", ["S"])
+    QTest.keyClick(lists.other, Qt.Key.Key_Up)  # now it is the keys that choose
+    QTest.keyClicks(lists.other, "s")
+    assert (lists.other.currentText(), lists.pressed) == ("Steepest descent", ["S"])
+
+
+def test_a_list_has_the_letters_that_it_finds_something_by(lists):
+    lists.list.setCurrentRow(0)
+    lists.list.setFocus()
+    QTest.keyClicks(lists.list, "m")
+    assert lists.list.currentItem().text() == "Mend"
+    QTest.keyClicks(lists.list, "n")
+    assert lists.pressed == ["N"]
+
+
+def test_elsewhere_letters_are_the_windows_and_digits_a_number_boxs(lists):
+    lists.number.setFocus()
+    lists.number.selectAll()
+    QTest.keyClicks(lists.number, "11")
+    assert (lists.number.value(), lists.pressed) == (11, [])
+    lists.setFocus()
+    QTest.keyClicks(lists, "ls")
+    assert lists.pressed == ["L", "S"]
+
+
+@pytest.mark.slow
+def test_a_method_is_found_by_typing_and_the_worst_hexes_are_still_gone_through(window):
+    box = named(window.features["smooth"].panel, QComboBox, "Method")
+    box.setFocus(Qt.FocusReason.TabFocusReason)
+    structure = window.session.view.look.structure
+    QTest.keyClicks(box, "smart")
+    window.refresh()
+    assert window.session.run_setup.method == "smart-laplacian"
+    assert window.session.view.look.structure == structure
+    window.show_panel("worst")
+    table = window.features["hex_inspector"].worst_list.findChild(QTableView)
+    table.setFocus()
+    table.setCurrentIndex(table.model().index(0, 0))
+    QTest.keyClick(table, Qt.Key.Key_N)
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[1]

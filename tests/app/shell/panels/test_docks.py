@@ -1,0 +1,271 @@
+"""Where panels stand around the view, and what room the view has."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QDockWidget, QLabel, QMainWindow
+
+from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.resources import demo_mesh
+from hexmend_app.shell.panels.docks import Docks
+from hexmend_app.state.settings import settings
+from tests.app.driving import LEFT, open_and_wait
+
+IDS = ("run", "recipe", "look", "histogram", "quality", "worst", "tags")
+
+
+def panels():
+    """Some panels, two of which share a tab."""
+    places = (*3 * [PanelPlace.TOOLS], *2 * [PanelPlace.FACTS], *2 * [PanelPlace.DRAWER])
+    shared = {"run": "Run", "recipe": "Run"}
+    return [
+        Panel(id=id, title=id.title(), widget=QLabel(f"About {id}"), place=place, tab=shared.get(id, ""), order=at)
+        for at, (id, place) in enumerate(zip(IDS, places, strict=True))
+    ]
+
+
+def made(shown):
+    """A main window with the panels."""
+    main = QMainWindow()
+    docks = Docks(main)
+    main.statusBar().addWidget(docks.row, 1)
+    docks.add(panels())
+    shown(main, 1000, 700)
+    QApplication.processEvents()
+    return docks
+
+
+@pytest.fixture
+def docks(shown):
+    return made(shown)
+
+
+@pytest.fixture
+def another(shown):
+    """Other docks with the same panels."""
+    return made(shown)
+
+
+def seen(docks):
+    """The panels that are visible."""
+    QApplication.processEvents()
+    return {id for id in docks.ids() if docks.in_front(id)}
+
+
+def dock_of(docks, title):
+    return next(one for one in docks.parent().findChildren(QDockWidget) if one.windowTitle() == title)
+
+
+def resize(docks, title, width, height):
+    """Drag the edges of a dock to another size."""
+    for size, direction in ((width, Qt.Orientation.Horizontal), (height, Qt.Orientation.Vertical)):
+        docks.parent().resizeDocks([dock_of(docks, title)], [size], direction)
+    QApplication.processEvents()
+
+
+def test_panels_stand_in_their_order_tools_first(docks):
+    assert docks.ids() == list(IDS)
+    assert seen(docks) == {"run", "recipe", "histogram"}  # the drawer is folded
+
+
+def test_a_panel_is_brought_to_the_front_with_those_that_share_its_tab(docks):
+    docks.show_panel("look")
+    docks.show_panel("tags")
+    assert seen(docks) == {"look", "histogram", "tags"}
+    docks.show_panel("recipe")
+    assert seen(docks) == {"run", "recipe", "histogram", "tags"}
+
+
+def test_a_panel_is_closed_until_it_is_shown_again(docks):
+    docks.close_panel("quality")
+    assert not docks.is_open("quality")
+    docks.show_panel("quality")
+    assert docks.is_open("quality")
+    assert docks.in_front("quality")
+
+
+def test_a_panel_is_offered_where_it_is_without_taking_room(docks):
+    view = docks.centre.size()
+    docks.offer_panel("tags")
+    docks.offer_panel("quality")
+    QApplication.processEvents()
+    assert docks.folded
+    assert docks.centre.size() == view
+    assert docks.in_front("quality")
+    docks.set_folded(False)
+    assert docks.in_front("tags")
+
+
+def test_panels_are_hidden_and_come_back_as_they_were(docks, qtbot):
+    docks.show_panel("tags")
+    docks.show_panel("quality")
+    before, view = seen(docks), docks.centre.width()
+    with qtbot.waitSignal(docks.changed):
+        docks.set_hidden(True)
+    QApplication.processEvents()
+    assert docks.hidden
+    assert seen(docks) == set()
+    assert docks.centre.width() > view
+    docks.set_hidden(False)
+    QApplication.processEvents()
+    assert seen(docks) == before
+    assert docks.centre.width() == view
+    docks.set_hidden(True)
+    docks.show_panel("look")  # brings all back
+    assert not docks.hidden
+    assert seen(docks) == before - {"run", "recipe"} | {"look"}
+
+
+def test_only_the_panel_in_front_is_visible_and_takes_the_focus(docks):
+    docks.show_panel("tags")
+    QApplication.processEvents()
+    pages = {one.windowTitle(): one.widget() for one in docks.parent().findChildren(QDockWidget)}
+    assert {title for title, page in pages.items() if page.isVisible()} == {"Run", "Histogram", "Tags"}
+
+
+def test_the_view_is_never_smaller_than_it_can_be_of_use(docks):
+    docks.show_panel("tags")
+    resize(docks, "Tags", 3000, 3000)
+    resize(docks, "Run", 3000, 3000)
+    docks.parent().resize(1, 1)
+    QApplication.processEvents()
+    assert docks.centre.width() >= 320
+    assert docks.centre.height() >= 240
+
+
+def test_the_row_opens_the_drawer_with_its_panel(docks):
+    assert docks.row.isVisible()
+    assert [docks.row.tabText(at) for at in range(docks.row.count())] == ["Worst", "Tags"]
+    QTest.mouseClick(docks.row, LEFT, pos=docks.row.tabRect(1).center())
+    assert "tags" in seen(docks)
+    assert not docks.row.isVisible()
+    docks.set_folded(True)
+    assert "tags" not in seen(docks)
+    docks.set_folded(False)
+    assert "tags" in seen(docks)
+
+
+def test_the_drawer_opens_as_high_as_it_was(docks):
+    docks.show_panel("tags")
+    resize(docks, "Tags", 500, 180)
+    height = dock_of(docks, "Tags").height()
+    docks.set_folded(True)
+    QApplication.processEvents()
+    docks.set_folded(False)
+    QApplication.processEvents()
+    assert dock_of(docks, "Tags").height() == height
+
+
+def test_a_dock_that_the_user_closes_is_opened_again(docks, qtbot):
+    with qtbot.waitSignal(docks.changed):
+        dock_of(docks, "Quality").close()
+    assert not docks.is_open("quality")
+    docks.set_hidden(True)
+    docks.set_hidden(False)
+    assert not docks.is_open("quality")
+    docks.show_panel("quality")
+    assert "quality" in seen(docks)
+
+
+def test_the_default_layout_comes_back(docks):
+    before = seen(docks)
+    dock_of(docks, "Look").setFloating(True)
+    docks.show_panel("tags")
+    docks.close_panel("histogram")
+    docks.reset()
+    assert not dock_of(docks, "Look").isFloating()
+    assert seen(docks) == before
+    assert all(map(docks.is_open, docks.ids()))
+
+
+# Saving
+
+
+@pytest.mark.parametrize("folded", [False, True], ids=["open", "folded"])
+@pytest.mark.parametrize("hidden", [False, True], ids=["shown", "hidden"])
+def test_a_layout_is_restored(docks, another, folded, hidden):
+    docks.show_panel("tags")
+    resize(docks, "Tags", 500, 200)
+    resize(docks, "Run", 400, 300)
+    docks.show_panel("look")
+    docks.show_panel("quality")
+    docks.close_panel("worst")
+    docks.set_folded(folded)
+    docks.set_hidden(hidden)
+    another.restore(docks.state())
+    assert another.hidden is hidden
+    for one in (docks, another):
+        one.set_hidden(False)
+    assert seen(another) == seen(docks) == {"look", "quality"} | (set() if folded else {"tags"})
+    assert not another.is_open("worst")
+    for one in (docks, another):
+        one.set_folded(False)
+    assert seen(another) == seen(docks) == {"look", "quality", "tags"}
+    assert another.centre.size() == docks.centre.size()
+
+
+def test_a_floating_dock_is_restored_through_the_settings(docks, another):
+    dock_of(docks, "Look").setFloating(True)
+    dock_of(docks, "Look").resize(300, 250)
+    docks.show_panel("look")
+    settings.PANELS.set(docks.state())
+    another.restore(settings.PANELS.get())
+    assert dock_of(another, "Look").isFloating()
+    assert seen(another) == seen(docks) == {"run", "recipe", "look", "histogram"}
+    for one in (docks, another):
+        one.set_hidden(True)
+
+
+@pytest.mark.parametrize(
+    "broken", [{"state": None}, {"state": b"broken"}, {"layout": None}, {"fronts": None}, {"drawer": "high"}], ids=str
+)
+def test_a_broken_layout_leaves_the_default(docks, another, broken):
+    size, before = another.centre.size(), seen(another)
+    state = docks.state()
+    resize(docks, "Run", 400, 300)
+    another.restore(state | broken)
+    assert seen(another) == before
+    assert another.centre.size() == size
+    another.restore({})
+    assert seen(another) == before
+
+
+def test_of_an_older_layout_the_closed_and_front_panels_are_read(docks):
+    old = {"layout": "7", "all": b"", "right": b"", "hidden": False, "drawer": 300, "folded": False}
+    docks.restore(old | {"fronts": ["Look", "Quality", "Tags"], "closed": ["worst", "gone"]})
+    assert seen(docks) == {"look", "quality", "tags"}
+    assert not docks.is_open("worst")
+
+
+# The window
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080)], ids="{0[0]} x {0[1]}".format)
+def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, size):
+    open_and_wait(qtbot, window, demo_mesh())
+    window.resize(*size)
+    QApplication.processEvents()
+    window.docks.place()
+    window.refresh()
+    QApplication.processEvents()
+    assert (window.width(), window.height()) == size
+    assert seen(window.docks) == {"run", "recipe", "histogram", "timeline"}
+    view = window.canvas.interactor
+    assert view.width() * view.height() >= 0.7 * window.width() * window.height()
+
+
+@pytest.mark.slow
+def test_the_layout_is_kept_from_one_window_to_the_next(fresh_window, qtbot):
+    window = fresh_window
+    window.show_panel("tags")
+    window.show_panel("quality")
+    window.docks.close_panel("node")
+    window.close()
+    kept = settings.PANELS.get()
+    assert kept["closed"] == ["node"]
+    assert "Tags" in kept["fronts"]
+    assert "Quality" in kept["fronts"]
+    assert kept["folded"] is False

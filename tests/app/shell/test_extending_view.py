@@ -1,0 +1,113 @@
+"""The colour map and the layer of docs/extending.md, each a file: window, sessions and pictures have them."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+from PIL import Image
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QLabel
+
+from hexmend.cli.main import main
+from hexmend.errors import ParameterError
+from hexmend_app.picture import colour_map, from_toml, layer_switch
+from hexmend_app.picture.appearance import ColourScale, Structure
+from hexmend_app.scene.layers import optional_layer
+from hexmend_app.shell.keys import as_markdown
+from hexmend_app.shell.palette.palette_entries import commands
+from tests.app.driving import named, open_and_wait
+from tests.app.features.structure.layers import count, pixels
+from tests.examples import example
+
+BOX = "#cc0066"
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Register both examples from files, each found in a folder beside Hexmend's own."""
+    folder = tmp_path_factory.mktemp("additions")
+    with pytest.MonkeyPatch.context() as patch:
+        for package, title, registry, load in (
+            ("hexmend_app.picture.colour_maps", "A colour map", colour_map.COLOUR_MAPS, colour_map.load_colour_maps),
+            ("hexmend_app.scene.layers.optional", "A layer of the 3D view", layer_switch.LAYERS,
+             optional_layer.load_layers),
+        ):  # fmt: skip
+            own = folder / package
+            own.mkdir()
+            (own / "made_up.py").write_text(example(title), encoding="utf-8")
+            patch.setattr(registry, "_entries", dict(registry))
+            patch.setattr(import_module(package), "__path__", [*import_module(package).__path__, str(own)])
+            load()
+        yield
+
+
+@pytest.fixture
+def window(files, fresh_window):
+    """A window that was built with both, with a mesh open in it."""
+    return fresh_window
+
+
+def show_both(window):
+    """Switch the layer and the map on."""
+    window.session.view.change(structure=Structure(extra=("bounding-box",)), scale=ColourScale(map="slate"))
+    window.refresh()
+
+
+def test_panel_menu_palette_and_map_box_have_them(window):
+    row = window.features["structure"].panel.layers["bounding-box"]
+    assert row.box.text() == "Bounding box"
+    assert next(label.text() for label in row.entries.findChildren(QLabel)).count("×") == 2
+    action = window.action("show_bounding-box")
+    assert "Bounding box: off" in {entry.name for entry in commands(window.window_actions)}
+    assert "| Bounding box | `Ctrl+Shift+B` | Show the box around the mesh. |" in as_markdown(window.menus.declared())
+    action.trigger()
+    window.refresh()
+    assert row.box.isChecked()
+    assert action.isChecked()
+    assert window.session.view.look.structure == Structure(extra=("bounding-box",))
+    maps = named(window, QComboBox, "Colour map")
+    assert maps.itemData(maps.findData("slate"), Qt.ItemDataRole.ToolTipRole) == "From dark blue over grey to cream."
+
+
+@pytest.mark.slow
+def test_a_session_keeps_them(window, qtbot, mesh_file, tmp_path):
+    show_both(window)
+    look = window.session.view.look
+    assert count(pixels(window), BOX) > 100
+    assert window.features["session"].save_and_wait(tmp_path / "both.hexmend")
+    window.session.view.change(structure=Structure(), scale=ColourScale())
+    window.refresh()
+    assert count(pixels(window), BOX) == 0
+    open_and_wait(qtbot, window, tmp_path / "both.hexmend")
+    assert window.session.view.look == look
+    assert count(pixels(window), BOX) > 100
+
+
+@pytest.mark.slow
+def test_saved_pictures_show_them(window, tmp_path):
+    show_both(window)
+    assert window.features["save"].picture(tmp_path / "window.png", (640, 480))
+    image = np.asarray(Image.open(tmp_path / "window.png").convert("RGB"))
+    assert count(image, BOX) > 100
+
+
+@pytest.mark.slow
+def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
+    words = ["render", str(mesh_file), "--size", "640x480", "-o"]
+    options = ["--structure", "sharp,bounding-box", "--colour-map", "slate"]
+    scene = tmp_path / "scene.toml"
+    assert main([*words, str(tmp_path / "options.png"), *options, "--save-scene", str(scene)]) == 0
+    assert from_toml(scene.read_text()).structure == Structure(sharp=True, extra=("bounding-box",))
+    assert main([*words, str(tmp_path / "scene.png"), "--scene", str(scene)]) == 0
+    images = [np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")) for name in ("options", "scene")]
+    assert count(images[0], BOX) > 20
+    np.testing.assert_array_equal(*images)
+
+
+def test_an_unknown_layer_or_map_is_named_with_those_that_there_are():
+    with pytest.raises(ParameterError, match="there is no layer 'bounding-bxo'"):
+        Structure(extra=("bounding-bxo",))
+    with pytest.raises(ParameterError, match="map = 'jet' is unknown: expected one of viridis"):
+        from_toml('format = 1\n[colours]\nmap = "jet"\n')

@@ -1,0 +1,65 @@
+"""Elements that are shown alone by their names."""
+
+import numpy as np
+import pytest
+
+from hexmend.boundary.displacement import Displacement, ReferenceState
+from hexmend.quality import measure, summarise
+from hexmend_app.picture.appearance import ColourScale, Isolation, ValueRange
+from hexmend_app.scene.colour.colouring import resolve
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.hex_groups import KINDS, hexes_of_group
+from hexmend_app.state.view.view_model import ViewModel
+from tests.core.grids import grid, scrambled
+
+MESH = scrambled(grid(6), 0.8, 1)
+FIGURES = measure(MESH.points, MESH.hexes)
+
+
+def test_as_many_are_shown_as_the_figures_count():
+    summary = summarise(MESH, FIGURES)
+    assert len(hexes_of_group("inverted", MESH, FIGURES)) == summary.inverted > 0
+    assert len(hexes_of_group("locked", MESH, FIGURES)) == summary.locked_inverted
+    fixed = MESH.replace(pinned=np.ones(MESH.n_nodes, bool))
+    assert len(hexes_of_group("locked", fixed, FIGURES)) == summary.inverted
+
+
+def test_every_name_on_the_colour_bar_is_known():
+    for metric in ("q", "q-change"):
+        for one in resolve(ColourScale(metric), FIGURES.q, FIGURES.inverted).special_colours:
+            assert one.name in KINDS
+            assert hexes_of_group(one.name, MESH, FIGURES).dtype == np.int64
+
+
+def test_a_movement_tells_who_was_inverted_and_is():
+    was = scrambled(MESH, 0.3, 7)
+    before = measure(was.points, was.hexes)
+    movement = Displacement(MESH, ReferenceState(was.points, before, "then"), MESH.points, FIGURES)
+    newly, still, mended = (
+        set(hexes_of_group(kind, MESH, FIGURES, movement).tolist())
+        for kind in ("newly inverted", "still inverted", "mended")
+    )
+    assert newly | still == set(np.flatnonzero(FIGURES.inverted).tolist())
+    assert still | mended == set(np.flatnonzero(before.inverted).tolist())
+    assert newly
+    assert still
+
+
+def test_another_name_is_refused():
+    with pytest.raises(KeyError, match="known are inverted, locked"):
+        hexes_of_group("ugly", MESH, FIGURES)
+
+
+def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
+    document = Document()
+    document.replace(State.of(MESH), None)
+    view = ViewModel(document)
+    view.change(quality_range=ValueRange("q", 0.5, 1.0), peel=2)
+    view.dig(3)
+    view.isolate(np.array([], np.int64))
+    assert view.look.quality_range is not None
+    view.isolate(np.array([3, 8]))
+    assert (view.look.peel, view.look.dug) == (0, frozenset())
+    assert view.look.isolation == Isolation((3, 8), rings=view.rings)
+    assert view.look.quality_range is None
+    assert view.rings == 1  # those that are chosen for the next

@@ -1,0 +1,168 @@
+"""Runs in the worker thread, without a window."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.iteration import Step
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.smoothers import Smoother
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend_app.state.mesh import metric_cache
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.run.run_controller import Phase, RunController
+from hexmend_app.state.run.worker import Mailbox
+from hexmend_app.state.tasks.task import Task, running, wait_for_dropped
+from tests.app.driving import turn
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
+
+SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
+
+
+class Failing(Smoother):
+    """Raises in its second step."""
+
+    name, title, help, source = "failing", "Failing", "Fails.", "test"
+
+    def steps(self, mesh):
+        yield Step(mesh.points)
+        yield Step(mesh.points + 0.01 * mesh.free[:, None])
+        raise ZeroDivisionError("one over nothing")
+
+
+@pytest.fixture
+def document(qtbot):
+    document = Document()
+    document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    return document
+
+
+@pytest.fixture
+def smoothing(document):
+    smoothing = RunController(document, History())
+    yield smoothing
+    smoothing.shut_down()
+
+
+def phase_is(smoothing, phase):
+    return lambda: smoothing.phase is phase
+
+
+def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
+    expected = smooth(document.now.mesh, LocalSteepestDescent())
+    with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
+        smoothing.start(LocalSteepestDescent(), StoppingCriteria())
+    (result,) = ended.args
+    assert result.outcome is expected.outcome
+    assert result.iterations == expected.iterations
+    np.testing.assert_array_equal(document.now.mesh.points, expected.mesh.points)
+    assert document.undo_title == "Local steepest descent"
+    assert smoothing.phase is Phase.FINISHED
+    document.undo()
+    assert document.now is document.start
+
+
+def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtbot):
+    seen = []
+    smoothing.iterated.connect(lambda frame: seen.append(frame.iteration.number))
+    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    for count in (2, 3):
+        smoothing.step()
+        qtbot.waitUntil(lambda count=count: seen[-1:] == [count], timeout=5000)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    assert seen == [1, 2, 3]
+    smoothing.resume()
+    qtbot.waitUntil(lambda: seen[-1] > 6, timeout=5000)
+    smoothing.pause()
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=5000)
+    turn()  # what was on its way when it paused
+    with qtbot.assertNotEmitted(smoothing.iterated, wait=150):
+        pass
+    assert seen == sorted(set(seen))
+
+
+def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW)
+    qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=PATIENCE)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
+        smoothing.stop()
+    (result,) = ended.args
+    assert result.outcome.name == "STOPPED"
+    np.testing.assert_array_equal(document.now.mesh.points, result.mesh.points)
+
+
+def test_stop_ends_a_paused_run(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW, iterations=1)
+    qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=PATIENCE)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
+        smoothing.stop()
+    assert ended.args[0].iterations == 1
+
+
+@pytest.mark.parametrize("iterations", [1, float("inf")])
+def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
+    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+        smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
+    smoothing.shut_down()
+    assert not smoothing.busy
+    wait_for_dropped()
+    assert running() == ()
+
+
+def test_another_mesh_comes_without_a_wait_for_the_iteration_at_hand(document, smoothing, qtbot, monkeypatch):
+    with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
+        smoothing.start(LocalSteepestDescent(), SLOW)
+    with monkeypatch.context() as patch:
+        patch.setattr(Task, "join", lambda *_: pytest.fail("the window waits for the run"))
+        document.replace(State.of(grid(2)), Path("b.vtu"))
+    assert smoothing.phase is Phase.IDLE
+    wait_for_dropped()
+    assert running() == ()
+
+
+def test_a_method_that_raises_leaves_the_last_good_iteration_which_undo_takes_back(document, smoothing, qtbot):
+    before = document.now
+    with qtbot.waitSignal(smoothing.failed, timeout=PATIENCE) as failed:
+        smoothing.start(Failing(), SLOW)
+    assert isinstance(failed.args[0], ZeroDivisionError)
+    assert smoothing.phase is Phase.IDLE
+    assert smoothing.record.result == 1
+    assert document.undo_title is not None
+    document.undo()
+    assert document.now is before
+
+
+def test_a_mailbox_holds_the_newest_only():
+    box = Mailbox()
+    assert box.take() is None
+    box.put("one")
+    box.put("two")
+    assert box.take() == "two"
+    assert box.take() is None
+
+
+def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing, qtbot):
+    frames = []
+    smoothing.iterated.connect(frames.append)
+    smoothing.want({"condition"})
+    smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
+    qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
+    assert "condition" in metric_cache.REMEMBERED[frames[0].state.figures]
+    assert smoothing.record.name == "Local steepest descent"
+    smoothing.want({"taper", "q"})  # in the middle of a run
+    smoothing.step()
+    qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)
+    assert set(metric_cache.REMEMBERED[frames[1].state.figures]) == {"taper", "q"}
+
+
+def test_stop_is_answered_within_one_iteration(document, smoothing, qtbot):
+    smoothing.start(LocalSteepestDescent(), SLOW)
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=PATIENCE)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+        smoothing.stop()
+        begun = smoothing.record.newest
+    assert smoothing.record.newest <= begun + 1

@@ -1,0 +1,152 @@
+"""Going through runs: back, on, played, branched, while a run goes on."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.run import StoppingCriteria, smooth
+from hexmend.smoothers.laplacian.laplacian import Laplacian
+from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import RecordedIteration
+from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.state.session.commands import Commands
+from hexmend_app.state.session.session import Session
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
+
+ENDLESS = StoppingCriteria(tolerance=0, max_iterations=1_000_000)
+
+
+@pytest.fixture
+def session(qtbot):
+    session = Session()
+    session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
+    yield session
+    session.shut_down()
+
+
+def run(qtbot, session, smoother=None, iterations=12):
+    with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):
+        session.run.start(smoother or LocalSteepestDescent(), StoppingCriteria(max_iterations=iterations, tolerance=0))
+    return session.run.record
+
+
+def test_no_iteration_is_lost_and_all_are_shown_in_order(session, qtbot):
+    start = session.document.now.mesh
+    record = run(qtbot, session, iterations=40)
+    assert [row["iteration"] for row in record.rows] == list(range(41))
+    shown = []
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment))
+    session.timeline.go(record, 0)
+    for _ in range(40):
+        session.timeline.step(1)
+    assert [moment.number for moment in shown] == list(range(41))
+    expected = smooth(start, LocalSteepestDescent(), StoppingCriteria(max_iterations=17, tolerance=0))
+    session.timeline.go(record, 17)
+    np.testing.assert_allclose(session.document.now.mesh.points, expected.mesh.points, atol=1e-7)
+
+
+def test_a_whole_run_is_one_undo_step_wherever_one_looks(session, qtbot):
+    record = run(qtbot, session)
+    end = session.document.now
+    session.timeline.go(record, 5)
+    assert session.document.previews
+    assert session.document.undo_title == "Local steepest descent"
+    session.document.undo()
+    assert session.document.now is session.document.start
+    assert session.timeline.moment.number == 0
+    session.document.redo()
+    assert session.document.now is end
+    assert session.timeline.moment.number == 12
+
+
+def test_a_branch_goes_on_from_the_iteration_shown_and_is_undone_alone(session, qtbot):
+    first = run(qtbot, session)
+    end = session.document.now
+    session.timeline.go(first, 4)
+    there = session.document.now.mesh.points
+    second = run(qtbot, session, Laplacian(), 3)
+    assert second.parent.record is first
+    assert second.parent.number == 4
+    np.testing.assert_array_equal(second.points(0), there)
+    assert session.timeline.record is second
+    session.document.undo()
+    assert session.document.now is end
+    assert session.timeline.record is first
+
+
+def test_one_looks_back_while_the_run_goes_on(session, qtbot):
+    timeline, smoothing = session.timeline, session.run
+    smoothing.start(LocalSteepestDescent(), ENDLESS)
+    qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 20, timeout=PATIENCE)
+    timeline.go(smoothing.record, 3)
+    assert not timeline.live
+    newest = smoothing.record.newest
+    qtbot.waitUntil(lambda: smoothing.record.newest > newest + 5, timeout=5000)
+    assert timeline.moment.number == 3
+    timeline.go(smoothing.record, smoothing.record.newest)
+    assert timeline.live
+    qtbot.waitUntil(lambda: timeline.moment.number > newest, timeout=5000)
+    timeline.go(smoothing.record, 3)
+    with qtbot.waitSignal(smoothing.ended, timeout=5000):
+        smoothing.stop()
+    assert timeline.moment.number == 3  # the end is recorded, and not thrust upon who looks elsewhere
+    assert session.document.undo_title == "Local steepest descent"
+
+
+def test_a_paused_run_goes_on_from_its_newest_iteration(session, qtbot):
+    timeline, smoothing = session.timeline, session.run
+    smoothing.start(LocalSteepestDescent(), ENDLESS, iterations=8)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
+    timeline.go(smoothing.record, 2)
+    smoothing.step(4)
+    qtbot.waitUntil(lambda: timeline.moment.number == 12, timeout=5000)
+    qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
+
+
+def test_it_plays_to_the_end_and_holds(session, qtbot):
+    record = run(qtbot, session)
+    shown = []
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
+    session.timeline.speed = 100
+    session.timeline.play()
+    assert session.timeline.playing
+    qtbot.waitUntil(lambda: not session.timeline.playing, timeout=5000)
+    assert shown == list(range(13))
+    session.timeline.go(record, 6)
+    session.timeline.speed = 100
+    session.timeline.play()
+    session.timeline.step(-1)
+    assert not session.timeline.playing
+
+
+def test_of_many_wishes_the_last_counts(session, qtbot):
+    record = run(qtbot, session)
+    shown = []
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
+    for number in (3, 9, 5):
+        session.timeline.go_soon(record, number)
+    qtbot.waitUntil(lambda: shown == [5], timeout=2000)
+
+
+def test_another_mesh_has_no_history_yet(session, qtbot):
+    run(qtbot, session)
+    session.document.replace(State.of(grid(3)), Path("b.vtu"))
+    assert session.history.records == []
+    assert session.history.bytes == 0
+    assert session.timeline.record is None
+    assert session.timeline.moment is None
+
+
+def test_tags_given_after_a_run_leave_one_where_one_is(session, qtbot):
+    record = run(qtbot, session)
+    commands = Commands(session)
+    commands.tag("bad", [1, 2])
+    assert (session.timeline.record, session.timeline.moment) == (record, RecordedIteration(record, 12))
+    session.timeline.go(record, 5)
+    commands.tag("worse", [3])
+    assert session.timeline.moment == RecordedIteration(record, 5)
+    session.document.undo()
+    assert session.timeline.moment == RecordedIteration(record, 12)

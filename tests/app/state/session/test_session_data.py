@@ -1,0 +1,55 @@
+"""Sessions that earlier versions wrote are read whole."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hexmend.io.formats.session import session_file
+from hexmend.iteration import StoppingCriteria
+from hexmend.run.recipe import Stage
+from hexmend.smoothers import METHODS
+from hexmend_app.codec import codec
+from hexmend_app.state.run.run_setup import RunSetupData
+from hexmend_app.state.session import session_data
+
+_FILES = Path(__file__).parent / "files"
+
+
+@pytest.mark.parametrize("version", [1, 2])
+def test_a_session_of_an_earlier_version_is_read_with_its_run(version):
+    data = session_data.read(_FILES / f"version_{version}.hexmend")
+    (record,) = data.history.records
+    assert record.rows[-1]["iteration"] == 3
+    assert record.advice.limiting.dtype == np.int64
+    assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
+
+
+def test_a_session_that_is_read_is_written_as_it_was(tmp_path):
+    data = session_data.read(_FILES / "version_2.hexmend")
+    session_data.write(tmp_path / "again.hexmend", data)
+    again = session_data.read(tmp_path / "again.hexmend")
+    assert again.history.records[0].advice.reason == data.history.records[0].advice.reason
+    np.testing.assert_array_equal(again.document.now.mesh.points, data.document.now.mesh.points)
+
+
+@pytest.mark.parametrize(("version", "read"), [(3, "unlimited"), (4, 0.0)])
+def test_a_surface_tolerance_of_0_was_no_limit_up_to_version_3(tmp_path, monkeypatch, version, read):
+    data = session_data.read(_FILES / "version_2.hexmend")
+    stage = Stage(METHODS["mend"](boundary="slide", surface_tolerance=0))
+    data = dataclasses.replace(data, run_setup=dataclasses.replace(data.run_setup, stage=stage))
+    fields = codec._fields
+    monkeypatch.setattr(codec, "_fields", lambda kind, of=version: fields(kind, of))  # what that version wrote
+    monkeypatch.setattr(session_file, "VERSION", version)
+    session_data.write(tmp_path / "old.hexmend", data)
+    monkeypatch.undo()
+    assert session_data.read(tmp_path / "old.hexmend").run_setup.stage.smoother.surface_tolerance == read
+
+
+def test_values_that_version_0_1_kept_for_a_method_have_their_names_of_today():
+    stage = Stage(METHODS["mend"](), StoppingCriteria())
+    order = RunSetupData(stage, "", {"mend": {"softness": 0.05, "highest_p": 4.0}, "general": {"sufficient": 0.5}})
+    assert order.values == {"mend": {"initial_epsilon": 0.05, "max_p": 4.0}, "general": {"q_target": 0.5}}

@@ -1,0 +1,139 @@
+"""Cameras that are kept by name, and what a session's file says of them."""
+
+import threading
+
+import pytest
+
+from hexmend.errors import FileError, ParameterError
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.formats.session.session_file import VERSION
+from hexmend_app.bench.windows import save_and_wait
+from hexmend_app.picture import Camera
+from hexmend_app.picture.named_cameras import MOST, NamedCameras, cameras_of, merged
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.session import session_data
+from hexmend_app.state.session.session import Session
+from hexmend_app.state.view.saved_cameras import SavedCameras
+from tests.core.grids import grid
+from tests.patience import PATIENCE
+
+X, Y = Camera("+x"), Camera(position=(1.0, 2.0, 3.0), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=2.0)
+
+
+@pytest.fixture
+def cameras(qtbot):
+    return SavedCameras()
+
+
+def test_a_name_stands_for_the_camera_that_was_kept_last(cameras):
+    told = []
+    cameras.changed.connect(lambda: told.append(dict(cameras.all)))
+    cameras.keep("front", X)
+    cameras.keep("side", X)
+    cameras.keep("front", Y)
+    cameras.keep("front", Y)
+    assert told == [{"front": X}, {"front": X, "side": X}, {"front": Y, "side": X}]
+    cameras.rename("front", "in front")
+    assert list(cameras.all) == ["in front", "side"]
+    cameras.rename("in front", "side")
+    assert cameras.all == {"side": Y}
+    cameras.remove("side")
+    assert cameras.all == {}
+
+
+@pytest.mark.parametrize("name", ["", " front", "a\nb", "x" * 300])
+def test_a_name_that_cannot_be_written_is_refused(cameras, name):
+    with pytest.raises(ParameterError):
+        cameras.keep(name, X)
+    assert cameras.all == {}
+
+
+def test_there_is_an_end(cameras):
+    for number in range(MOST):
+        cameras.keep(str(number), X)
+    with pytest.raises(ParameterError, match="101 entries: expected 100"):
+        cameras.keep("one more", X)
+    cameras.take_in({"another": Y, "3": X})
+    assert len(cameras.all) == MOST
+
+
+def test_those_of_a_scene_are_taken_in_and_take_no_name_away(cameras):
+    cameras.keep("front", X)
+    for _ in range(2):  # the same again are there already
+        cameras.take_in({"front": Y, "top": Y})
+        assert cameras.all == {"front": X, "front (2)": Y, "top": Y}
+    assert merged({}, {"front": Y}) == {"front": Y}
+
+
+def test_what_a_file_has_is_not_modified(cameras):
+    cameras.keep("front", X)
+    assert cameras.modified
+    cameras.saved()
+    assert not cameras.modified
+    cameras.restore(NamedCameras({"top": Y}))
+    assert not cameras.modified
+    cameras.restore(NamedCameras({"top": Y}), saved=False)
+    assert cameras.modified
+
+
+@pytest.fixture
+def session(qtbot, tmp_path):
+    session = Session()
+    session.document.replace(State.of(grid(2)), tmp_path / "mesh.vtu")
+    yield session
+    session.shut_down()
+
+
+def test_a_session_with_other_cameras_than_its_file_is_modified(session, tmp_path):
+    session.saved_cameras.keep("front", X)
+    assert not session.modified  # a mesh's file has none
+    save_and_wait(session, tmp_path / "work.hexmend")
+    assert not session.modified
+    session.saved_cameras.keep("top", Y)
+    assert session.modified
+    assert session.document.undo_title is None
+    save_and_wait(session, tmp_path / "work.hexmend")
+    assert not session.modified
+
+
+def test_a_session_that_was_saved_while_another_was_opened_leaves_that_unmodified(
+    session, tmp_path, qtbot, monkeypatch
+):
+    save_and_wait(session, tmp_path / "other.hexmend")
+    session.document.replace(State.of(grid(3)), tmp_path / "mesh.vtu")
+    session.saved_cameras.keep("front", X)
+    opened, write = threading.Event(), session_data.write
+
+    def slow(*values):
+        assert opened.wait(PATIENCE / 1000)
+        write(*values)
+
+    monkeypatch.setattr(session_data, "write", slow)
+    saving = session.commands.save_in_background(tmp_path / "work.hexmend")
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        session.commands.open(tmp_path / "other.hexmend")
+    assert not session.modified
+    opened.set()
+    qtbot.waitUntil(lambda: saving.over, timeout=PATIENCE)
+    assert saving.error is None
+    assert session.document.path == tmp_path / "other.hexmend"
+    assert not session.modified
+    assert cameras_of(tmp_path / "work.hexmend") == {"front": X}
+
+
+def test_a_file_names_its_cameras_and_says_what_is_wrong_with_them(session, tmp_path):
+    session.saved_cameras.keep("front", X)
+    session.saved_cameras.keep("top", Y)
+    path = tmp_path / "work.hexmend"
+    save_and_wait(session, path)
+    assert cameras_of(path) == {"front": X, "top": Y}
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    data["window"]["cameras"]["named"]["front"]["from"] = "beneath"
+    write_archive(path, "Hexmend session", VERSION, data)
+    with pytest.raises(
+        FileError, match=r"work\.hexmend: does not hold together: .*front.* from = 'beneath' is unknown"
+    ):
+        cameras_of(path)
+    del data["window"]["cameras"]
+    write_archive(path, "Hexmend session", 2, data)
+    assert cameras_of(path) == {}

@@ -1,0 +1,243 @@
+"""The light and the dark theme: legible, complete, switched at once and remembered."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QSettings, Qt
+from PySide6.QtGui import QGuiApplication, QImage
+from PySide6.QtWidgets import QApplication
+
+from hexmend.quality import describe_hex, describe_node, measure, summarise
+from hexmend_app.canvas.colour_bar import ColourBar
+from hexmend_app.features.appearance.colour_panel import ColourPanel
+from hexmend_app.features.convergence.curves import Columns, Curve
+from hexmend_app.features.convergence.panel import ConvergencePanel
+from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.features.cut.inside_panel import InsidePanel
+from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
+from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.features.histogram.panel import QualityHistogram
+from hexmend_app.features.open.welcome import Welcome
+from hexmend_app.features.quality.statistics import StatisticsTable
+from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
+from hexmend_app.features.tags.tag_panel import TagPanel
+from hexmend_app.picture import Page, Scene
+from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.scene.page.page_mesh import PageMesh
+from hexmend_app.scene.page.page_renderer import draw_page
+from hexmend_app.shell.palette.command_palette import CommandPalette
+from hexmend_app.shell.palette.ranking import PaletteEntry
+from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.theme import palette as theme
+from hexmend_app.theme import theme_choice
+from hexmend_app.theme.palette import THEME, Role
+from hexmend_app.theme.style import apply_style
+from hexmend_app.theme.theme_choice import ThemeChoice
+from hexmend_app.widgets.inputs.number_box import NumberBox
+from hexmend_app.widgets.message_bar import MessageBar
+from tests.app.driving import named, pixels, turn
+from tests.core.grids import grid, scrambled
+from tests.patience import PATIENCE
+
+pytestmark = pytest.mark.slow
+
+MESH = scrambled(grid(5), 0.9, 4)
+FIGURES = measure(MESH.points, MESH.hexes)
+WORST = int(FIGURES.scaled_jacobian.argmin())
+ROLES = {name: role for name, role in vars(theme).items() if isinstance(role, Role)}
+PAIRS = [(name, ground) for name, role in ROLES.items() for ground in role.on]
+
+
+@pytest.fixture(autouse=True)
+def light_afterwards(qapp):
+    apply_style(qapp, dark=False)
+    yield
+    apply_style(qapp, dark=False)
+
+
+def luminance(colour):
+    """WCAG 2.2, relative luminance."""
+    share = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255
+    linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+    return float(linear @ (0.2126, 0.7152, 0.0722))
+
+
+def contrast(a, b):
+    dark, light = sorted((luminance(a), luminance(b)))
+    return (light + 0.05) / (dark + 0.05)
+
+
+def test_the_measure_of_contrast_is_that_of_wcag():
+    assert contrast("#000000", "#ffffff") == pytest.approx(21)
+    assert contrast("#767676", "#ffffff") == pytest.approx(4.54, abs=0.01)
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+@pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
+def test_every_text_can_be_read_on_its_grounds(name, ground, dark):
+    assert contrast(ROLES[name].of(dark), ground.of(dark)) >= 4.5
+
+
+def smoothing():
+    panel = SmoothingPanel(RunSetup())
+    panel.stage.parameters.set_values({})
+    return panel
+
+
+def histogram():
+    widget = QualityHistogram()
+    widget.set_initial(FIGURES.q, FIGURES.inverted)
+    widget.set_current(FIGURES.q**2, FIGURES.inverted)
+    widget.set_range(ValueRange("q", 0.2, 0.7))
+    widget.set_kept([(4, "kept", FIGURES.q**3, FIGURES.inverted)])
+    return widget
+
+
+def statistics():
+    table = StatisticsTable()
+    start = summarise(MESH, FIGURES)
+    table.set_summaries(start, summarise(grid(5), measure(grid(5).points, grid(5).hexes)))
+    return table
+
+
+def worst():
+    widget = WorstList()
+    widget.show()
+    widget.set_figures(MESH, FIGURES)
+    return widget
+
+
+def one_element():
+    panel = ElementPanel()
+    panel.show_element(describe_hex(MESH, WORST))
+    panel.show_node(describe_node(MESH, int(MESH.hexes[WORST, 0])))
+    return panel
+
+
+def messages(kind):
+    bar = MessageBar()
+    {"error": bar.show_error, "warning": bar.show_warning}[kind]("Title", "What happened.")
+    return bar
+
+
+def told():
+    bar = MessageBar()
+    bar.show_info("Done.", 0)
+    return bar
+
+
+def convergence():
+    panel = ConvergencePanel()
+    record = RunRecord("getme", "GETMe", State.of(MESH), None)
+    record.rows = [
+        {"iteration": k, "seconds": 0.1 * k, "objective": 9.0 - k, "q_min": 0.1 * k, "q_mean": 0.5, "inverted": 5 - k}
+        for k in range(4)
+    ]
+    columns = Columns(record)
+    columns.grow()
+    panel.set_curves([Curve(columns, 0, (0.0, 0.0), True, True, False, record.numbers)])
+    return panel
+
+
+def colours():
+    panel = ColourPanel()
+    line = named(panel, NumberBox, "Lowest value").lineEdit()
+    line.setText("much")
+    line.textEdited.emit("much")
+    return panel
+
+
+def palette():
+    return CommandPalette([PaletteEntry(name="Fit", do=print), PaletteEntry(name="Run", do=print)])
+
+
+BUILT = {
+    "smoothing": smoothing,
+    "colours": colours,
+    "clip": ClipPanel,
+    "inside": InsidePanel,
+    "histogram": histogram,
+    "statistics": statistics,
+    "worst": worst,
+    "hex": one_element,
+    "error": lambda: messages("error"),
+    "warning": lambda: messages("warning"),
+    "info": told,
+    "convergence": convergence,
+    "colour bar": ColourBar,
+    "welcome": lambda: Welcome(RecentFiles()),
+    "tags": TagPanel,
+    "palette": palette,
+}
+
+
+def seen(widget):
+    QApplication.sendPostedEvents()
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    return np.array(image.constBits()).reshape(image.height(), -1)[:, : 3 * image.width()].astype(int)
+
+
+@pytest.fixture
+def alone(shared):
+    """No window is there that would be put into every other theme, too: it takes seconds."""
+    shared.forget()
+
+
+@pytest.mark.parametrize("dark", [True, False], ids=["dark", "light"])
+@pytest.mark.parametrize("name", BUILT)
+def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, dark):
+    apply_style(qapp, dark=dark)
+    new = BUILT[name]()
+    apply_style(qapp, dark=not dark)
+    switched = BUILT[name]()
+    for widget in (new, switched):
+        qtbot.addWidget(widget)
+        widget.resize(520, 330)
+    new.show()
+    switched.show()
+    other = seen(switched)
+    apply_style(qapp, dark=dark)
+    assert np.abs(seen(switched) - other).max() > 100
+    turn()
+    np.testing.assert_array_equal(seen(switched), seen(new))
+
+
+def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
+    light = pixels(window)
+    ground = light[5, 5]
+    window.window_actions["theme_dark"].trigger()
+    assert THEME.dark
+    assert theme_choice.chosen() is ThemeChoice.DARK
+    assert QSettings().value("theme") == "dark"
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.dark, timeout=PATIENCE)
+    assert (pixels(window)[5, 5] < ground - 100).all()
+    now = window.session.document.now
+    scene = Scene(page=Page(pixels=(400, 300)))
+    report = np.asarray(draw_page(scene, [PageMesh.of(now.mesh)]).image())
+    assert report[2, 2].tolist() == [255, 255, 255]  # paper, whatever is worn on the screen
+    on = [choice for choice in ThemeChoice if window.window_actions[f"theme_{choice.value}"].isChecked()]
+    assert on == [ThemeChoice.DARK]
+    window.window_actions["theme_light"].trigger()
+    assert not THEME.dark
+    qtbot.waitUntil(lambda: window.palette().window().color().name() == theme.PANEL.light, timeout=PATIENCE)
+    assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
+
+
+def test_the_theme_follows_the_desktop_until_one_is_chosen(window, monkeypatch):
+    hints = QGuiApplication.styleHints()
+    scheme = Qt.ColorScheme.Dark
+    monkeypatch.setattr(type(hints), "colorScheme", lambda self: scheme)
+    assert theme_choice.chosen() is ThemeChoice.DESKTOP
+    hints.colorSchemeChanged.emit(scheme)
+    assert THEME.dark
+    scheme = Qt.ColorScheme.Light
+    hints.colorSchemeChanged.emit(scheme)
+    assert not THEME.dark
+    window.window_actions["theme_light"].trigger()
+    scheme = Qt.ColorScheme.Dark
+    hints.colorSchemeChanged.emit(scheme)
+    assert not THEME.dark

@@ -1,0 +1,82 @@
+"""Dialogs that ask for files: one folder for all, and names that can be written."""
+
+import pytest
+from PySide6.QtCore import QSettings
+from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+from hexmend_app.widgets.dialogs import questions
+
+SAVING = {
+    "ask_target": ("bridge",),
+    "ask_list": ("bridge",),
+    "ask_recipe_target": (),
+    "ask_film": ("bridge",),
+}
+OPENING = ("ask_mesh", "ask_recipe")
+
+
+@pytest.fixture
+def answers(qapp, tmp_path, monkeypatch):
+    """What the desktop's dialogs answer, and where they began."""
+    for kind in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
+        QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path / "settings"))
+
+    class Answers:
+        def __init__(self):
+            self.name, self.kind, self.begun = "", "", []
+
+        def answer(self, parent, title, begin, *kinds):
+            self.begun.append(begin)
+            return self.name, self.kind
+
+    answers = Answers()
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", answers.answer)
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", answers.answer)
+    return answers
+
+
+@pytest.mark.parametrize("name", [*SAVING, *OPENING])
+def test_every_dialog_begins_where_the_last_one_ended(answers, tmp_path, name):
+    one, other = tmp_path / "one", tmp_path / "other"
+    one.mkdir()
+    other.mkdir()
+    questions.remember_folder(one / "mesh.vtu")
+    answers.name = str(other / "result.txt")
+    assert getattr(questions, name)(None, *SAVING.get(name, ())) == answers.name
+    assert answers.begun[-1].startswith(str(one))
+    assert questions.folder() == other
+
+
+@pytest.mark.parametrize("name", [*SAVING, *OPENING])
+def test_a_dialog_that_is_cancelled_changes_nothing(answers, tmp_path, name):
+    questions.remember_folder(tmp_path / "mesh.vtu")
+    assert getattr(questions, name)(None, *SAVING.get(name, ())) == ""
+    assert questions.folder() == tmp_path
+
+
+def test_a_folder_that_is_gone_is_not_begun_in(answers, tmp_path):
+    questions.remember_folder(tmp_path / "gone" / "mesh.vtu")
+    assert questions.folder().is_dir()
+
+
+@pytest.mark.parametrize("name", SAVING)
+def test_a_name_without_a_suffix_gets_the_first_that_is_offered_or_the_one_chosen(answers, tmp_path, name):
+    answers.name = str(tmp_path / "result")
+    assert getattr(questions, name)(None, *SAVING[name]).startswith(f"{answers.name}.")
+    answers.kind = "Something (*.some)"
+    assert getattr(questions, name)(None, *SAVING[name]) == f"{answers.name}.some"
+
+
+@pytest.mark.parametrize("name", SAVING)
+def test_another_suffix_is_left_for_the_writer_to_refuse(answers, tmp_path, name):
+    answers.name = str(tmp_path / "result.docx")
+    assert getattr(questions, name)(None, *SAVING[name]) == answers.name
+
+
+def test_a_file_that_the_dialog_did_not_ask_about_is_not_replaced_unasked(answers, tmp_path, monkeypatch):
+    (tmp_path / "list.csv").write_text("another")
+    answers.name = str(tmp_path / "list")
+    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.No)
+    assert questions.ask_list(None, "bridge") == ""
+    monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.Yes)
+    assert questions.ask_list(None, "bridge") == str(tmp_path / "list.csv")

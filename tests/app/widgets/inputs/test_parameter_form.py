@@ -1,0 +1,279 @@
+"""Forms made from declarations of every kind."""
+
+import dataclasses
+import gc
+import weakref
+from dataclasses import dataclass
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QToolButton, QWidget
+
+from hexmend.errors import ParameterError
+from hexmend.parameters import Parameter, Parametrised, declared, parameter
+from hexmend_app.widgets.inputs.number_box import NumberBox
+from hexmend_app.widgets.inputs.parameter_form import ParameterForm
+from tests.app.driving import named
+
+_LEFT = Qt.MouseButton.LeftButton
+
+
+@dataclass(frozen=True)
+class AllKinds(Parametrised):
+    """A declaration of every kind."""
+
+    delta: float = parameter(0.01, low=0, high=10, unit="mean edge length³", help="Softness of the barrier.")
+    free_value: float = parameter(-3.5, help="A number without bounds.")
+    max_cuts: int = parameter(30, low=1, high=200, help="Cuts at most.")
+    take_back_where_the_attached_minimum_falls: bool = parameter(False, help="Whether a move is taken back.")
+    weights: str = parameter("equal", choices=("equal", "root-of-quality"), help="Weights of the hexes.")
+    label: str = parameter("a", help="Free text.")
+
+
+_NAMES = [field.name for field in dataclasses.fields(AllKinds)]
+_OTHER = {
+    "delta": 2.5e-4,
+    "free_value": 1e30,
+    "max_cuts": 7,
+    "take_back_where_the_attached_minimum_falls": True,
+    "weights": "root-of-quality",
+    "label": "b",
+}
+
+
+@pytest.fixture
+def form(shown):
+    return shown(ParameterForm(declared(AllKinds)))
+
+
+@pytest.fixture
+def changes(form):
+    count = []
+    form.changed.connect(lambda: count.append(form.values()))
+    return count
+
+
+def type_into(editor, text):
+    line = editor.lineEdit() if isinstance(editor, NumberBox) else editor
+    line.setFocus()
+    line.selectAll()
+    QTest.keyClicks(line, text)
+
+
+def test_defaults_stand_at_first_and_make_the_thing(form):
+    assert AllKinds(**form.values()) == AllKinds()
+    assert not named(form, QToolButton, "Defaults").isEnabled()
+
+
+def test_values_come_back_as_they_were_set_without_a_signal(form, changes):
+    form.set_values(_OTHER)
+    assert form.values() == AllKinds(**form.values()).values() == _OTHER
+    assert changes == []
+    assert named(form, QToolButton, "Defaults").isEnabled()
+
+
+@pytest.mark.parametrize(("text", "value"), [("1e-4", 1e-4), (" 2.5E-3", 2.5e-3), ("10", 10.0), (".5", 0.5)])
+def test_any_notation_of_a_number_is_taken(form, changes, text, value):
+    type_into(form.editor("delta"), text)
+    assert form.values()["delta"] == value
+    assert changes[-1]["delta"] == value
+    assert form.problems() == {}
+
+
+@pytest.mark.parametrize("text", ["11", "-1", "abc", "1,5", "nan", "inf", ""])
+def test_a_wrong_text_is_explained_and_left_alone(form, text):
+    editor = form.editor("delta")
+    if text:
+        type_into(editor, text)
+    else:
+        editor.lineEdit().setFocus()
+        editor.lineEdit().selectAll()
+        QTest.keyClick(editor.lineEdit(), Qt.Key.Key_Delete)
+    QTest.keyClick(editor, Qt.Key.Key_Tab)
+    assert editor.lineEdit().text() == text
+    assert "from 0 to 10" in form.problems()["delta"]
+    assert form.rows["delta"].problem.isVisible()
+    assert form.values()["delta"] == 0.01  # as before the typing
+
+
+def test_an_admitted_number_is_shortened_on_leaving(form):
+    editor = form.editor("delta")
+    type_into(editor, "0.500")
+    QTest.keyClick(editor, Qt.Key.Key_Tab)
+    assert editor.lineEdit().text() == "0.5"
+
+
+@pytest.mark.parametrize("text", ["0", "201", "3.5"])
+def test_whole_numbers_have_bounds_too(form, text):
+    type_into(form.editor("max_cuts"), text)
+    assert "a whole number from 1 to 200" in form.problems()["max_cuts"]
+
+
+def test_keys_and_clicks_reach_every_kind(form, changes):
+    QTest.keyClick(form.editor("max_cuts"), Qt.Key.Key_Up)
+    QTest.mouseClick(form.editor("take_back_where_the_attached_minimum_falls"), _LEFT, pos=QPoint(8, 8))
+    form.editor("weights").setFocus()
+    QTest.keyClick(form.editor("weights"), Qt.Key.Key_Down)
+    type_into(form.editor("label"), "b")
+    expected = {name: _OTHER[name] for name in _NAMES[3:]} | {"max_cuts": 31}
+    assert {name: form.values()[name] for name in expected} == expected
+    assert len(changes) == 4
+
+
+def test_tab_walks_through_all_editors_in_order(form):
+    form.editor(_NAMES[0]).setFocus()
+    for name in _NAMES[1:]:
+        QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
+        assert QApplication.focusWidget() is form.editor(name)
+
+
+def test_a_modified_value_is_marked_and_reset_alone(form, changes):
+    form.set_values(_OTHER)
+    row = form.rows["delta"]
+    assert row.label.font().bold()
+    assert row.reset.isVisible()
+    QTest.mouseClick(row.reset, _LEFT)
+    assert form.values() == _OTHER | {"delta": 0.01}
+    assert not row.label.font().bold()
+    assert not row.reset.isVisible()
+    assert len(changes) == 1
+
+
+def test_defaults_mend_wrong_texts_and_values(form, changes):
+    form.set_values(_OTHER)
+    type_into(form.editor("delta"), "x")
+    QTest.mouseClick(named(form, QToolButton, "Defaults"), _LEFT)
+    assert AllKinds(**form.values()) == AllKinds()
+    assert form.problems() == {}
+    assert not named(form, QToolButton, "Defaults").isEnabled()
+
+
+def test_help_is_a_tooltip_and_can_be_written_out(form):
+    for declaration in declared(AllKinds):
+        assert declaration.help in form.editor(declaration.name).toolTip()
+        assert form.editor(declaration.name).accessibleName()
+        assert not form.rows[declaration.name].help.isVisible()
+    QTest.mouseClick(named(form, QToolButton, "Explain"), _LEFT)
+    for declaration in declared(AllKinds):
+        label = form.rows[declaration.name].help
+        assert label.isVisible()
+        assert label.text() == declaration.help
+
+
+def test_unknown_names_and_values_are_refused(form):
+    with pytest.raises(ParameterError, match="no parameter 'lambda'"):
+        form.set_values({"lambda": 1})
+    with pytest.raises(ParameterError, match="out of range"):
+        form.set_values({"delta": 11})
+
+
+def test_the_wheel_changes_only_what_has_the_focus(form):
+    form.editor("label").setFocus()
+
+    def turn(widget):
+        at = QPointF(5, 5)
+        QApplication.sendEvent(
+            widget,
+            QWheelEvent(
+                at,
+                widget.mapToGlobal(at),
+                QPoint(),
+                QPoint(0, 120),
+                Qt.MouseButton.NoButton,
+                Qt.KeyboardModifier.NoModifier,
+                Qt.ScrollPhase.NoScrollPhase,
+                False,
+            ),
+        )
+
+    turn(form.editor("max_cuts"))
+    turn(form.editor("weights"))
+    assert AllKinds(**form.values()) == AllKinds()
+    form.editor("max_cuts").setFocus()
+    turn(form.editor("max_cuts"))
+    assert form.values()["max_cuts"] == 31
+
+
+def test_other_declarations_replace_the_rows(form):
+    old = form.editor("delta")
+    form.set_declarations(declared(AllKinds)[:1])
+    assert list(form.values()) == ["delta"]
+    assert form.editor("delta") is not old
+    form.set_declarations(())
+    assert form.values() == {}
+    assert form.none.isVisible()
+    assert not any(button.isVisible() for button in form.findChildren(QToolButton))
+
+
+def test_the_same_declarations_again_are_shown_by_the_same_rows_at_their_defaults(form, changes):
+    old = form.editor("delta")
+    form.set_values({"delta": 2.0})
+    type_into(form.editor("max_cuts"), "many")
+    assert form.problems()
+    changes.clear()
+    form.set_declarations(declared(AllKinds))
+    assert form.editor("delta") is old
+    assert AllKinds(**form.values()) == AllKinds()
+    assert form.problems() == {}
+    assert changes == []
+
+
+def test_rows_that_are_replaced_are_gone_at_once(form):
+    def widgets():
+        return len(form.findChildren(QWidget))
+
+    first = widgets()
+    old = weakref.ref(form.editor("delta"))
+    for _ in range(20):
+        form.set_declarations(declared(AllKinds)[1:])
+        form.set_declarations(declared(AllKinds))
+        assert widgets() == first
+    gc.collect()
+    assert old() is None
+
+
+@settings(max_examples=40)
+@given(start=st.floats(0, 10), steps=st.lists(st.integers(-12, 12), max_size=6))
+def test_stepping_stays_in_bounds_and_moves_the_way_it_says(qapp, start, steps):
+    box = NumberBox(declared(AllKinds)[0])
+    box.set_value(start)
+    for step in steps:
+        before = box.value()
+        box.stepBy(step)
+        assert 0 <= box.value() <= 10
+        assert (box.value() - before) * step >= 0
+
+
+def test_stepping_down_from_one_passes_through_tenths(qapp):
+    box = NumberBox(declared(AllKinds)[0])
+    box.set_value(1.0)
+    box.stepBy(-1)
+    assert box.value() == 0.9
+    box.stepBy(1)
+    assert box.value() == 1.0
+
+
+def test_beyond_the_upper_bound_is_the_word_for_no_limit(qapp):
+    box = NumberBox(Parameter("room", float, 0.3, 0.0, 10.0, None, "", "", "unlimited"))
+    box.set_value(9.0)
+    box.stepBy(3)
+    assert box.value() == box.text() == "unlimited"
+    assert not box.stepEnabled() & QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+    box.stepBy(-1)
+    assert box.value() == 10
+    type_into(box, "unlimited")
+    assert (box.value(), box.problem) == ("unlimited", "")
+    type_into(box, "none")
+    assert "or unlimited" in box.problem
+
+
+def test_in_a_narrow_form_no_word_of_a_name_is_cut_off(form):
+    form.resize(form.minimumSizeHint())
+    for name in ("delta", "free_value", "max_cuts"):
+        label = next(one for one in form.findChildren(QLabel) if one.buddy() is form.editor(name))
+        words = label.text().partition("<br>")[0].split()
+        assert label.width() >= max(label.fontMetrics().horizontalAdvance(word) for word in words)

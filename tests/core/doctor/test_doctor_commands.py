@@ -1,0 +1,71 @@
+"""The commands of the doctor report problems and repair files."""
+
+import numpy as np
+import pytest
+
+from hexmend import io
+from hexmend.cli.main import main
+from hexmend.mesh.hexahedron import VOXEL_ORDER
+from tests.core.doctor.faulty_meshes import SOUND, blocks, flipped, with_hexes
+
+
+def test_info_says_where_and_by_which_command(tmp_path, capsys):
+    io.write(tmp_path / "blocks.vtu", blocks())
+    assert main(["info", str(tmp_path / "blocks.vtu"), "--doctor"]) == 0
+    said = capsys.readouterr().out
+    assert "9 pairs of boundary faces lie on each other" in said
+    assert "--only coincident-nodes" in said
+    assert "nodes 64, " in said
+    assert "finds nothing" not in said
+
+
+def test_info_says_that_the_doctor_found_nothing(tmp_path, capsys):
+    io.write(tmp_path / "sound.vtu", SOUND)
+    assert main(["info", str(tmp_path / "sound.vtu")]) == 0
+    assert "The doctor finds" not in capsys.readouterr().out
+    assert main(["info", str(tmp_path / "sound.vtu"), "--doctor"]) == 0
+    assert "The doctor finds no problems" in capsys.readouterr().out
+
+
+def test_repair_writes_the_mended_mesh_and_says_what_was_done(tmp_path, capsys):
+    io.write(tmp_path / "blocks.vtu", blocks())
+    assert main(["repair", str(tmp_path / "blocks.vtu"), "-o", str(tmp_path / "whole.vtu")]) == 0
+    assert "Done: merge them" in capsys.readouterr().out
+    assert io.read(tmp_path / "whole.vtu").n_nodes == 112
+    assert main(["repair", str(tmp_path / "whole.vtu"), "-o", str(tmp_path / "again.vtu")]) == 0
+    assert "No problems were found." in capsys.readouterr().out
+    assert main(["repair", str(tmp_path / "whole.vtu"), "-o", str(tmp_path / "x.vtu"), "--only", "fleas"]) == 2
+
+
+def test_nodes_without_a_place_are_put_between_their_neighbours(tmp_path, capsys):
+    path = tmp_path / "nan.vtk"
+    io.write(path, SOUND, encoding="ascii")
+    lines = path.read_text().splitlines()
+    row = next(k for k, line in enumerate(lines) if line.startswith("POINTS")) + 1
+    numbers = " ".join(lines[row:]).split()
+    inner = int(np.flatnonzero(SOUND.free)[0])
+    numbers[3 * inner] = "nan"
+    path.write_text("\n".join([*lines[:row], " ".join(numbers[: 3 * 64]), *_rest(lines, row)]) + "\n")
+    assert main(["info", str(path)]) == 3
+    assert "hexmend repair" in capsys.readouterr().err
+    assert main(["repair", str(path), "-o", str(tmp_path / "whole.vtk")]) == 0
+    np.testing.assert_allclose(io.read(tmp_path / "whole.vtk").points[inner], SOUND.points[inner])
+
+
+def _rest(lines, row):
+    """What comes after the coordinates."""
+    return lines[next(k for k, line in enumerate(lines[row:], row) if line[:1].isalpha()) :]
+
+
+@pytest.mark.parametrize("mesh", [flipped(13), with_hexes(SOUND.hexes[:, VOXEL_ORDER])], ids=["flipped", "voxels"])
+def test_smooth_gives_the_diagnosis_and_the_command(mesh, tmp_path, capsys):
+    io.write(tmp_path / "bad.vtu", mesh)
+    main(["smooth", str(tmp_path / "bad.vtu"), "-o", str(tmp_path / "out.vtu"), "--max-iterations", "1"])
+    assert f"Run: hexmend repair {tmp_path / 'bad.vtu'} -o OUT --only" in capsys.readouterr().err
+
+
+def test_a_report_does_not_replace_the_result(tmp_path, capsys):
+    io.write(tmp_path / "in.vtk", SOUND)
+    out = str(tmp_path / "out.vtk")
+    assert main(["smooth", str(tmp_path / "in.vtk"), "-o", out, "--json", out]) == 3
+    assert "another file to be written" in capsys.readouterr().err

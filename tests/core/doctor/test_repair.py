@@ -1,0 +1,98 @@
+"""Repairs keep data, sets and pins, and leave a valid mesh."""
+
+import numpy as np
+
+from hexmend.doctor import examine, repair
+from hexmend.doctor.cells import _WEDGES
+from hexmend.mesh.cells import Cells
+from hexmend.mesh.hexahedron import EDGES, FACES, UNIT_CUBE
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure
+from tests.core.doctor.faulty_meshes import SOUND, blocks, collapsed, found_in
+
+
+def test_merged_blocks_are_one_grid():
+    after, _ = repair(blocks())
+    assert examine(after) == ()
+    assert after.n_nodes == 2 * 64 - 16
+    assert after.topology.boundary_faces.shape == (9 * 10 - 9 * 2 + 0 + 36 - 0 - 18, 4) or after.topology.parts == 1
+    assert measure(after.points, after.hexes).n_inverted == 0
+
+
+def test_data_sets_and_pins_follow():
+    mesh = blocks()
+    n, m = mesh.n_nodes, mesh.n_hexes
+    rich = mesh.rebuilt(
+        node_data={"id": np.arange(n) + 100},
+        hex_data={"id": np.arange(m) + 500},
+        node_sets={"last": np.array([n - 1])},
+        hex_sets={"right": np.arange(27, 54)},
+        side_sets={"end": np.array([[53, 1]])},
+        pinned=np.arange(n) == n - 1,
+        cells=(Cells("quad", mesh.hexes[53][FACES[1]][None]),),
+    )
+    after, _ = repair(rich)
+    (last,) = after.node_sets["last"]
+    np.testing.assert_array_equal(after.points[last], mesh.points[-1])
+    assert after.node_data["id"][last] == 100 + n - 1
+    assert after.pinned[last]
+    np.testing.assert_array_equal(after.hex_sets["right"], np.arange(27, 54))
+    np.testing.assert_array_equal(after.cells[0].nodes[0], after.hexes[53][FACES[1]])
+    fewer, _ = repair(rich.rebuilt(hexes=np.vstack([mesh.hexes[:-1], mesh.hexes[:1]])), ["duplicate-hexes"])
+    np.testing.assert_array_equal(fewer.hex_sets["right"], [0, *range(27, 53)])
+    assert fewer.side_sets["end"].tolist() == [[0, 1]]
+
+
+def test_every_collapsed_pair_of_edges_makes_a_wedge_that_stands_upright():
+    assert len(_WEDGES) == 12
+    edges = {tuple(sorted(edge)) for edge in EDGES.tolist()}
+    for pair, corners in _WEDGES.items():
+        assert pair <= edges
+        x = UNIT_CUBE.copy()
+        for a, b in pair:
+            x[[a, b]] = x[[a, b]].mean(axis=0)
+        a, b, c, d = x[list(corners[:4])]
+        assert np.linalg.det([b - a, c - a, d - a]) > 0
+        assert len({tuple(place) for place in x[list(corners)]}) == 6
+
+
+def test_a_collapsed_hex_is_kept_as_a_wedge_whose_nodes_stay():
+    mesh = collapsed()
+    after, _ = repair(mesh)
+    assert after.n_hexes == 26
+    assert [cells.kind for cells in after.cells] == ["wedge"]
+    assert after.fixed[after.cells[0].nodes].all()
+
+
+def test_a_duplicate_leaves_its_sets_and_sides_to_the_hex_that_is_kept():
+    hexes = np.vstack([SOUND.hexes, SOUND.hexes[:1]])
+    sets, sides = {"a": np.array([0]), "b": np.array([27])}, {"s": np.array([[27, 2]])}
+    after, _ = repair(Mesh(SOUND.points, hexes, hex_sets=sets, side_sets=sides))
+    assert {name: rows.tolist() for name, rows in after.hex_sets.items()} == {"a": [0], "b": [0]}
+    assert after.side_sets["s"].tolist() == [[0, 2]]
+
+
+def test_a_wedge_keeps_what_the_hex_had():
+    mesh = collapsed().replace(hex_data={"id": np.arange(27) + 7}, hex_sets={"a": np.array([0, 1])})
+    after, _ = repair(mesh, ["degenerate-hexes"])
+    (wedges,) = after.cells
+    assert wedges.data["id"].tolist() == [7]
+    assert wedges.sets["a"].tolist() == [0]
+    assert after.hex_sets["a"].tolist() == [0]
+
+
+def test_what_cannot_be_mended_is_not_said_to_be():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1.0]])
+    mesh = Mesh(points, [[0, 1, 2, 2, 3, 4, 5, 5]])
+    assert not found_in(mesh)["degenerate-hexes"].mendable
+    after, mended = repair(mesh)
+    assert mended == ()
+    assert after is mesh
+
+
+def test_a_mesh_written_twice_is_one_mesh_again():
+    mesh = Mesh(np.vstack([SOUND.points] * 2), np.vstack([SOUND.hexes, SOUND.hexes + SOUND.n_nodes]))
+    after, mended = repair(mesh)
+    assert {finding.kind for finding in mended} == {"coincident-nodes", "duplicate-hexes"}
+    assert examine(after) == ()
+    assert after.n_hexes == SOUND.n_hexes
