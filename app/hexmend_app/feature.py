@@ -16,6 +16,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu, QWidget
 
 from hexmend_app.host import Host
+from hexmend_app.state.session.state_part import StatePart
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -183,6 +184,10 @@ class Feature(QObject):
         """The panels of this feature."""
         return ()
 
+    def states(self) -> Sequence[StatePart]:
+        """The parts of this feature's state that session files store."""
+        return ()
+
     def canvas_ready(self, canvas: Canvas) -> None:
         """Use the 3D view, which has just been built."""
 
@@ -244,4 +249,4 @@ def _differ(before: object, now: object) -> bool:
     return arrays or before != now
 
 
-__all__ = ["MENUS", "Action", "ChangeTracker", "Feature", "Host", "Panel", "PanelPlace", "always"]
+__all__ = ["MENUS", "Action", "ChangeTracker", "Feature", "Host", "Panel", "PanelPlace", "StatePart", "always"]

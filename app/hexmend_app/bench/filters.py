@@ -82,7 +82,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             "drawing": 1e3 * median(frames),
             "quads": len(viewport.body.faces.quads),
         }
-        window.session.view.show_another()
+        window.session.view.show_all()
         window.session.view.change(shrink=0.0)
     return answer
 

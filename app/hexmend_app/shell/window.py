@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -97,6 +97,7 @@ class Window(QMainWindow):
 
         self.session = Session(self)
         self.features = {name_of(kind): kind(self) for kind in in_order(map(kind_of, first_names()))}
+        self._add_states(self.features.values())
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
         for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):
             signal.connect(self.refresh_soon)
@@ -112,6 +113,7 @@ class Window(QMainWindow):
 
         first = self.features
         self.features = yield from building(self, first)
+        self._add_states(self.features[name] for name in self.features.keys() - first.keys())
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
         listed = sorted(self.features.values(), key=lambda one: one.menu_order)
@@ -130,6 +132,11 @@ class Window(QMainWindow):
             self.begin()
         for _ in self.building_features():
             pass
+
+    def _add_states(self, features: Iterable[Feature]) -> None:
+        for feature in features:
+            for part in feature.states():
+                self.session.feature_states.add(part)
 
     def _panels(self) -> list[Panel]:
         return [panel for feature in self.features.values() for panel in feature.panels()]
@@ -280,7 +287,7 @@ class Window(QMainWindow):
         for feature in self.features.values():
             feature.close()
         if self.session is not None:
-            self.session.shut_down()
+            self.session.close()
         if self.canvas is not None:
             self.canvas.close()
         wait_for_dropped()

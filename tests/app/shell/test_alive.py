@@ -55,9 +55,9 @@ def gate(monkeypatch):
 def told(window):
     """What is told of the mesh, in its order."""
     told = []
-    window.session.commands.done.connect(told.append)
+    window.session.user_event.connect(told.append)
     yield told
-    window.session.commands.done.disconnect(told.append)
+    window.session.user_event.disconnect(told.append)
 
 
 def smooth(window, qtbot):

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 
 import numpy as np
 import pytest
 import pyvista as pv
 from PIL import Image
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QFileDialog
 
 import hexmend_app.features
 from hexmend import gallery
 from hexmend.cli.main import main
 from hexmend.io import write
+from hexmend.io.archive.archive import read_archive, write_archive
+from hexmend.io.formats.session.session_file import VERSION
 from hexmend.quality import METRICS
 from hexmend_app.picture import Page
 from hexmend_app.shell.keys import as_markdown
+from hexmend_app.shell.palette.palette_entries import commands
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
+from tests.app.driving import open_and_wait
 from tests.examples import example
+from tests.patience import PATIENCE
 
 EXAMPLE = example("A feature of the viewer")
 
@@ -120,3 +127,72 @@ def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder,
         assert main([*words, "--size", "300x200", "--colour-range", "0,1"]) == 0
         pictures.append(np.asarray(Image.open(path).convert("RGB"), float))
     assert np.abs(pictures[0] - pictures[1]).mean() > 5
+
+
+@pytest.fixture
+def with_notes(tmp_path, monkeypatch):
+    """The feature with a state of its own is a folder more."""
+    _add_folder(tmp_path, monkeypatch, "notes", example("State and exports of a feature"))
+    yield
+    for name in [name for name in sys.modules if name.startswith("hexmend_app.features.notes")]:
+        del sys.modules[name]
+
+
+def _choose_and_write(window, hex, text):
+    window.session.selection.choose(hex)
+    window.refresh()
+    panel = window.features["notes"].panel
+    window.show_panel("notes")
+    panel.setFocus()
+    QTest.keyClicks(panel, text)
+
+
+def test_the_state_of_a_feature_is_in_sessions_and_its_export_in_the_script(
+    with_notes, fresh_window, qtbot, tmp_path, mesh_file, monkeypatch
+):
+    window = fresh_window
+    assert window.action("panel_notes").text().replace("&", "") == "Notes"
+    assert "| Export notes |" in as_markdown(window.menus.declared())
+    assert "Export notes…" in {entry.name for entry in commands(window.window_actions)}
+    _choose_and_write(window, 3, "thin")
+    _choose_and_write(window, 5, "at the weld")
+    session = tmp_path / "work.hexmend"
+    assert window.features["session"].save_and_wait(session)
+    open_and_wait(qtbot, window, mesh_file)
+    window.refresh()
+    assert window.features["notes"].notes == {}
+    open_and_wait(qtbot, window, session)
+    window.session.selection.choose(5)
+    window.refresh()
+    assert window.features["notes"].panel.toPlainText() == "at the weld"
+    csv = tmp_path / "notes.csv"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(csv), ""))
+    window.action("export_notes").trigger()
+    assert csv.read_text(encoding="utf-8").splitlines() == ["hex,note", "3,thin", "5,at the weld"]
+    script = window.features["script"].script.text
+    assert "write_notes(" in script
+    assert "['3', '5']" in script
+
+
+def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_other_types(
+    fresh_window, with_notes, qtbot, tmp_path
+):
+    window = fresh_window
+    assert "notes" not in window.features
+    path = tmp_path / "work.hexmend"
+    assert window.features["session"].save_and_wait(path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    data["window"]["features"]["notes"] = {"3": "thin"}
+    write_archive(path, "Hexmend session", VERSION, data)
+    open_and_wait(qtbot, window, path)
+    assert window.features["session"].save_and_wait(path)
+    _, data = read_archive(path, "Hexmend session", VERSION)
+    assert data["window"]["features"]["notes"] == {"3": "thin"}
+    window.features["notes"] = import_module("hexmend_app.features.notes.feature").FeatureNotes(window)
+    window.session.feature_states.add(window.features["notes"].states()[0])
+    assert window.features["notes"].notes == {"3": "thin"}
+    data["window"]["features"]["notes"] = {"3": 4}
+    write_archive(path, "Hexmend session", VERSION, data)
+    with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
+        window.features["open"].open(path)
+    assert "the window.features.notes.3 is of another kind: expected str" in window.messages.messages()[-1][2]

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QGuiApplication
 
 from hexmend.errors import ParameterError
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
-from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.cut_planes import PlaneClip
-from hexmend_app.state.view.camera_request import PoseHistoryData
+from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
@@ -47,8 +46,6 @@ class FeatureCamera(Feature):
         self._menu = CamerasMenu(self._cameras, host.dialog_parent)
         self._menu.chosen.connect(self.go)
         self.session.selection.visited.connect(self._fly)
-        self.session.camera_request.now = self._stand
-        self.session.camera_request.travelled = self._journey
 
     def actions(self) -> Sequence[Action]:
         """Fit, the directions, back and forward, what is up, and how depth is drawn."""
@@ -149,6 +146,10 @@ class FeatureCamera(Feature):
             ),
         )
 
+    def states(self) -> Sequence[StatePart]:
+        """The pose of the camera, and its history."""
+        return (StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore),)
+
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
         canvas.views_changed.connect(self.host.refresh_soon)
@@ -248,13 +249,16 @@ class FeatureCamera(Feature):
         frame = None if self.canvas is None else self.canvas.viewport.frame
         return frame is not None and self.session.document.is_open and frame.mesh is self.session.document.now.mesh
 
-    def _stand(self) -> CameraPose | None:
-        """Return the current pose of the camera."""
-        return self.canvas.stand if self._draws else None
+    def _to_data(self) -> CameraData:
+        """Return the pose and its history: those of the view, or those that it is to take."""
+        request = self.session.camera_request
+        if request.wanted is not None and request.wanted.stand is not None:
+            return CameraData(request.wanted.stand, request.journey)
+        return CameraData(self.canvas.stand, self.canvas.journey) if self._draws else CameraData()
 
-    def _journey(self) -> PoseHistoryData:
-        """Return the history of poses."""
-        return self.canvas.journey if self._draws else self.session.camera_request.journey
+    def _restore(self, data: CameraData) -> None:
+        camera = None if data.pose is None else Camera.at(data.pose)
+        self.session.camera_request.look_through(camera, data.history)
 
     def _ready(self) -> bool:
         return self.canvas is not None

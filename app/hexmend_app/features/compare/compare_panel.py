@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QTableView, QVBoxLayout, QWidget
 
+from hexmend.smoothers import METHODS
+from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
-from hexmend_app.state.view.panel_settings import ComparisonSettings
 from hexmend_app.theme.palette import CHOSEN, FRAME, ON_CHOSEN
 from hexmend_app.theme.style import MUTED, icon, on_theme_change, set_help, smaller, tabular, tint
 from hexmend_app.widgets.eliding_label import ElidingLabel
@@ -19,6 +21,21 @@ _HINT = "Tick methods and press Run: each begins with the mesh as it is now."
 
 #: Pixels of a column beside its text, and beside its text and a check.
 _AROUND, _CHECK = 14, 26
+
+
+@dataclass(frozen=True)
+class ComparisonSettings:
+    """Selected methods, and the column that sorts the table: "method", "view" or a figure's key."""
+
+    ticked: frozenset[str]
+    sorted_by: str
+    descending: bool
+
+    def __post_init__(self) -> None:
+        from hexmend.report.comparison import LINES
+
+        check_known("method", self.ticked, METHODS)
+        check_known("column", (self.sorted_by,), ("method", "view", *(figure.key for figure in LINES)))
 
 
 class ComparePanel(QWidget):
@@ -141,17 +158,17 @@ class ComparePanel(QWidget):
         self._fit_columns()
         self._enable()
 
-    def choices(self) -> ComparisonSettings:
+    def settings(self) -> ComparisonSettings:
         """Return the panel's settings."""
         header = self._table.horizontalHeader()
         descending = header.sortIndicatorOrder() == Qt.SortOrder.DescendingOrder
         return ComparisonSettings(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
 
-    def set_choices(self, choices: ComparisonSettings) -> None:
+    def restore(self, settings: ComparisonSettings) -> None:
         """Set all of it."""
-        self._model.tick(choices.ticked)
-        order = Qt.SortOrder.DescendingOrder if choices.descending else Qt.SortOrder.AscendingOrder
-        self._table.sortByColumn(KEYS.index(choices.sorted_by), order)
+        self._model.tick(settings.ticked)
+        order = Qt.SortOrder.DescendingOrder if settings.descending else Qt.SortOrder.AscendingOrder
+        self._table.sortByColumn(KEYS.index(settings.sorted_by), order)
 
     def _fit_columns(self) -> None:
         """Make columns as wide as what is in them: the dock is narrow."""

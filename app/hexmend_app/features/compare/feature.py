@@ -12,10 +12,10 @@ from hexmend.report import markdown, record_table, write_comparison
 from hexmend.report.charts import ChartStyle
 from hexmend.report.comparison import LINES
 from hexmend.run.recipe import Stage
-from hexmend.smoothers import METHODS
+from hexmend.smoothers import METHODS, Smoother
 from hexmend.study.table_row import common_norm
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.compare.compare_panel import ComparePanel
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.compare.compare_panel import ComparePanel, ComparisonSettings
 from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow, title_of
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import MethodResult
@@ -48,7 +48,6 @@ class FeatureCompare(Feature):
         panel.wipe_toggled.connect(self._views.set_wiping)
         panel.save_requested.connect(self.ask)
         panel.offer_changed.connect(host.refresh_soon)
-        session.panel_settings.register("compare", panel.choices, panel.set_choices)
 
     def actions(self) -> Sequence[Action]:
         """Compare, and end that."""
@@ -73,6 +72,12 @@ class FeatureCompare(Feature):
                 handle=self._comparison.cancel,
                 enabled=lambda: self._comparison.busy and not self._comparison.ending,
             ),
+        )
+
+    def states(self) -> Sequence[StatePart]:
+        """The selected methods, and the order of the table."""
+        return (
+            StatePart(name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore),
         )
 
     def panels(self) -> Sequence[Panel]:
@@ -104,7 +109,7 @@ class FeatureCompare(Feature):
         results = [self._comparison.initial, *(one.state for one in self._comparison.results)]
         for number, shown in reversed(list(enumerate(self._views.all, 1))):
             if any(shown.state is state for state in results):
-                self._views.close(number)
+                self._views.close_view(number)
 
     # The table
 
@@ -147,10 +152,12 @@ class FeatureCompare(Feature):
     def _start(self, names: list[str], stage: Stage) -> None:
         if self.session.editable:
             smoothers = [self.session.run_setup.smoother_of(name) for name in names]
-            if self.session.commands.may_run(*smoothers):
-                self._close_results()
-                self._comparison.start(smoothers, stage.stop)
-                self.host.show_panel("compare")  # by its key it starts from anywhere
+            self.session.commands.when_memory_suffices(smoothers, lambda: self._compare(smoothers, stage))
+
+    def _compare(self, smoothers: list[Smoother], stage: Stage) -> None:
+        self._close_results()
+        self._comparison.start(smoothers, stage.stop)
+        self.host.show_panel("compare")  # its key starts it from anywhere
 
     def _state_of(self, name: str) -> State:
         return self._comparison.initial if name == INITIAL else self._comparison.of(name).state
@@ -160,7 +167,7 @@ class FeatureCompare(Feature):
         if on:
             self._views.show(title_of(name), state)
         else:
-            self._views.close(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
+            self._views.close_view(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
     def _take(self, name: str) -> None:
         title = "go back to the compared mesh" if name == INITIAL else METHODS[name].title
@@ -195,7 +202,7 @@ class FeatureCompare(Feature):
             f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
         )
         if written:
-            self.session.commands.done.emit(TableExported(Path(path), names, title))
+            self.session.user_event.emit(TableExported(Path(path), names, title))
         return written
 
 

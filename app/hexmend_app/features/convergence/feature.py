@@ -8,8 +8,9 @@ from pathlib import Path
 from superqt.utils import QSignalThrottler
 
 from hexmend.report.charts import ChartStyle
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.convergence.chart_file import figure, write_convergence
+from hexmend_app.features.convergence.chart_settings import ChartSettings
 from hexmend_app.features.convergence.curves import Columns, Curve, beginning
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.history import RunRecord
@@ -46,7 +47,14 @@ class FeatureConvergence(Feature):
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
-        session.panel_settings.register("charts", panel.head.choices, panel.head.set_choices)
+
+    def states(self) -> Sequence[StatePart]:
+        """The settings of the charts."""
+        return (
+            StatePart(
+                name="charts", data=ChartSettings, to_data=self.panel.head.settings, restore=self.panel.head.restore
+            ),
+        )
 
     def panels(self) -> Sequence[Panel]:
         """The charts."""
@@ -132,7 +140,7 @@ class FeatureConvergence(Feature):
 
     def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         """The call that writes them."""
-        set_to = self.panel.head.choices()
+        set_to = self.panel.head.settings()
         options = {"by_time": set_to.by_time, "log": set_to.logarithmic, "from_zero": set_to.from_zero}
         if self._timeline.record is not None:
             options["current"] = self._timeline.record

@@ -6,8 +6,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
+from hexmend_app.features.convergence.chart_settings import ChartSettings
 from hexmend_app.features.convergence.charts import CHARTS, FIRST
-from hexmend_app.state.view.panel_settings import ChartSettings
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -95,16 +95,16 @@ class ConvergenceHead(QWidget):
         """Return True if the axis shows seconds."""
         return self.axis.value() == "time"
 
-    def choices(self) -> ChartSettings:
+    def settings(self) -> ChartSettings:
         """Return the settings."""
         shown = tuple(key for key, action in self.charts.items() if action.isChecked())
         return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
 
-    def set_choices(self, choices: ChartSettings) -> None:
+    def restore(self, settings: ChartSettings) -> None:
         """Set all of it, and say so."""
         for key, action in self.charts.items():
-            action.setChecked(key in choices.shown)
-        self.log.setChecked(choices.logarithmic)
-        self.from_zero.setChecked(choices.from_zero)
-        self.axis.set_value("time" if choices.by_time else "iteration")
+            action.setChecked(key in settings.shown)
+        self.log.setChecked(settings.logarithmic)
+        self.from_zero.setChecked(settings.from_zero)
+        self.axis.set_value("time" if settings.by_time else "iteration")
         self.axes_changed.emit()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Signal
@@ -12,11 +13,19 @@ from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
-from hexmend_app.state.view.panel_settings import CutPanelSettings
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MOST = 6  # planes
+
+
+@dataclass(frozen=True)
+class CutPanelSettings:
+    """The planes and the box that are cut along, or would be, and which of the two it is."""
+
+    planes: PlaneClip
+    box: BoxClip
+    boxed: bool
 
 
 class ClipPanel(QWidget):
@@ -162,19 +171,19 @@ class ClipPanel(QWidget):
         """Show whether the plane or the box is drawn in the view; without a signal."""
         self._handles.setChecked(shown)
 
-    def choices(self) -> CutPanelSettings:
+    def settings(self) -> CutPanelSettings:
         """Return the clip in use, or the clip that switching on would use."""
         return CutPanelSettings(self._planes, self._box, self._kind.value() == "box")
 
-    def set_choices(self, choices: CutPanelSettings) -> None:
+    def restore(self, settings: CutPanelSettings) -> None:
         """Propose the same; what is cut stays as it is."""
         on, boxed = self._on.isChecked(), self._kind.value() == "box"
         if not on or boxed:
-            self._planes = choices.planes
+            self._planes = settings.planes
         if not on or not boxed:
-            self._box = choices.box
+            self._box = settings.box
         if not on:
-            self._kind.set_value("box" if choices.boxed else "planes")
+            self._kind.set_value("box" if settings.boxed else "planes")
         self._refresh()
 
     def clip(self) -> Clip | None:

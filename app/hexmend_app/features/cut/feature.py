@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.cut.cut_panel import ClipPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut_planes import CutLeft
 from hexmend_app.scene.views.frame import Frame
-from hexmend_app.state.view.panel_settings import CutPanelSettings
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -24,7 +23,7 @@ class FeatureCut(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        view.left = self._left
+        self.session.about_to_save.connect(lambda: view.note_cut(self._left()))
         self._seen = ChangeTracker()
         self.panel = ClipPanel()
         self.panel.clip_changed.connect(view.set_clip)
@@ -32,7 +31,6 @@ class FeatureCut(Feature):
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
         self._proposed: CutPanelSettings | None = None  # by a session: after the mesh, for which cuts are proposed anew
-        self.session.panel_settings.register("cut", self.panel.choices, self._propose)
         self.inside = InsidePanel()
         self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
         self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
@@ -94,6 +92,10 @@ class FeatureCut(Feature):
             ),
         )
 
+    def states(self) -> Sequence[StatePart]:
+        """The planes and the box, also while nothing is cut."""
+        return (StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose),)
+
     def panels(self) -> Sequence[Panel]:
         """The cut, and below it what else opens the mesh."""
         return (
@@ -142,7 +144,7 @@ class FeatureCut(Feature):
             low, high = points.min(axis=0), points.max(axis=0)
             self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
         if self._proposed is not None:
-            self.panel.set_choices(self._proposed)
+            self.panel.restore(self._proposed)
             self._proposed = None
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:

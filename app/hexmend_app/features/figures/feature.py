@@ -92,7 +92,7 @@ class FeatureFigures(Feature):
 
     def _on_drawn(self) -> None:
         self.host.messages.show_info(f"Figure set saved to {self._folder}")
-        self.session.commands.done.emit(self._event)
+        self.session.user_event.emit(self._event)
 
 
 def _text(drawn: int) -> str:

@@ -128,7 +128,7 @@ class FeatureFilm(Feature):
             f"Film of {len(frames)} frames saved to {self._path}",
         )
         if written:
-            self.session.commands.done.emit(self._event)
+            self.session.user_event.emit(self._event)
 
 
 def _text(drawn: int, count: int, path: Path) -> str:

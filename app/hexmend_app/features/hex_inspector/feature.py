@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from hexmend.boundary import NodeClass
 from hexmend.quality import describe_hex, describe_node
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
 from hexmend_app.features.hex_inspector.worst_file import write_worst
-from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.state.tasks.boundary_classifier import WHISKER
 from hexmend_app.widgets.dialogs.questions import ask_list
@@ -47,15 +47,14 @@ class FeatureInspect(Feature):
         self.worst_list = WorstList()
         self.worst_list.chosen.connect(self._go_to_worst)
         self.worst_list.save_requested.connect(self.ask)
-        selection.listing = lambda: self.worst_list.elements
+        self.worst_list.metric_chosen.connect(selection.rank_by)
+        selection.rank_by(self.worst_list.chosen_metric)
         panel = self.panel = ElementPanel()
         panel.chosen.connect(selection.visit)
         panel.fly_requested.connect(lambda: selection.visit(selection.hex))
         panel.corners_toggled.connect(host.refresh_soon)
         panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         panel.pin_toggled.connect(session.commands.pin)
-        session.panel_settings.register("worst", self.worst_list.choices, self.worst_list.set_choices)
-        session.panel_settings.register("corners", lambda: panel.corners_in_view, panel.set_corners_in_view)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that step through the list and act on the selection."""
@@ -131,6 +130,23 @@ class FeatureInspect(Feature):
                     and not self.session.opener.busy
                     and (self._selection.hex is not None or self._view.look.isolation is not None)
                 ),
+            ),
+        )
+
+    def states(self) -> Sequence[StatePart]:
+        """The settings of the list of worst hexes, and of the labels of corners."""
+        return (
+            StatePart(
+                name="worst",
+                data=WorstListSettings,
+                to_data=self.worst_list.settings,
+                restore=self.worst_list.restore,
+            ),
+            StatePart(
+                name="corners",
+                data=bool,
+                to_data=lambda: self.panel.corners_in_view,
+                restore=self.panel.set_corners_in_view,
             ),
         )
 

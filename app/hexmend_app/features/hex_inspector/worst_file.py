@@ -10,7 +10,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.report.documents import write_text
-from hexmend_app.features.hex_inspector.worst import Worst
+from hexmend_app.state.mesh.worst_hexes import Worst
 
 
 def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt, Signal
 from PySide6.QtGui import QShowEvent
@@ -18,13 +20,24 @@ from PySide6.QtWidgets import (
 
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
-from hexmend_app.features.hex_inspector.worst import Worst
+from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import ELEMENT, JACOBIAN, STATE, VALUE, WorstModel
-from hexmend_app.state.view.panel_settings import WorstListSettings
+from hexmend_app.state.mesh.worst_hexes import Worst
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import counted
+
+
+@dataclass(frozen=True)
+class WorstListSettings:
+    """By which metric the worst hexes are listed, and whether the one that is gone to is isolated."""
+
+    metric: str
+    isolates: bool
+
+    def __post_init__(self) -> None:
+        check_known("metric", (self.metric,), METRICS)
 
 
 class WorstList(QWidget):
@@ -34,11 +47,14 @@ class WorstList(QWidget):
     -------
     chosen(int)
         The user wants to see this element.
+    metric_chosen(str)
+        The list is ranked by another metric.
     save_requested
         The user wants the list as a file.
     """
 
     chosen = Signal(int)
+    metric_chosen = Signal(str)
     save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
@@ -58,6 +74,7 @@ class WorstList(QWidget):
             "comes first.",
         )
         self._metric.currentIndexChanged.connect(self._refresh)
+        self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
         self._alone = QCheckBox("Isolate")
         self._alone.setChecked(True)
         set_help(
@@ -108,14 +125,14 @@ class WorstList(QWidget):
         layout.addWidget(self._table, 1)
         layout.addWidget(self._text)
 
-    def choices(self) -> WorstListSettings:
+    def settings(self) -> WorstListSettings:
         """Return the current settings."""
         return WorstListSettings(self.chosen_metric, self.isolates)
 
-    def set_choices(self, choices: WorstListSettings) -> None:
+    def restore(self, settings: WorstListSettings) -> None:
         """Set all of it."""
-        self._metric.setCurrentIndex(self._metric.findData(choices.metric))
-        self._alone.setChecked(choices.isolates)
+        self._metric.setCurrentIndex(self._metric.findData(settings.metric))
+        self._alone.setChecked(settings.isolates)
 
     # What is listed
 

@@ -10,7 +10,8 @@ import numpy as np
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import measure
 from hexmend.report.charts import ChartStyle
-from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.histogram.head import HistogramSettings
 from hexmend_app.features.histogram.histogram_file import figure, write_histogram
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.state.mesh.document import State
@@ -48,7 +49,17 @@ class FeatureHistogram(Feature):
         panel.removed.connect(self._kept.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
-        self.session.panel_settings.register("histogram", panel.head.choices, panel.head.set_choices)
+
+    def states(self) -> Sequence[StatePart]:
+        """The settings of the histogram."""
+        return (
+            StatePart(
+                name="histogram",
+                data=HistogramSettings,
+                to_data=self.panel.head.settings,
+                restore=self.panel.head.restore,
+            ),
+        )
 
     def panels(self) -> Sequence[Panel]:
         """The histogram."""

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QToolButton, QWidget
 
 from hexmend.quality import METRICS
+from hexmend_app.codec.checks import check_count
 from hexmend_app.features.histogram.bins import BINS, FEWEST, MOST
-from hexmend_app.state.view.panel_settings import HistogramSettings
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -20,6 +22,18 @@ _KEEP = "Keep the present distribution for comparison with later ones, to compar
 _SAVE = "Save the histogram as it is drawn, as SVG, PDF or PNG, or its counts as CSV."
 _FULL = "At most six are kept: remove one first."
 _BINS = "Number of bins."
+
+
+@dataclass(frozen=True)
+class HistogramSettings:
+    """Settings of the histogram: logarithmic counts, cumulative counts, number of bins."""
+
+    log: bool
+    cumulative: bool
+    bins: int
+
+    def __post_init__(self) -> None:
+        check_count("bins", self.bins)
 
 
 class HistogramHead(QWidget):
@@ -127,15 +141,15 @@ class HistogramHead(QWidget):
         """Return True if heights are logarithmic."""
         return self.scale.value() == "log"
 
-    def choices(self) -> HistogramSettings:
+    def settings(self) -> HistogramSettings:
         """Return the settings except the metric."""
         return HistogramSettings(self.log, self.cumulative.isChecked(), self.bins.value())
 
-    def set_choices(self, choices: HistogramSettings) -> None:
+    def restore(self, settings: HistogramSettings) -> None:
         """Set all of it, and say so."""
-        self.scale.set_value("log" if choices.log else "linear")
-        self.cumulative.setChecked(choices.cumulative)
-        self.bins.setValue(choices.bins)
+        self.scale.set_value("log" if settings.log else "linear")
+        self.cumulative.setChecked(settings.cumulative)
+        self.bins.setValue(settings.bins)
         self.scale_changed.emit()
 
     def show_metric(self, name: str, as_colours: bool) -> None:

@@ -9,7 +9,7 @@ from PySide6.QtCore import QTimer
 
 from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.appearance import Isolation
@@ -41,7 +41,6 @@ class FeatureNode(Feature):
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.patch_toggled.connect(self._on_patch)
         panel.requested.connect(self._go)
-        session.panel_settings.register("patch", lambda: panel.patch_alone, self._take_patch)
 
     def actions(self) -> Sequence[Action]:
         """Explain a node, and step through a sweep."""
@@ -92,6 +91,10 @@ class FeatureNode(Feature):
                 )
             ),
         )
+
+    def states(self) -> Sequence[StatePart]:
+        """The isolation of the patch of the node."""
+        return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
 
     def panels(self) -> Sequence[Panel]:
         """The node's step."""
@@ -191,7 +194,7 @@ class FeatureNode(Feature):
         if chosen.node is not None and free[chosen.node]:
             chosen.visit(chosen.hex)
             return
-        hexes = self._selection.listing() if chosen.hex is None else np.array([chosen.hex])
+        hexes = self._selection.worst_hexes() if chosen.hex is None else np.array([chosen.hex])
         found = worst_free_node(self._document.now, hexes)
         if found is not None:
             chosen.choose(*found)

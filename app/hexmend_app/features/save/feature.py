@@ -137,9 +137,7 @@ class FeatureSave(Feature):
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
         dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
-        dialog.scene_kept.connect(
-            lambda *kept: self.session.commands.done.emit(FileExported("scene", write_scene, kept))
-        )
+        dialog.scene_kept.connect(lambda *kept: self.session.user_event.emit(FileExported("scene", write_scene, kept)))
         return dialog
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
@@ -165,7 +163,7 @@ class FeatureSave(Feature):
             f"Picture of {width} × {height} pixels saved to {path}",
         )
         if written:
-            self.session.commands.done.emit(self._report(path, scene))
+            self.session.user_event.emit(self._report(path, scene))
         return written
 
     def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:

@@ -65,7 +65,7 @@ class Script(QObject):
         session.opener.loaded.connect(self._on_session)
         session.opener.ended.connect(self._on_opened)
         session.opener.restored.connect(self._on_restored)
-        session.commands.done.connect(self._on_done)
+        session.user_event.connect(self._on_done)
         session.node_sweep.recorded.connect(self._on_swept)
         session.comparison.changed.connect(self._on_compared)
         session.snapshots.changed.connect(self._names.keep)

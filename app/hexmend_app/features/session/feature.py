@@ -26,6 +26,7 @@ class FeatureSession(Feature):
         super().__init__(host)
         self.recovery = Recovery(self.session, self)
         self.recovery.failed.connect(self._on_failed)
+        self.session.feature_states.failed.connect(self._on_state_failed)
         self._failed = False
         self._offered: set[RecoveredSession] = set()
 
@@ -92,6 +93,10 @@ class FeatureSession(Feature):
         if left in self.recovery.left:
             self.recovery.forget(left)
         self.host.refresh_soon()
+
+    def _on_state_failed(self, name: str, error: Exception) -> None:
+        problem = f"The session's data of “{name}” are not valid: {error}. Everything else was restored."
+        self.host.messages.show_error("Part of the session was not restored", problem)
 
     def _on_failed(self, error: Exception) -> None:
         if not self._failed:  # autosave repeats every few minutes

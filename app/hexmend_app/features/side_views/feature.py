@@ -91,7 +91,7 @@ class FeatureSideViews(Feature):
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Take the 3D view."""
-        canvas.frame.view_closed.connect(self._views.close)
+        canvas.frame.view_closed.connect(self._views.close_view)
         canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
         canvas.frame.wipe_moved.connect(self._views.move_wipe)
         canvas.frame.wipe_stepped.connect(self._step_wipe)

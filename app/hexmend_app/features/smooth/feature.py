@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.codec.checks import check_count
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
@@ -28,7 +30,7 @@ class FeatureSmooth(Feature):
         session = self.session
         commands, smoothing = session.commands, session.run
         self._smoothing = smoothing
-        commands.consent = self._agreed
+        commands.memory_short.connect(self._ask_for_memory)
         self._seen = ChangeTracker()
         self._hit: IterationFrame | None = None  # the break-point that the run has paused at
         panel = self.panel = SmoothingPanel(session.run_setup)
@@ -40,7 +42,6 @@ class FeatureSmooth(Feature):
         panel.stop_requested.connect(smoothing.stop)
         panel.reset_requested.connect(commands.reset)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
-        session.panel_settings.register("steps", lambda: panel.steps, panel.set_steps)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
@@ -89,6 +90,17 @@ class FeatureSmooth(Feature):
                 enabled=ready,
             ),
         )
+
+    def states(self) -> Sequence[StatePart]:
+        """The number of iterations of a step."""
+        steps = StatePart(
+            name="steps",
+            data=int,
+            to_data=lambda: self.panel.steps,
+            restore=self.panel.set_steps,
+            check=partial(check_count, "steps"),
+        )
+        return (steps,)
 
     def panels(self) -> Sequence[Panel]:
         """The method and its values."""
@@ -176,9 +188,11 @@ class FeatureSmooth(Feature):
         else:
             self.host.busy.done("run")  # its animation would slow a run that shows itself anyway
 
-    def _agreed(self, short: Shortage) -> bool:
+    def _ask_for_memory(self, short: Shortage, start: Callable[[], object]) -> None:
+        """Ask whether to start a run for which memory will probably not suffice."""
         part = "isolate a part and move only that (Hex menu)"
-        return ask_short_of_memory(self.host.dialog_parent, short.problem, short.remedy(part, titled=True))
+        if ask_short_of_memory(self.host.dialog_parent, short.problem, short.remedy(part, titled=True)):
+            start()
 
     def _on_failed(self, error: Exception) -> None:
         record = self.session.run.record

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 
 
@@ -22,12 +22,11 @@ class FeatureTags(Feature):
         panel = self.panel = TagPanel()
         panel.toggle_requested.connect(self._toggle)
         panel.shown_requested.connect(lambda name: commands.tag(name, self._all_shown()))
-        panel.listed_requested.connect(lambda name: commands.tag(name, session.selection.listing()))
+        panel.listed_requested.connect(lambda name: commands.tag(name, session.selection.worst_hexes()))
         panel.isolate_requested.connect(lambda name: session.view.isolate(session.document.now.mesh.hex_sets[name]))
         panel.remove_requested.connect(commands.remove_tag)
         panel.renamed.connect(commands.rename_tag)
         panel.refused.connect(host.messages.show_info)
-        session.panel_settings.register("tag", lambda: panel.name, panel.set_name)
 
     def actions(self) -> Sequence[Action]:
         """Tag what is chosen."""
@@ -45,6 +44,10 @@ class FeatureTags(Feature):
                 in_view=True,
             ),
         )
+
+    def states(self) -> Sequence[StatePart]:
+        """The name for the next tag."""
+        return (StatePart(name="tag", data=str, to_data=lambda: self.panel.name, restore=self.panel.set_name),)
 
     def panels(self) -> Sequence[Panel]:
         """The tags."""

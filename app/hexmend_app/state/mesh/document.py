@@ -222,21 +222,10 @@ class Document(QObject):
         path = None if self.path is None else str(self.path)
         return DocumentData(path, tuple(self._changes), self._at, self._saved, self.now)
 
-    def restore(self, data: DocumentData, path: Path | None = None) -> None:
-        """Open what a session has kept, with the way back.
-
-        Parameters
-        ----------
-        data : DocumentData
-        path : Path, optional
-            The session's, in which all is saved; None where it was kept while the window was open: then what was saved
-            is what was saved then.
-        """
+    def restore(self, data: DocumentData) -> None:
+        """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
-        if path is None:
-            self.path, self._saved = None if data.path is None else Path(data.path), data.saved
-        else:
-            self.path, self._saved = path, self._changes[self._at].state
+        self.path, self._saved = None if data.path is None else Path(data.path), data.saved
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.mesh.document import Document
+from hexmend_app.state.mesh.worst_hexes import Worst
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class Selection(QObject):
     Attributes
     ----------
     hex, node : int or None
-    listing : callable
-        Gives the worst hexes as they are listed, (k,) int, the worst first; whoever lists them sets it.
+    worst_metric : str
+        The metric by which the worst hexes are found.
     """
 
     changed = Signal()
@@ -54,7 +54,8 @@ class Selection(QObject):
         self._document = document
         self.hex: int | None = None
         self.node: int | None = None
-        self.listing: Callable[[], np.ndarray] = lambda: np.empty(0, np.int64)
+        self.worst_metric = "scaled-jacobian"
+        document.mesh_replaced.connect(lambda: self.choose(None))
 
     def choose(self, hex: int | None, node: int | None = None) -> None:
         """Look at another element and node, or at none; says nothing where nothing changes."""
@@ -65,6 +66,15 @@ class Selection(QObject):
         if (hex, node) != (self.hex, self.node):
             self.hex, self.node = hex, node
             self.changed.emit()
+
+    def rank_by(self, metric: str) -> None:
+        """Choose the metric by which the worst hexes are found."""
+        self.worst_metric = metric
+
+    def worst_hexes(self) -> np.ndarray:
+        """Return the worst hexes of the mesh as it is shown, (k,) int64, the worst first; the mesh is open."""
+        now = self._document.now
+        return Worst.of(now.mesh, now.figures, self.worst_metric).elements
 
     def to_data(self) -> SelectionData:
         """Return the data for a session file."""

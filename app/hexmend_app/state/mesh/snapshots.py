@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import Document, State
 
 #: How many can be kept: as many as there are colours that all kinds of colour vision tell apart.
 MOST = 6
@@ -45,6 +45,10 @@ class Snapshot:
 class Snapshots(QObject):
     """Snapshots of the open mesh, in the order in which they were taken.
 
+    Parameters
+    ----------
+    document : Document
+
     Signals
     -------
     changed
@@ -52,9 +56,10 @@ class Snapshots(QObject):
 
     changed = Signal()
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self.all: tuple[Snapshot, ...] = ()
+        document.mesh_replaced.connect(self.clear)
 
     @property
     def full(self) -> bool:
@@ -85,9 +90,13 @@ class Snapshots(QObject):
         """Keep none: another mesh is open."""
         self._take()
 
-    def restore(self, kept: tuple[Snapshot, ...]) -> None:
-        """Keep what a session has kept."""
-        self._take(*kept)
+    def to_data(self) -> tuple[Snapshot, ...]:
+        """Return the data for a session file."""
+        return self.all
+
+    def restore(self, data: tuple[Snapshot, ...]) -> None:
+        """Restore the snapshots of a session file."""
+        self._take(*data)
 
     def _take(self, *all: Snapshot) -> None:
         if all != self.all:

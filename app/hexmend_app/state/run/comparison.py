@@ -186,11 +186,11 @@ class Comparison(QObject):
 
     def restore(self, data: ComparisonData) -> None:
         """Take what a session has kept for what was compared last."""
-        self.shut_down()
+        self.close()
         self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
         self.changed.emit()
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Ask the work to end after the iteration at hand; nothing is emitted any more."""
         self._timer.stop()
         if self._work is not None:
@@ -198,7 +198,7 @@ class Comparison(QObject):
             self._work = None
 
     def _empty(self) -> None:
-        self.shut_down()
+        self.close()
         self.initial, self.results, self._asked, self._stop = None, (), 0, StoppingCriteria()
         self.changed.emit()
 

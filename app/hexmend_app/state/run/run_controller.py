@@ -96,6 +96,8 @@ class RunController(QObject):
         """True while a run is active, paused or not."""
         return self._worker is not None
 
+    blocks_editing = busy
+
     def start(self, smoother: Smoother | Recipe, stop: StoppingCriteria | None, iterations: float = math.inf) -> None:
         """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
         if self.busy or not self._document.is_open:
@@ -184,12 +186,12 @@ class RunController(QObject):
 
     def _on_another(self) -> None:
         """Forget the run on the mesh that was open, and what was begun while the other was read."""
-        self.shut_down()
+        self.close()
         self.work = self.record = self.advice = None
         self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # others would be meant
         self._set_phase(Phase.IDLE)
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Ask the run to end after the iteration at hand; nothing of it is shown or recorded any more."""
         self._timer.stop()
         self._after.clear()

@@ -14,42 +14,38 @@ from hexmend.mesh.fixing import with_pinned, with_region_free
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.tags import with_tag, with_tag_renamed, without_tag
 from hexmend.quality import summarise
-from hexmend.run.memory import Shortage, available, shortage
+from hexmend.run.memory import available, shortage
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.smoothers import Smoother
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session.user_events import FileExported, MeshEdited, NodesMoved, UndoOrRedo
 
 if TYPE_CHECKING:
-    from hexmend_app.state.session.session import Session
-    from hexmend_app.state.tasks.mesh_saver import SaveTask
+    from hexmend_app.state.session.session_parts import SessionParts
+    from hexmend_app.state.tasks.mesh_repairer import MeshRepairer
+    from hexmend_app.state.tasks.mesh_saver import MeshSaver, SaveTask
 
 
 class Commands(QObject):
-    """Changes of document, view and run.
+    """Changes of the mesh, the runs and the files.
 
     Parameters
     ----------
-    session : Session
-        The window's state.
+    session : SessionParts
+    saver : MeshSaver
+    repairer : MeshRepairer
 
     Signals
     -------
-    done(UserEvent)
-        The mesh has been changed, or written.
-
-    Attributes
-    ----------
-    consent : callable
-        Asked before a run for which memory will not suffice; the run begins only if it says so.
+    memory_short(Shortage, callable)
+        Memory will probably not suffice for a run, which was not started; call the callable to start it anyway.
     """
 
-    done = Signal(object)
+    memory_short = Signal(object, object)
 
-    def __init__(self, session: Session):
+    def __init__(self, session: SessionParts, saver: MeshSaver, repairer: MeshRepairer):
         super().__init__(session)
-        self._session = session
-        self.consent: Callable[[Shortage], bool] = lambda short: False
+        self._session, self._saver, self._repairer = session, saver, repairer
         self.document, self.smoothing = session.document, session.run
 
     def open(self, path: str | Path) -> None:
@@ -57,36 +53,41 @@ class Commands(QObject):
         self.smoothing.end(lambda: self._session.opener.open(path))
 
     def save_in_background(self, path: str | Path) -> SaveTask:
-        """Begin to write the mesh as it is now, or under a session's suffix all there is, in a thread.
+        """Write the mesh as it is now, or with a session's suffix the session, in a thread.
 
-        `Session.saver` says how it ends; where it fails, the file that was there stays.
+        `Session.saver` tells how it ends; if it fails, the file that was there stays.
         """
-        return self._session.saver.save(path)
+        return self._saver.save(path)
 
     def export(self, event: FileExported) -> None:
-        """Write what a event writes, and tell of it; raises `HexmendError` where that cannot be done."""
+        """Write the file of an event, and emit the event; raises `HexmendError` if it cannot be written."""
         event.perform()
-        self.done.emit(event)
+        self._session.user_event.emit(event)
 
     def run(self, stage: Stage) -> None:
-        """Run a method on the mesh as it is now, unless another is being read, or memory will not suffice."""
-        if self.may_run(stage.smoother):
-            self._start(stage)
+        """Run a method on the present mesh, unless another mesh is being read."""
+        self.when_memory_suffices([stage.smoother], lambda: self._start(stage))
 
     def step(self, stage: Stage, iterations: int) -> None:
-        """Make so many iterations: the next of a paused run, or the first of a new one."""
+        """Make some iterations: the next ones of a paused run, or the first ones of a new run."""
         if self.smoothing.busy:
             self.smoothing.step(iterations)
-        elif self.may_run(stage.smoother):
-            self._start(stage, iterations)
+        else:
+            self.when_memory_suffices([stage.smoother], lambda: self._start(stage, iterations))
 
-    def may_run(self, *works: Smoother | Recipe) -> bool:
-        """Return True if memory suffices for a sequence of methods on the present mesh, or the user agrees."""
-        if not self.document.is_open or self._session.opener.busy or self._session.repairer.busy:
-            return False
+    def when_memory_suffices(self, works: Sequence[Smoother | Recipe], start: Callable[[], object]) -> None:
+        """Call `start` if memory suffices for each of some methods on the present mesh; otherwise emit `memory_short`.
+
+        Nothing happens while no mesh is open, or another one is being read or repaired.
+        """
+        if not self.document.is_open or self._session.opener.busy or self._repairer.busy:
+            return
         free = available()
         short = [one for work in works if (one := shortage(work, self.document.now.mesh, free)) is not None]
-        return not short or self.consent(max(short, key=lambda one: one.needed))
+        if short:
+            self.memory_short.emit(max(short, key=lambda one: one.needed), start)
+        else:
+            start()
 
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
         if self._session.editable:
@@ -95,15 +96,16 @@ class Commands(QObject):
             self.smoothing.start(stage.smoother, stage.stop, iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:
-        """Run methods one after another on the mesh as it is now, unless another is being read."""
-        if self.may_run(recipe):
-            self._session.node_sweep.leave()
-            self.smoothing.start(recipe, None)
+        """Run the methods of a recipe one after another on the present mesh, unless another mesh is being read."""
+        self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
+
+    def _start_recipe(self, recipe: Recipe) -> None:
+        self._session.node_sweep.leave()
+        self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
-        """Run a method on the mesh as it is shown, whatever iteration that is; a run under way ends first."""
-        if self.may_run(stage.smoother):
-            self.smoothing.end(lambda: self._start(stage))
+        """Run a method on the mesh as it is shown, at any iteration; an active run ends first."""
+        self.when_memory_suffices([stage.smoother], lambda: self.smoothing.end(lambda: self._start(stage)))
 
     def reset(self) -> None:
         """End a run and put the nodes back to where they were when the mesh was opened."""
@@ -116,7 +118,7 @@ class Commands(QObject):
         before = self.document.now
         self.document.reset()
         if self.document.now is not before:
-            self.done.emit(NodesMoved("reset", before, self.document.now, self.document.start))
+            self._session.user_event.emit(NodesMoved("reset", before, self.document.now, self.document.start))
 
     def take(self, title: str, state: State) -> None:
         """Put the nodes to where they are in another state of the mesh, while the mesh may be changed.
@@ -128,7 +130,7 @@ class Commands(QObject):
             before = self.document.now
             mesh = before.mesh.with_points(state.mesh.points)
             self.document.commit(title, State(mesh, state.figures, summarise(mesh, state.figures)))
-            self.done.emit(NodesMoved(title, before, self.document.now, state))
+            self._session.user_event.emit(NodesMoved(title, before, self.document.now, state))
 
     def replace_mesh(self, title: str, state: State) -> bool:
         """Make another mesh the open one, as one change that undo takes back; return False if it may not be changed."""
@@ -172,14 +174,14 @@ class Commands(QObject):
             mesh = change(now.mesh, *values)
             summary = now.summary if mesh.pinned is now.mesh.pinned else summarise(mesh, now.figures)
             self.document.commit(title, State(mesh, now.figures, summary))
-            self.done.emit(MeshEdited(title, now, self.document.now, change, values))
+            self._session.user_event.emit(MeshEdited(title, now, self.document.now, change, values))
 
     def repair(self, kinds: Sequence[str] = ()) -> bool:
         """Begin to repair some kinds of problem that the doctor finds, or all; whether the mesh may be changed now.
 
-        `Session.repairer` says how it ends.
+        `Session.repairer` tells how it ends.
         """
-        return self._session.repairer.start(kinds)
+        return self._repairer.start(kinds)
 
     def undo(self) -> None:
         """Take back the last change, unless the mesh may not be changed."""
@@ -188,7 +190,7 @@ class Commands(QObject):
             title = self.document.undo_title
             self.document.undo()
             if title is not None:
-                self.done.emit(UndoOrRedo(title, self.document.now, undone=True))
+                self._session.user_event.emit(UndoOrRedo(title, self.document.now, undone=True))
 
     def redo(self) -> None:
         """Do again what was taken back, unless the mesh may not be changed."""
@@ -197,4 +199,4 @@ class Commands(QObject):
             title = self.document.redo_title
             self.document.redo()
             if title is not None:
-                self.done.emit(UndoOrRedo(title, self.document.now, undone=False))
+                self._session.user_event.emit(UndoOrRedo(title, self.document.now, undone=False))

@@ -75,13 +75,9 @@ class Recovery(QObject):
         self._timer.timeout.connect(self.write)
         self._soon = QTimer(self, singleShot=True, interval=0)
         self._soon.timeout.connect(self.write)
-        for text in (session.document.changes_changed, session.timeline.runs_changed, session.view.look_changed,
-                     session.snapshots.changed, session.side_views.changed, session.run_setup.changed,
-                     session.recipe_draft.changed, session.comparison.changed, session.saved_cameras.changed,
-                     ):  # fmt: skip
-            text.connect(self._on_change)
-        for text in (session.run.ended, session.run.failed):
-            text.connect(lambda _: self._on_run())
+        session.data_changed.connect(self._on_change)
+        for signal in (session.run.ended, session.run.failed):
+            signal.connect(lambda _: self._on_run())
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._give_up())
         session.opener.cancelled.connect(lambda _: self._give_up())

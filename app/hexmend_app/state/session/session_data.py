@@ -22,7 +22,6 @@ from hexmend.run.recipe import migrate_surface_tolerance
 from hexmend.smoothers import METHODS, Smoother
 from hexmend_app.codec import config_table
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter, since
-from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.named_cameras import NamedCameras
 from hexmend_app.state.mesh.document import DocumentData, State
 from hexmend_app.state.mesh.history import HistoryData
@@ -33,8 +32,7 @@ from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.run.recipe_draft import RecipeDraftData
 from hexmend_app.state.run.run_setup import RunSetupData
 from hexmend_app.state.run.timeline import TimelineData
-from hexmend_app.state.view.camera_request import PoseHistoryData
-from hexmend_app.state.view.panel_settings import PanelSettingsData
+from hexmend_app.state.session.state_part import check_feature_data
 from hexmend_app.state.view.side_views import SideViewsData
 from hexmend_app.state.view.view_model import ViewData
 
@@ -47,6 +45,8 @@ _FORMER[NodeOffsets] = {"displacements": "ways"}
 _FORMER[RunSetupData] = {"reason": "why"}
 #: The last version in which a surface tolerance of 0 meant that there is no limit.
 _ZERO_FOR_NO_LIMIT = 3
+#: The last version in which the camera and the settings of panels were fields of their own.
+_WITHOUT_FEATURES = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,10 +64,8 @@ class SessionData:
     run_setup: RunSetupData
     recipe_draft: RecipeDraftData
     breakpoints: Breakpoints
-    camera: CameraPose | None
-    pose_history: PoseHistoryData = field(default=PoseHistoryData(), metadata=since(2))
-    panel_settings: PanelSettingsData = field(default=PanelSettingsData(), metadata=since(2))
     cameras: NamedCameras = field(default=NamedCameras(), metadata=since(3))
+    features: dict[str, Any] = field(default_factory=dict)  # encoded, by the names that `StatePart` gives them
 
     def __post_init__(self) -> None:
         mesh = self.document.now.mesh
@@ -102,9 +100,6 @@ class SessionData:
 
 
 _FORMER[SessionData] = {
-    "camera": "eye",
-    "panel_settings": "choices",
-    "pose_history": "journey",
     "recipe_draft": "chain",
     "run_setup": "order",
     "side_views": "views",
@@ -197,11 +192,23 @@ def read(path: Path) -> SessionData:
     }, stored.version, _FORMER)  # fmt: skip
     try:
         window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else migrate_surface_tolerance(stored.window)
+        if stored.version <= _WITHOUT_FEATURES:
+            window = _with_features(window)
         data = codec.decode(window, SessionData, "the window")
         data.history.check()
+        check_feature_data(data.features, "the window.features")
         return data
     except (DecodeError, MeshError, ValueError) as error:
         raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
+
+
+def _with_features(window: dict[str, Any]) -> dict[str, Any]:
+    """Return the data of an earlier version with the camera and the settings of panels as states of features."""
+    window = dict(window)
+    history = window.pop("journey", {"before": [], "after": [], "left": None})
+    camera = {"pose": window.pop("eye", None), "history": history}
+    panels = {name: one for name, one in window.pop("choices", {}).items() if one is not None}
+    return {**window, "features": {**panels, "camera": camera}}
 
 
 class _States:

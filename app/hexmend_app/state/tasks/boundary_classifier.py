@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend.boundary import NodeClass, boundary_of, boundary_with_kept_corners, freed_by_sliding
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.latest_task import LatestTask
 from hexmend_app.state.tasks.task import Task
 
@@ -78,7 +79,11 @@ def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: float) -> Bo
 
 
 class BoundaryClassifier(LatestTask):
-    """Classes the boundary of a mesh; of several that it was asked for, the newest.
+    """Classifies the boundary of a mesh; of several that it was asked for, the newest.
+
+    Parameters
+    ----------
+    document : Document
 
     Signals
     -------
@@ -95,8 +100,9 @@ class BoundaryClassifier(LatestTask):
 
     found = Signal()
 
-    def __init__(self, parent: QObject | None = None):
+    def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
+        document.mesh_replaced.connect(self.forget)
         self.classes: BoundaryClasses | None = None
         self.error: BaseException | None = None
 

@@ -34,7 +34,7 @@ class LatestTask(QObject):
         if self._task is None:
             self._begin()
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Ask the thread to end; nothing is answered any more."""
         self._wanted = None
         drop(self._task)

@@ -121,6 +121,8 @@ class MeshOpener(QObject):
         """True while a mesh is being read."""
         return self._task is not None
 
+    blocks_editing = busy
+
     def open(self, path: str | Path, *, recovers: bool = False, wanting: MissingMesh | None = None) -> None:
         """Begin to read; of several asked for while one is read, the last is opened next.
 
@@ -152,7 +154,7 @@ class MeshOpener(QObject):
         task.drop()
         self.cancelled.emit(self._path)
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Open nothing any more."""
         self.cancel()
 

@@ -14,7 +14,7 @@ from hexmend_app.state.session.user_events import MeshEdited
 from hexmend_app.state.tasks.task import Task, drop
 
 if TYPE_CHECKING:
-    from hexmend_app.state.session.session import Session
+    from hexmend_app.state.session.session_parts import SessionParts
 
 
 class MeshRepairer(QObject):
@@ -22,7 +22,7 @@ class MeshRepairer(QObject):
 
     Parameters
     ----------
-    session : Session
+    session : SessionParts
 
     Signals
     -------
@@ -40,7 +40,7 @@ class MeshRepairer(QObject):
     failed = Signal(object)
     cancelled = Signal()
 
-    def __init__(self, session: Session):
+    def __init__(self, session: SessionParts):
         super().__init__(session)
         self._session = session
         self._before: State | None = None
@@ -52,6 +52,8 @@ class MeshRepairer(QObject):
     def busy(self) -> bool:
         """True while the mesh is being repaired."""
         return self._task is not None
+
+    blocks_editing = busy
 
     def start(self, kinds: Sequence[str] = ()) -> bool:
         """Begin to repair some kinds of problem, or all; whether the mesh may be changed now."""
@@ -73,7 +75,7 @@ class MeshRepairer(QObject):
             self._before = self._task = None
             self.cancelled.emit()
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Ask the thread to end; nothing is repaired any more."""
         drop(self._task)
         self._task = None
@@ -92,7 +94,7 @@ class MeshRepairer(QObject):
         if mended:
             title = "mend " + " and ".join(PROBLEMS[one.kind].title.lower() for one in mended)
             document.commit(title, state)
-            self._session.commands.done.emit(MeshEdited(title, before, document.now, repair, (self._kinds,)))
+            self._session.user_event.emit(MeshEdited(title, before, document.now, repair, (self._kinds,)))
         self.ended.emit(mended)
 
 

@@ -17,7 +17,7 @@ from hexmend_app.state.session.user_events import MeshSaved
 from hexmend_app.state.tasks.task import Task, drop
 
 if TYPE_CHECKING:
-    from hexmend_app.state.session.session import Session
+    from hexmend_app.state.session.session_parts import SessionParts
 
 
 class SaveTask:
@@ -63,7 +63,7 @@ class MeshSaver(QObject):
 
     Parameters
     ----------
-    session : Session
+    session : SessionParts
 
     Signals
     -------
@@ -79,7 +79,7 @@ class MeshSaver(QObject):
     ended = Signal(object)
     failed = Signal(object)
 
-    def __init__(self, session: Session):
+    def __init__(self, session: SessionParts):
         super().__init__(session)
         self._session = session
         self._waiting: deque[SaveTask] = deque()
@@ -103,7 +103,7 @@ class MeshSaver(QObject):
         self._begin()
         return saving
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Write nothing more; who closes has waited for what is being written, or has chosen not to."""
         self._waiting.clear()
         drop(self._task)
@@ -140,7 +140,7 @@ class MeshSaver(QObject):
     def _take(self, saving: SaveTask) -> None:
         """Tell that a file was written, and know that what is in it is saved, if its mesh is open still."""
         session = self._session
-        session.commands.done.emit(MeshSaved(saving.path, saving.state, saving.data))
+        session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data))
         is_open = session.document.saved(saving.path, saving.recorded)
         if is_open and saving.data is not None:
             session.saved_cameras.saved(saving.data.cameras)

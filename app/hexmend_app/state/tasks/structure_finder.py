@@ -41,7 +41,7 @@ class StructureFinder(QObject):
         """True while the search is in progress."""
         return self._task is not None
 
-    def shut_down(self) -> None:
+    def close(self) -> None:
         """Ask the thread to end; nothing is found any more."""
         self._document.mesh_replaced.disconnect(self._wait)
         self._soon.stop()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
@@ -10,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend_app.picture import Camera
 from hexmend_app.picture.camera_pose import CameraPose
 
-#: Places that the camera can go back or forward to, with the one where it stands.
+#: Poses in the history at most, the present one included.
 MOST = 50
 
 
@@ -20,10 +19,10 @@ class PoseHistoryData:
 
     Parameters
     ----------
-    before, after : tuple of Stand
-        What there is to go back to, and forward to; the oldest first.
-    left : Stand or None
-        Where it stood before something was isolated that still is.
+    before, after : tuple of CameraPose
+        The poses to go back to and forward to, the oldest first.
+    left : CameraPose or None
+        The pose before hexes were isolated; None while none are.
     """
 
     before: tuple[CameraPose, ...] = ()
@@ -35,44 +34,38 @@ class PoseHistoryData:
             raise ValueError(f"the camera has stood in more than {MOST} places")
 
 
+@dataclass(frozen=True)
+class CameraData:
+    """Data of the camera in a session file: its pose, if there is a view, and its earlier and later poses."""
+
+    pose: CameraPose | None = None
+    history: PoseHistoryData = PoseHistoryData()
+
+
 class CameraRequest(QObject):
-    """Knows where the camera stands, and where it is to stand.
+    """The camera through which the 3D view is to show the mesh, as soon as it can.
 
     Attributes
     ----------
-    now : callable
-        Gives where the camera stands, a Stand, or None where there is no view; who has the camera sets it.
-    travelled : callable
-        Gives its Journey; who has the camera sets it.
     wanted : Camera or None
-        From where it is to look as soon as there is a view of the open mesh.
-    journey : Journey
-        What is to lie behind it then, and before it.
+        The camera that the view is to take once it draws the open mesh.
+    journey : PoseHistoryData
+        The history of poses that the view is to take with it.
 
     Signals
     -------
     called
-        It is to stand elsewhere.
+        Another camera is wanted.
     """
 
     called = Signal()
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
-        self.now: Callable[[], CameraPose | None] = lambda: None
-        self.travelled: Callable[[], PoseHistoryData] = PoseHistoryData
         self.wanted: Camera | None = None
         self.journey = PoseHistoryData()
 
-    def to_data(self) -> CameraPose | None:
-        """Return the data for a session file."""
-        return (self.wanted and self.wanted.stand) or self.now()
-
-    def restore(self, stand: CameraPose | None, journey: PoseHistoryData) -> None:
-        """Have the camera stand where a session has kept it, with the way that it has come."""
-        self.look_through(None if stand is None else Camera.at(stand), journey)
-
     def look_through(self, camera: Camera | None, journey: PoseHistoryData | None = None) -> None:
-        """Have the mesh looked at as a scene has it, with no way behind it where none is given."""
+        """Request a camera, with a history of poses; by default an empty one."""
         self.wanted, self.journey = camera, journey or PoseHistoryData()
         self.called.emit()

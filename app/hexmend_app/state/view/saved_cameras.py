@@ -68,10 +68,10 @@ class SavedCameras(QObject):
         """Return the data for a session file."""
         return NamedCameras(self.all)
 
-    def restore(self, kept: NamedCameras, saved: bool = True) -> None:
-        """Keep what a session has kept; `saved` where they are in a file of the user's."""
-        self._saved = kept.named if saved else {}
-        self._take(kept.named)
+    def restore(self, data: NamedCameras) -> None:
+        """Restore the cameras of a session file; they count as not saved yet."""
+        self._saved = {}
+        self._take(data.named)
 
     def saved(self, kept: NamedCameras | None = None) -> None:
         """Remember that a session was written with these, or with those of now."""

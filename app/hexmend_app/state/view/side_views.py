@@ -120,7 +120,7 @@ class SideViews(QObject):
             self._take(*self.all, shown)
         return True
 
-    def close(self, at: int) -> None:
+    def close_view(self, at: int) -> None:
         """Close a view, 1 being the first beside that of the mesh as it is now."""
         self._take(*(one for k, one in enumerate(self.all, 1) if k != at))
 

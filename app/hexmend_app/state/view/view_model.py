@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
@@ -61,12 +61,6 @@ class ViewModel(QObject):
     ----------
     document : Document
 
-    Attributes
-    ----------
-    left : callable
-        Gives what the cut by whole elements has left, a CutLeft, where a cut made anew would leave others; who draws
-        sets it.
-
     Signals
     -------
     look_changed
@@ -81,13 +75,13 @@ class ViewModel(QObject):
         super().__init__(parent)
         self._document = document
         self.look = Look()
-        self.left: Callable[[], CutLeft | None] = lambda: None
         self.handles = True  # of the plane or the box, in the view
         self.plane_at = 0  # which of several planes has them
         self.snap = True
         self.rings = 1
         self.counted: str | None = None  # the metric of the histogram, where it is not that of the colours
         self._dug: list[int] = []  # in the order of digging
+        document.mesh_replaced.connect(self.show_all)
 
     def change(self, **fields: object) -> None:
         """Change fields of the look; says nothing where nothing changes."""
@@ -102,8 +96,7 @@ class ViewModel(QObject):
 
     def to_data(self) -> ViewData:
         """Return the data for a session file."""
-        look = dataclasses.replace(self.look, left=self.left())
-        return ViewData(look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
+        return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
 
     def restore(self, data: ViewData) -> None:
         """Look as a session has kept it."""
@@ -120,8 +113,12 @@ class ViewModel(QObject):
         """Have the colours show another metric, or movement, in the range that suits it."""
         self.metric_wanted.emit(metric)
 
-    def show_another(self) -> None:
-        """Hide nothing: another mesh is open, of which other elements would be meant."""
+    def note_cut(self, left: CutLeft | None) -> None:
+        """Store which hexes the cut by whole hexes has left, if the same cut of the present mesh would leave others."""
+        self.look = dataclasses.replace(self.look, left=left)
+
+    def show_all(self) -> None:
+        """Hide nothing: numbers of hexes mean others in another mesh."""
         self.change(clip=None, quality_range=None, peel=0, isolation=None, dug=frozenset())
 
     def set_clip(self, clip: Clip | None) -> None:

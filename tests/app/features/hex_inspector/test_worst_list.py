@@ -7,9 +7,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QTableView
 
 from hexmend.quality import METRICS, measure
-from hexmend_app.features.hex_inspector.worst import MOST
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList
+from hexmend_app.state.mesh.worst_hexes import MOST
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(11), 0.7, 4)

@@ -15,7 +15,7 @@ def host(qtbot):
     host.visited = []
     host.session.selection.visited.connect(host.visited.append)
     yield host
-    host.session.shut_down()
+    host.session.close()
 
 
 @pytest.mark.parametrize("chosen", ["nothing", "a hex", "a free node"])

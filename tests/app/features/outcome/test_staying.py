@@ -15,7 +15,7 @@ from tests.patience import PATIENCE
 def host(qtbot):
     host = PlainHost(scrambled(grid(4), 0.3))
     yield host
-    host.session.shut_down()
+    host.session.close()
 
 
 @pytest.fixture

@@ -42,7 +42,7 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
     offered = []
     out = str(tmp_path / "out.vtk")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *given: offered.append(given[3]) or (out, ""))
-    with qtbot.waitSignal(window.session.commands.done, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.user_event, timeout=PATIENCE):
         window.action("save").trigger()
     assert all(f"(*{suffix})" in offered[0] for suffix in io.writable_suffixes())
     np.testing.assert_array_equal(io.read(out).points, window.session.document.now.mesh.points)

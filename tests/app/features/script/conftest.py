@@ -22,4 +22,4 @@ def session(qtbot, path):
     session.script = Script(session, session)
     opened(qtbot, session, path)
     yield session
-    session.shut_down()
+    session.close()

@@ -113,4 +113,4 @@ def test_without_a_mesh_there_is_nothing_to_do(qtbot, tmp_path):
     script = tmp_path / "script.py"
     Script(session, session).write(script)
     subprocess.run([sys.executable, script], check=True)
-    session.shut_down()
+    session.close()

@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableV
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
+from hexmend_app.features.convergence.chart_settings import CHARTS
 from hexmend_app.picture import Camera
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
-from hexmend_app.state.view.panel_settings import CHARTS
 from hexmend_app.widgets.section import Section
 from tests.app.conftest import close, made
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
@@ -58,6 +58,11 @@ def seen(window, qtbot):
     return sorted(lines)
 
 
+def panel_settings(window):
+    """What the panels are set to."""
+    return {name: one for name, one in window.session.feature_states.to_data().items() if name != "camera"}
+
+
 def saved(window, tmp_path):
     path = tmp_path / "work.hexmend"
     assert window.features["session"].save_and_wait(path)
@@ -78,12 +83,11 @@ def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window,
     saved(window, tmp_path)  # the camera fits the view anew beneath the message
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
-    choices, journey = window.session.panel_settings.to_data(), window.session.camera_request.travelled()
+    states = window.session.feature_states.to_data()
     before = seen(window, qtbot)
     open_and_wait(qtbot, other, path)
     at_rest(other, qtbot)
-    assert other.session.camera_request.travelled() == journey
-    assert other.session.panel_settings.to_data() == choices
+    assert other.session.feature_states.to_data() == states
     assert [r.plotted for r in other.session.history.records] == [r.plotted for r in window.session.history.records]
     assert [r.slot for r in other.session.history.records] == [r.slot for r in window.session.history.records]
     assert seen(other, qtbot) == before
@@ -172,17 +176,18 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
     _, data = read_archive(path, "Hexmend session", VERSION)
     for mesh in data["meshes"]:
         del mesh["target"]
-    for name in ("panel_settings", "pose_history", "cameras"):
+    for name in ("features", "cameras"):
         del data["window"][name]
+    data["window"]["eye"] = None
     del data["window"]["view"]["look"]["left"], data["window"]["view"]["look"]["structure"]["extra"]
     for record in data["window"]["history"]["records"]:
         del record["slot"], record["plotted"]
     write_archive(path, "Hexmend session", 1, data)
     window.features["convergence"].panel.head.log.setChecked(False)
-    choices = window.session.panel_settings.to_data()
+    settings = panel_settings(window)
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
-    assert window.session.panel_settings.to_data() == choices
+    assert panel_settings(window) == settings
     assert [(record.slot, record.plotted) for record in window.session.history.records] == [(0, True)]
     assert not window.canvas.can_go_back
     write_archive(path, "Hexmend session", VERSION, data)
@@ -206,14 +211,14 @@ def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_pat
     ("worst", "metric", "taste", "there is no metric 'taste'"),
     ("compare", "ticked", ["taste"], "there is no method 'taste'"),
     ("compare", "sorted_by", "taste", "there is no column 'taste'"),
-    ("histogram", "bins", "many", "the window.panel_settings.histogram.bins is of another kind"),
+    ("histogram", "bins", "many", "the window.features.histogram.bins is of another kind"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
-    ("cut", "colour", 1, "the window.panel_settings.cut has an unknown field 'colour'"),
+    ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
 ])  # fmt: skip
 def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, field, value, said):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["panel_settings"][part][field] = value
+    data["window"]["features"][part][field] = value
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
@@ -223,7 +228,7 @@ def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, f
 def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
-    data["window"]["panel_settings"]["steps"] = 10**20
+    data["window"]["features"]["steps"] = 10**20
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)

@@ -71,7 +71,7 @@ def test_the_panel_keeps_its_height_whatever_is_said(panel):
 def host(qtbot):
     host = PlainHost(scrambled(grid(4), 0.3))
     yield host
-    host.session.shut_down()
+    host.session.close()
 
 
 def test_the_key_says_why_nothing_is_tagged_while_a_run_is_paused(host, qtbot):

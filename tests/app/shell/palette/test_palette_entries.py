@@ -20,7 +20,7 @@ from tests.core.grids import grid
 def host(qtbot):
     host = PlainHost(grid(3))
     yield host
-    host.session.shut_down()
+    host.session.close()
 
 
 @pytest.fixture

@@ -20,7 +20,7 @@ def session(qtbot):
     session = Session()
     session.document.replace(State.of(scrambled(grid(5), 0.4)), Path("a.vtu"))
     yield session
-    session.shut_down()
+    session.close()
 
 
 def run(qtbot, session):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hexmend_app.state.mesh.document import State
+from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.snapshots import MOST, Snapshots
 from tests.core.grids import grid, scrambled
 
@@ -10,7 +10,7 @@ STATE = State.of(scrambled(grid(3), 0.6))
 
 
 def test_six_are_kept_each_with_a_slot_and_a_name_of_its_own(qtbot):
-    kept = Snapshots()
+    kept = Snapshots(Document())
     for _ in range(MOST + 2):
         kept.keep("mend 3", STATE)
     assert kept.full
@@ -19,7 +19,7 @@ def test_six_are_kept_each_with_a_slot_and_a_name_of_its_own(qtbot):
 
 
 def test_slots_are_free_again_and_the_others_keep_theirs(qtbot):
-    kept = Snapshots()
+    kept = Snapshots(Document())
     for name in "abc":
         kept.keep(name, STATE)
     kept.remove(1)
@@ -32,7 +32,7 @@ def test_slots_are_free_again_and_the_others_keep_theirs(qtbot):
 
 
 def test_points_are_shared_not_copied(qtbot):
-    kept = Snapshots()
+    kept = Snapshots(Document())
     kept.keep("a", STATE)
     kept.rename(0, "b")
     assert kept.all[0].points is STATE.mesh.points
@@ -40,7 +40,7 @@ def test_points_are_shared_not_copied(qtbot):
 
 
 def test_only_changes_are_told(qtbot):
-    kept, told = Snapshots(), []
+    kept, told = Snapshots(Document()), []
     kept.changed.connect(lambda: told.append(len(kept.all)))
     kept.clear()
     kept.keep("a", STATE)

@@ -30,7 +30,7 @@ def session(qtbot):
     session = Session()
     session.document.replace(State.of(MESH), Path("a.vtu"))
     yield session
-    session.shut_down()
+    session.close()
 
 
 def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtbot):

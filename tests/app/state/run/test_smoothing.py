@@ -44,7 +44,7 @@ def document(qtbot):
 def smoothing(document):
     smoothing = RunController(document, History())
     yield smoothing
-    smoothing.shut_down()
+    smoothing.close()
 
 
 def phase_is(smoothing, phase):
@@ -107,7 +107,7 @@ def test_stop_ends_a_paused_run(document, smoothing, qtbot):
 def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
     with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
         smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
-    smoothing.shut_down()
+    smoothing.close()
     assert not smoothing.busy
     wait_for_dropped()
     assert running() == ()

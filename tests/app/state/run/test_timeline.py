@@ -11,7 +11,6 @@ from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import RecordedIteration
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.session.commands import Commands
 from hexmend_app.state.session.session import Session
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
@@ -24,7 +23,7 @@ def session(qtbot):
     session = Session()
     session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("a.vtu"))
     yield session
-    session.shut_down()
+    session.close()
 
 
 def run(qtbot, session, smoother=None, iterations=12):
@@ -142,7 +141,7 @@ def test_another_mesh_has_no_history_yet(session, qtbot):
 
 def test_tags_given_after_a_run_leave_one_where_one_is(session, qtbot):
     record = run(qtbot, session)
-    commands = Commands(session)
+    commands = session.commands
     commands.tag("bad", [1, 2])
     assert (session.timeline.record, session.timeline.moment) == (record, RecordedIteration(record, 12))
     session.timeline.go(record, 5)

@@ -5,6 +5,7 @@ import pytest
 
 from hexmend.boundary import NodeClass, boundary_of
 from hexmend.quality import measure
+from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.boundary_classifier import (
     PIN,
     WHISKER,
@@ -22,9 +23,9 @@ FIGURES = measure(MESH.points, MESH.hexes)
 
 @pytest.fixture
 def classer(qapp):
-    classer = BoundaryClassifier()
+    classer = BoundaryClassifier(Document())
     yield classer
-    classer.shut_down()
+    classer.close()
 
 
 def creased():

@@ -71,9 +71,9 @@ def test_what_a_file_has_is_not_modified(cameras):
     cameras.saved()
     assert not cameras.modified
     cameras.restore(NamedCameras({"top": Y}))
-    assert not cameras.modified
-    cameras.restore(NamedCameras({"top": Y}), saved=False)
     assert cameras.modified
+    cameras.saved()
+    assert not cameras.modified
 
 
 @pytest.fixture
@@ -81,7 +81,7 @@ def session(qtbot, tmp_path):
     session = Session()
     session.document.replace(State.of(grid(2)), tmp_path / "mesh.vtu")
     yield session
-    session.shut_down()
+    session.close()
 
 
 def test_a_session_with_other_cameras_than_its_file_is_modified(session, tmp_path):

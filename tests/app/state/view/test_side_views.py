@@ -17,7 +17,7 @@ def document(qapp):
 
 @pytest.fixture
 def views(document):
-    return SideViews(document, Snapshots())
+    return SideViews(document, Snapshots(document))
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def test_a_name_has_one_view_whatever_it_shows(views, states):
 def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, document):
     for k, state in enumerate(states[:3]):
         views.show(str(k), state)
-    views.close(2)
+    views.close_view(2)
     assert [one.name for one in views.all] == ["0", "2"]
     document.replace(State.of(gallery.make("cube", size=27)), None)
     assert views.all == ()
@@ -58,9 +58,9 @@ def test_a_wipe_needs_two_views_and_ends_with_the_second(views, states):
     views.show("b", states[1])
     views.set_wiping(True)
     assert views.wipe == Wipe(0, 2)
-    views.close(1)
+    views.close_view(1)
     assert views.wipe == Wipe(0, 1)
-    views.close(1)
+    views.close_view(1)
     assert views.wipe is None
 
 
@@ -88,7 +88,7 @@ def test_the_edge_stays_within_the_view(views, states, asked, low, high):
 
 
 def test_distributions_are_kept_as_long_as_a_view_shows_them(document, states):
-    kept = Snapshots()
+    kept = Snapshots(document)
     views = SideViews(document, kept)
     views.show("first", states[0])
     views.show("second", states[1])
@@ -96,7 +96,7 @@ def test_distributions_are_kept_as_long_as_a_view_shows_them(document, states):
     views.show("first", states[2])
     assert [one.name for one in kept.all] == ["second", "first"]
     assert kept.of(states[0]) is None
-    views.close(1)
+    views.close_view(1)
     assert [one.name for one in kept.all] == ["second"]
     views.close_all()
     assert kept.all == ()

@@ -1,0 +1,172 @@
+"""The parts of a window's state, and what they have in common."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend.io.formats.session import SUFFIX
+from hexmend_app.state.mesh.comparison_base import ComparisonBases
+from hexmend_app.state.mesh.document import Document, State
+from hexmend_app.state.mesh.history import History
+from hexmend_app.state.mesh.selection import Selection
+from hexmend_app.state.mesh.snapshots import Snapshots
+from hexmend_app.state.run.comparison import Comparison
+from hexmend_app.state.run.node_sweep import NodeSweep
+from hexmend_app.state.run.recipe_draft import RecipeDraft
+from hexmend_app.state.run.run_controller import RunController
+from hexmend_app.state.run.run_setup import RunSetup
+from hexmend_app.state.run.timeline import Timeline
+from hexmend_app.state.session.state_part import FeatureStates, StatePart
+from hexmend_app.state.tasks.boundary_classifier import BoundaryClassifier
+from hexmend_app.state.tasks.mesh_checker import MeshChecker
+from hexmend_app.state.tasks.mesh_opener import MeshOpener
+from hexmend_app.state.tasks.node_step_task import NodeStepTask
+from hexmend_app.state.tasks.structure_finder import StructureFinder
+from hexmend_app.state.view.camera_request import CameraRequest
+from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.state.view.side_views import SideViews
+from hexmend_app.state.view.view_model import ViewModel
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from hexmend_app.state.session.session_data import SessionData
+
+Part = TypeVar("Part")
+
+
+class SessionParts(QObject):
+    """The open mesh, its view, the selection, the runs, and the tasks in the background.
+
+    Signals
+    -------
+    user_event(UserEvent)
+        The user has changed the mesh, or written a file.
+    about_to_save
+        The data for a session file are collected next: views tell the state what only they know.
+    data_changed
+        A session file written now would differ from the last one in more than the selection and the camera.
+
+    Attributes
+    ----------
+    document : Document
+    history : History
+    run : RunController
+    timeline : Timeline
+    view : ViewModel
+    selection : Selection
+    snapshots : Snapshots
+    side_views : SideViews
+    comparison : Comparison
+    run_setup : RunSetup
+    recipe_draft : RecipeDraft
+    saved_cameras : SavedCameras
+    feature_states : FeatureStates
+    comparison_bases : ComparisonBases
+    camera_request : CameraRequest
+    opener : MeshOpener
+    structure_finder : StructureFinder
+    boundary_classifier : BoundaryClassifier
+    node_step_task : NodeStepTask
+    mesh_checker : MeshChecker
+    node_sweep : NodeSweep
+    """
+
+    user_event = Signal(object)
+    about_to_save = Signal()
+    data_changed = Signal()
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self._parts: list[StatePart] = []  # in the order in which they are restored
+        document = self.document = self._saved("document", Document(self), "changes_changed")
+        self.history = History()
+        self._parts.append(StatePart(name="history", to_data=self._history_data, restore=self.history.restore))
+        self.run = RunController(document, self.history, self)
+        self.timeline = self._saved("timeline", Timeline(document, self.run, self.history, self), "runs_changed")
+        self.view = self._saved("view", ViewModel(document, self), "look_changed")
+        self.selection = self._saved("selection", Selection(document, self))
+        self.snapshots = self._saved("snapshots", Snapshots(document, self), "changed")
+        self.side_views = self._saved("side_views", SideViews(document, self.snapshots, self), "changed")
+        self.comparison = self._saved("comparison", Comparison(document, self), "changed")
+        self.run_setup = self._saved("run_setup", RunSetup(self), "changed")
+        self.recipe_draft = self._saved("recipe_draft", RecipeDraft(self), "changed")
+        self._parts.append(
+            StatePart(name="breakpoints", to_data=lambda: self.run.breakpoints, restore=self.run.break_at)
+        )
+        self.saved_cameras = self._saved("cameras", SavedCameras(self), "changed")
+        self.feature_states = self._saved("features", FeatureStates(self), "changed")
+        self.comparison_bases = ComparisonBases(document, self.history)
+        self.camera_request = CameraRequest(self)
+        self.opener = MeshOpener(document, self)
+        self.structure_finder = StructureFinder(document, self)
+        self.boundary_classifier = BoundaryClassifier(document, self)
+        self.node_step_task = NodeStepTask(self)
+        self.mesh_checker = MeshChecker(self)
+        self.node_sweep = NodeSweep(document, self)
+
+    def _saved(self, name: str, part: Part, change: str = "") -> Part:
+        """Register a part that session files have under a name, with the signal of its changes, and return it."""
+        self._parts.append(StatePart(name=name, to_data=part.to_data, restore=part.restore))
+        if change:
+            getattr(part, change).connect(self.data_changed)
+        return part
+
+    @property
+    def editable(self) -> bool:
+        """True if the mesh may be edited: no task that changes it is active, and no file is being read."""
+        return self.document.is_open and not any(getattr(part, "blocks_editing", False) for part in self.children())
+
+    @property
+    def modified(self) -> bool:
+        """True if there are unsaved changes of the mesh or, if a session is open, of the cameras."""
+        path = self.document.path
+        is_session = path is not None and path.suffix.lower() == SUFFIX
+        return self.document.modified or (is_session and self.saved_cameras.modified)
+
+    def state_at(self, points: np.ndarray | None) -> State | None:
+        """Return the state with these points; None if no part has one."""
+        document, comparison = self.document, self.comparison
+        if not document.is_open:
+            return None
+        known = [document.now, *(change.state for change in document.to_data().changes)]
+        known += [state for record in self.history.records for state in (record.start, record.end)]
+        known += [comparison.initial, *(result.state for result in comparison.results)]
+        known += [side_view.state for side_view in self.side_views.all]
+        return next((state for state in known if state is not None and state.mesh.points is points), None)
+
+    def to_data(self) -> SessionData:
+        """Return the data for a session file; a mesh is open, and no run and no sweep is active."""
+        from hexmend_app.state.session.session_data import SessionData
+
+        self.about_to_save.emit()
+        return SessionData(**{part.name: part.to_data() for part in self._parts})
+
+    def restore(self, data: SessionData, path: Path | None = None) -> None:
+        """Restore the state of a session file.
+
+        Parameters
+        ----------
+        data : SessionData
+        path : Path, optional
+            The session file; None for a session that was recovered, which has no file.
+        """
+        for part in self._parts:
+            part.restore(getattr(data, part.name))
+        if path is not None:
+            self.document.saved(path, self.document.recorded)
+            self.saved_cameras.saved()
+
+    def close(self) -> None:
+        """Ask all threads to end; `wait_for_dropped` waits for them."""
+        for part in self.children():
+            if hasattr(part, "close"):
+                part.close()
+
+    def _history_data(self) -> object:
+        """Return the data of the runs, with the iterations that the states of the document show."""
+        document = self.document.to_data()
+        return self.history.to_data([document.now, *(change.state for change in document.changes)])

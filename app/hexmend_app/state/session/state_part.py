@@ -1,0 +1,130 @@
+"""Parts of a session: how each is saved, restored and closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from hexmend_app.codec.codec import Codec, DecodeError
+
+#: Declared parts of features by name: what session files are checked against before anything is restored.
+_DECLARED: dict[str, StatePart] = {}
+
+
+def _nothing(*_: object) -> None:
+    """Do nothing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StatePart:
+    """A part of a session, as session files and the closing window see it.
+
+    Parameters
+    ----------
+    name : str
+        Name in session files.
+    to_data : callable
+        Returns the data for a session file.
+    restore : callable
+        Takes the data of a session file.
+    data : type, optional
+        Declared type of the data, which `Codec` converts. Required for parts of features.
+    check : callable, optional
+        Raises `ValueError` if data of the type cannot be restored.
+    close : callable, optional
+        Ends all work of the part: the window is closing.
+    changed : Signal, optional
+        Emitted when the data have changed, so that the session is saved automatically.
+    """
+
+    name: str
+    to_data: Callable[[], Any]
+    restore: Callable[[Any], object]
+    data: Any = None
+    check: Callable[[Any], object] = _nothing
+    close: Callable[[], object] = _nothing
+    changed: Any = None
+
+    def decode(self, encoded: Any, where: str = "") -> Any:
+        """Return the data of a part of a feature; raises `DecodeError` if they are not of its type."""
+        data = Codec({}).decode(encoded, self.data, where or self.name)
+        self.check(data)
+        return data
+
+
+def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
+    """Check the data of all parts that features have declared.
+
+    Raises
+    ------
+    DecodeError, ValueError
+        If data are not of the declared type.
+    """
+    for name in encoded.keys() & _DECLARED.keys():
+        _DECLARED[name].decode(encoded[name], f"{where}.{name}")
+
+
+class FeatureStates(QObject):
+    """The state parts that features declare.
+
+    Session files store them by name, each as the codec encodes it. Data of a part that is not declared, or not yet, is
+    stored, so that it is restored as soon as the part is declared and is in the session file that is written next.
+
+    Signals
+    -------
+    changed
+        The data of a part have changed.
+    failed(name, Exception)
+        The data of a part do not fit its type; the part is as it was.
+    """
+
+    changed = Signal()
+    failed = Signal(str, object)
+
+    def __init__(self, parent: QObject | None = None):
+        super().__init__(parent)
+        self._parts: dict[str, StatePart] = {}
+        self._unclaimed: dict[str, Any] = {}
+
+    def add(self, part: StatePart) -> None:
+        """Declare a part; data of a session that is open already are restored at once.
+
+        Raises
+        ------
+        ValueError
+            If another part has the name.
+        """
+        if part.name in self._parts:
+            raise ValueError(f"two features declare the state {part.name!r}")
+        self._parts[part.name] = _DECLARED[part.name] = part
+        if part.changed is not None:
+            part.changed.connect(self.changed)
+        if part.name in self._unclaimed:
+            self._restore(part, self._unclaimed.pop(part.name))
+
+    def to_data(self) -> dict[str, Any]:
+        """Return the encoded data of all parts, by name."""
+        codec = Codec({})
+        declared = {name: codec.encode(part.to_data(), part.data) for name, part in self._parts.items()}
+        return {**self._unclaimed, **declared}
+
+    def restore(self, data: dict[str, Any]) -> None:
+        """Restore the parts that a session file has; the others stay as they are."""
+        self._unclaimed = {name: one for name, one in data.items() if name not in self._parts}
+        for name, part in self._parts.items():
+            if name in data:
+                self._restore(part, data[name])
+
+    def close(self) -> None:
+        """End all work of the parts."""
+        for part in self._parts.values():
+            part.close()
+
+    def _restore(self, part: StatePart, encoded: Any) -> None:
+        try:
+            part.restore(part.decode(encoded))
+        except (DecodeError, ValueError) as error:
+            self.failed.emit(part.name, error)
