@@ -1,7 +1,7 @@
-"""Tables of keys with defaults and bounds: what a scene is made of, and how data of a file becomes one of them.
+"""Tables of keys with defaults and bounds: the parts of a scene, and their conversion from and to plain data.
 
-A table is a frozen dataclass; what a key means stands in its docstring, and its bounds in its field. `made` reads one
-from plain data, and `plain` gives its data; what is not admitted is named with its place, such as `[bar] ticks`.
+A table is a frozen dataclass; its docstring explains the keys, and its fields declare their bounds. `decode` makes one
+from plain data, and `encode` returns its data; an error names the place of an invalid value, such as `[bar] ticks`.
 """
 
 from __future__ import annotations
@@ -9,25 +9,24 @@ from __future__ import annotations
 import dataclasses
 import math
 import typing
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
-from types import NoneType, UnionType
 from typing import Any, NamedTuple
 
 from hexmend.errors import ParameterError
+from hexmend_app.codec.conversion import Conversion, entry_types, fixed_length
 
-#: Letters of a text, and the largest number.
+#: The largest number of letters of a text, and the largest number.
 LONGEST, _FARTHEST = 200, 1e300
 
 
 class Option(NamedTuple):
-    """A key of a table as it is declared.
+    """Declaration of a key of a table.
 
-    `name` is as a file writes it and `field` as the dataclass does; bounds are of its number, or of each number of a
-    list, which has `most` entries at most, or of a text that many letters; `open_ended` admits infinity.
-    Of any text, some are `offered`.
+    `name` is its name in files, and `field` that in the dataclass. `low` and `high` bound a number, or each number of a
+    list; `most` is the largest number of entries of a list, or of letters of a text; `open_ended` admits infinity.
+    `offered` are the texts that the window offers.
     """
 
     name: str
@@ -43,21 +42,21 @@ class Option(NamedTuple):
 
     @property
     def bounds(self) -> str:
-        """The bounds as they stand after a number in words; "" for none."""
+        """The bounds in words, to be put after a number; "" for none."""
         ends = [f"{end:,.10g}" for end in (self.low, self.high) if end is not None]
         between = {0: "", 1: f" from {ends[0] if ends else 0} up", 2: " from " + " to ".join(ends)}[len(ends)]
         return f"{between} {self.unit}".rstrip()
 
 
 def option(default: Any = None, **bounds: Any) -> Any:
-    """Declare a key; its type is the field's annotation, and its bounds are those of `Key`."""
+    """Declare a key; its type is the annotation of the field, and `bounds` are parameters of `Option`."""
     made = {"default_factory": default} if callable(default) else {"default": default}
     return dataclasses.field(**made, metadata={"key": bounds})
 
 
 @cache
 def options_of(kind: type) -> tuple[Option, ...]:
-    """The keys of a table, or of another dataclass, in order."""
+    """Return the keys of a table, or of another dataclass, in order."""
     types = typing.get_type_hints(kind)
     return tuple(
         Option(one.name.rstrip("_"), one.name, types[one.name], _default(one), **one.metadata.get("key", {}))
@@ -69,23 +68,30 @@ def _default(field: dataclasses.Field) -> Any:
     return field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
 
 
-#: Where a value stands: the names of tables, numbers of entries and the key, from the outside.
+#: Place of a value: the names of tables, numbers of entries and the key, from the outside.
 Path = tuple[str | int, ...]
+
+
+class _Place(NamedTuple):
+    """Place of a value, and the key that declares its bounds."""
+
+    path: Path
+    option: Option | None = None
 
 
 class OptionError(ParameterError):
     """Invalid entry of a table, with its place."""
 
     @classmethod
-    def of(cls, where: Path, value: Any, problem: str) -> OptionError:
-        """The error for a value: of a key alone, the table is not known yet."""
-        place = str(where[0]) if len(where) == 1 else _place(where)
+    def of(cls, path: Path, value: Any, problem: str) -> OptionError:
+        """Return the error for a value; a path of the key alone has no table yet."""
+        place = str(path[0]) if len(path) == 1 else _place(path)
         return cls(" ".join((place, "=", _shown(value), problem)))
 
 
 @dataclass(frozen=True)
 class ConfigTable:
-    """Base of tables: the values are checked, and brought into their types, as they are made.
+    """Base of tables: values are checked and converted to their types when a table is made.
 
     Raises
     ------
@@ -95,155 +101,158 @@ class ConfigTable:
 
     def __post_init__(self) -> None:
         for one in options_of(type(self)):
-            object.__setattr__(self, one.field, _taken(getattr(self, one.field), one.kind, one, (one.name,)))
+            value = _TABLES.decode(getattr(self, one.field), one.kind, _Place((one.name,), one))
+            object.__setattr__(self, one.field, value)
         self.check()
 
     def check(self) -> None:
-        """Raise `ParameterError` where keys do not go together."""
+        """Raise `ParameterError` if keys contradict each other."""
 
 
 def decode(kind: type, data: Any, where: Path = ()) -> Any:
-    """The table of a kind that plain data stands for.
+    """Return the table of a kind that plain data stand for.
 
     Parameters
     ----------
     kind : type
         A dataclass.
     data
-        As a parser of TOML gives it.
+        As a parser of TOML returns it.
     where : tuple
-        Where it stands in the file; nothing is the whole of it.
+        Its place in the file; empty for the whole file.
 
     Raises
     ------
-    Misplaced
+    OptionError
     """
-    table = _place(where)
-    if not isinstance(data, dict):
-        raise OptionError(f"{table} is no table: expected keys and values")
-    known = {one.name: one for one in options_of(kind)}
-    for name in data:
-        if name not in known:
-            raise OptionError(f"{table} has an unknown key {str(name)[:80]!r}: expected {', '.join(known)}")
-    values = {
-        known[name].field: _taken(one, known[name].kind, known[name], (*where, name)) for name, one in data.items()
-    }
-    try:
-        return kind(**values)
-    except OptionError as error:
-        raise OptionError(f"{table}: {error}" if where else str(error)) from None
-    except (ParameterError, ValueError) as error:
-        raise OptionError(f"{table}: {error}") from None
+    return _TABLES.decode(data, kind, _Place(where))
 
 
 def encode(table: Any) -> dict[str, Any]:
-    """A table as plain data: every key that has a value."""
-    values = {one.name: getattr(table, one.field) for one in options_of(type(table))}
-    return {name: _data(value) for name, value in values.items() if value not in (None, "", (), {})}
+    """Return a table as plain data: every key that has a value."""
+    return _TABLES.encode(table, type(table))
 
 
-def _data(value: Any) -> Any:
-    if isinstance(value, StrEnum):
-        return value.value
-    if dataclasses.is_dataclass(value):
-        return encode(value)
-    if isinstance(value, tuple):
-        return [_data(one) for one in value]
-    if isinstance(value, Mapping):
-        return {name: _data(one) for name, one in value.items()}
-    return value
+class _TableConversion(Conversion):
+    """Conversion of tables: every key has bounds, and missing keys have their defaults."""
+
+    def _encode_union(self, value: Any, kinds: tuple[Any, ...]) -> Any:
+        return self.encode(value, type(value) if dataclasses.is_dataclass(value) else _with_shape(value, kinds))
+
+    def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
+        keys = {one.name: (getattr(value, one.field), one.kind) for one in options_of(type(value))}
+        return {name: self.encode(*one) for name, one in keys.items() if one[0] not in (None, "", (), {})}
+
+    def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: _Place) -> Any:
+        return self.decode(data, _with_shape(data, kinds), where)
+
+    def _decode_table(self, data: Any, kind: type, where: _Place) -> Any:
+        if isinstance(data, kind):
+            return data
+        table = _place(where.path)
+        if not isinstance(data, dict):
+            raise OptionError(f"{table} is no table: expected keys and values")
+        known = {one.name: one for one in options_of(kind)}
+        for name in data:
+            if name not in known:
+                raise OptionError(f"{table} has an unknown key {str(name)[:80]!r}: expected {', '.join(known)}")
+        values = {
+            known[name].field: self.decode(one, known[name].kind, _Place((*where.path, name), known[name]))
+            for name, one in data.items()
+        }
+        try:
+            return kind(**values)
+        except OptionError as error:
+            raise OptionError(f"{table}: {error}" if where.path else str(error)) from None
+        except (ParameterError, ValueError) as error:
+            raise OptionError(f"{table}: {error}") from None
+
+    def _decode_enum(self, data: Any, kind: type[StrEnum], where: _Place) -> Any:
+        if data not in list(kind):
+            raise OptionError.of(where.path, data, f"is unknown: expected {', '.join(kind)}")
+        return kind(data)
+
+    def _decode_entries(self, data: Any, kind: Any, where: _Place) -> list[Any]:
+        if not isinstance(data, list | tuple):
+            raise OptionError.of(where.path, data, "is no list: expected one such as [1, 2]")
+        count = fixed_length(kind)
+        most = where.option.most if count is None else count
+        if most is not None and (len(data) > most or (count is not None and len(data) < count)):
+            raise OptionError.of(where.path, data, f"has {len(data)} entries: expected {most}")
+        entries = []
+        for number, (entry, one) in enumerate(zip(data, entry_types(kind, len(data)), strict=True), 1):
+            path = (*where.path, number) if dataclasses.is_dataclass(one) else where.path
+            entries.append(self.decode(entry, one, _Place(path, where.option)))
+        return entries
+
+    def _decode_mapping(self, data: Any, kind: Any, where: _Place) -> dict[str, Any]:
+        path, option = where
+        if not isinstance(data, dict):
+            raise OptionError.of(path, data, "is no table: expected one of tables by name")
+        if option.most is not None and len(data) > option.most:
+            raise OptionError.of(path, data, f"has {len(data)} entries: expected {option.most}")
+        outside = ".".join(map(str, path))
+        return {
+            _text(name, path): self.decode(entry, kind, _Place((f"{outside}.{name}",), option))
+            for name, entry in data.items()
+        }
+
+    def _decode_plain(self, data: Any, kind: type, where: _Place) -> Any:
+        path, option = where
+        if kind is bool:
+            if not isinstance(data, bool):
+                raise OptionError.of(path, data, "is no switch: expected true or false")
+            return data
+        return _text(data, path, option.most or LONGEST) if kind is str else _number(data, kind, option, path)
 
 
-def _place(where: Path) -> str:
-    """A place in words.
+_TABLES = _TableConversion()
+
+
+def _with_shape(value: Any, kinds: tuple[Any, ...]) -> Any:
+    """Return the first of several types that has the shape of a value; the last one if none has."""
+    for kind in kinds[:-1]:
+        shape = (list, tuple) if typing.get_origin(kind) is tuple else str if issubclass(kind, str) else int | float
+        if isinstance(value, shape) and not isinstance(value, bool):
+            return kind
+    return kinds[-1]
+
+
+def _place(path: Path) -> str:
+    """Return a place in words.
 
     >>> _place(()), _place(("bar", "ticks")), _place(("panels", 2, "mesh")), _place(("cut", "planes", 1, "normal"))
     ('the scene', '[bar] ticks', '[panels 2] mesh', '[cut] planes 1 normal')
     """
-    if not where:
+    if not path:
         return "the scene"
-    inside = 2 if len(where) > 1 and isinstance(where[1], int) else 1
-    table, rest = " ".join(map(str, where[:inside])), " ".join(map(str, where[inside:]))
+    inside = 2 if len(path) > 1 and isinstance(path[1], int) else 1
+    table, rest = " ".join(map(str, path[:inside])), " ".join(map(str, path[inside:]))
     return f"[{table}] {rest}".rstrip()
 
 
-def _taken(value: Any, kind: Any, one: Option, where: Path) -> Any:
-    """A value brought into its type, once it is known to be of it."""
-    origin, inner = typing.get_origin(kind), typing.get_args(kind)
-    if origin in (UnionType, typing.Union):
-        return _one_of(value, inner, one, where)
-    if dataclasses.is_dataclass(kind):
-        return value if isinstance(value, kind) else decode(kind, value, where)
-    if origin is tuple:
-        return _several(value, inner, one, where)
-    if origin is dict:
-        return _named(value, inner[1], one, where)
-    if kind is bool:
-        if not isinstance(value, bool):
-            raise OptionError.of(where, value, "is no switch: expected true or false")
-        return value
-    if issubclass(kind, StrEnum):
-        if value not in list(kind):
-            raise OptionError.of(where, value, f"is unknown: expected {', '.join(kind)}")
-        return kind(value)
-    return _text(value, where, one.most or LONGEST) if kind is str else _number(value, kind, one, where)
-
-
-def _one_of(value: Any, kinds: tuple[Any, ...], one: Option, where: Path) -> Any:
-    """A value of the first of several types that has its shape."""
-    if value is None and NoneType in kinds:
-        return None
-    kinds = tuple(kind for kind in kinds if kind is not NoneType)
-    for kind in kinds[:-1]:
-        shape = (list, tuple) if typing.get_origin(kind) is tuple else str if issubclass(kind, str) else int | float
-        if isinstance(value, shape) and not isinstance(value, bool):
-            return _taken(value, kind, one, where)
-    return _taken(value, kinds[-1], one, where)
-
-
-def _several(value: Any, inner: tuple[Any, ...], one: Option, where: Path) -> tuple:
-    if not isinstance(value, list | tuple):
-        raise OptionError.of(where, value, "is no list: expected one such as [1, 2]")
-    most = len(inner) if inner[-1:] != (Ellipsis,) else one.most
-    if most is not None and (len(value) > most or (len(value) < most and inner[-1:] != (Ellipsis,))):
-        raise OptionError.of(where, value, f"has {len(value)} entries: expected {most}")
-    tables = dataclasses.is_dataclass(inner[0])
-    return tuple(
-        _taken(entry, inner[0], one, (*where, number) if tables else where) for number, entry in enumerate(value, 1)
-    )
-
-
-def _named(value: Any, kind: type, one: Option, where: Path) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise OptionError.of(where, value, "is no table: expected one of tables by name")
-    if one.most is not None and len(value) > one.most:
-        raise OptionError.of(where, value, f"has {len(value)} entries: expected {one.most}")
-    outside = ".".join(map(str, where))
-    return {_text(name, where): _taken(entry, kind, one, (f"{outside}.{name}",)) for name, entry in value.items()}
-
-
-def _text(value: Any, where: Path, longest: int = LONGEST) -> str:
+def _text(value: Any, path: Path, longest: int = LONGEST) -> str:
     if not isinstance(value, str):
-        raise OptionError.of(where, value, "is no text: expected one in quotes")
+        raise OptionError.of(path, value, "is no text: expected one in quotes")
     if len(value) > longest or not value.isprintable():
-        raise OptionError.of(where, value, f"is no text of a line: expected {longest} letters at most")
+        raise OptionError.of(path, value, f"is no text of a line: expected {longest} letters at most")
     return value
 
 
-def _number(value: Any, kind: type, one: Option, where: Path) -> float:
+def _number(value: Any, kind: type, one: Option, path: Path) -> float:
     whole = kind is int
     expected = f"{'a whole number' if whole else 'a number'}{one.bounds}"
     if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
-        raise OptionError.of(where, value, f"is no {'whole ' * whole}number: expected {expected}")
+        raise OptionError.of(path, value, f"is no {'whole ' * whole}number: expected {expected}")
     low, high = -math.inf if one.low is None else one.low, math.inf if one.high is None else one.high
     # Written so that nan is refused too. Whole numbers in a file may have more digits than a float can.
     if not low <= value <= high or not (one.open_ended or abs(value) <= _FARTHEST):
-        raise OptionError.of(where, value, f"is out of range: expected {expected}")
+        raise OptionError.of(path, value, f"is out of range: expected {expected}")
     return kind(value)
 
 
 def _shown(value: Any) -> str:
-    """A value as it stands in an error."""
+    """Return a value as errors show it."""
     if isinstance(value, int) and abs(value) > _FARTHEST:
         return "a huge number"
     try:

@@ -11,8 +11,8 @@ from functools import cache
 def helps(kind: type) -> dict[str, str]:
     """The sentences about the parameters of a class, by name, from its NumPy docstring.
 
-    >>> from hexmend_app.picture import Wiped
-    >>> helps(Wiped)["mesh"]
+    >>> from hexmend_app.picture import WipeLayout
+    >>> helps(WipeLayout)["mesh"]
     'Its number on the command line.'
     """
     lines = inspect.getdoc(kind).splitlines()

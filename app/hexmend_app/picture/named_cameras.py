@@ -39,9 +39,9 @@ class NamedCameras(ConfigTable):
 def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str, Camera]:
     """Cameras with those of others, as far as there is room; what is another under one name gets a number.
 
-    >>> list(joined({"a": Camera("+x")}, {"a": Camera("+y"), "b": Camera("+x")}))
+    >>> list(merged({"a": Camera("+x")}, {"a": Camera("+y"), "b": Camera("+x")}))
     ['a', 'a (2)', 'b']
-    >>> list(joined({"a": Camera("+x")}, {"a": Camera("+x")}))
+    >>> list(merged({"a": Camera("+x")}, {"a": Camera("+x")}))
     ['a']
     """
     answer = dict(mine)

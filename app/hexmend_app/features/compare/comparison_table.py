@@ -67,7 +67,7 @@ def title_of(name: str) -> str:
 def best(entries: Sequence[ComparisonRow], figure: Quantity) -> set[str]:
     """Names of the methods whose figure is the best; none where there is nothing to choose.
 
-    >>> rows = [Entry("a", "", {"q_min": 0.1}), Entry("b", "", {"q_min": 0.3}), Entry("c", "", {})]
+    >>> rows = [ComparisonRow("a", "", {"q_min": 0.1}), ComparisonRow("b", "", {"q_min": 0.3}), ComparisonRow("c", "", {})]
     >>> best(rows, next(one for one in LINES if one.key == "q_min"))
     {'b'}
     """

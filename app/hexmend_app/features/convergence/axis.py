@@ -36,7 +36,7 @@ UNIT = Scale(0.0, 1.0, ((0.0, "0"), (0.5, "0.5"), (1.0, "1")))
 def simple(known: np.ndarray, whole: bool) -> Scale:
     """From zero to beyond the greatest of some values, (k,) float64 without nan; `whole` numbers or not.
 
-    >>> plain(np.array([0.0, 4.2]), whole=False)
+    >>> simple(np.array([0.0, 4.2]), whole=False)
     Scale(low=0.0, high=5.0, ticks=((0.0, '0'), (2.0, '2'), (4.0, '4')), floor=None)
     """
     high = _round_up(float(known.max(initial=0.0)) or 1.0)

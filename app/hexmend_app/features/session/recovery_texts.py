@@ -11,7 +11,7 @@ def sentence(left: RecoveredSession) -> tuple[str, str]:
     >>> from datetime import datetime
     >>> from pathlib import Path
     >>> from PySide6.QtCore import QLockFile
-    >>> said(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
+    >>> sentence(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
     'five.vtu can be recovered'
     """
     runs = "" if not left.runs else f", with {left.runs} run{'s' * (left.runs != 1)}"

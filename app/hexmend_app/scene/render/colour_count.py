@@ -18,7 +18,7 @@ def count_colours(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         Each once, by red, then green, then blue.
     counts : (k,) int64
 
-    >>> colours, counts = tally(np.array([[9, 0, 0], [1, 2, 3], [9, 0, 0]], np.uint8))
+    >>> colours, counts = count_colours(np.array([[9, 0, 0], [1, 2, 3], [9, 0, 0]], np.uint8))
     >>> colours.tolist(), counts.tolist()
     ([[1, 2, 3], [9, 0, 0]], [1, 2])
     """

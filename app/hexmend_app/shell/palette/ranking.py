@@ -45,8 +45,8 @@ def ranked(entries: Iterable[PaletteEntry], text: str) -> list[PaletteEntry]:
     A name that begins with the text comes before one whose words begin with its words, then one that holds them, then
     one that needs its kind for them; what only the help speaks of comes last.
 
-    >>> some = [Entry(name="Reset", do=print, help="Undo all."), Entry(name="Undo", do=print)]
-    >>> some.append(Entry(name="Run", do=print))
+    >>> some = [PaletteEntry(name="Reset", do=print, help="Undo all."), PaletteEntry(name="Undo", do=print)]
+    >>> some.append(PaletteEntry(name="Run", do=print))
     >>> [one.name for one in ranked(some, "un")]
     ['Undo', 'Run', 'Reset']
     """
