@@ -11,7 +11,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv
-from hexmend_app.features.convergence.charts import CHARTS, FIRST, Chart
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
 from hexmend_app.features.convergence.curves import Columns, Curve, colour_of, run_start
 from hexmend_app.state.mesh.run_record import RunRecord
 
@@ -23,7 +23,7 @@ def write_convergence(
     path: str | Path,
     title: str,
     runs: Sequence[RunRecord],
-    charts: Sequence[str] = FIRST,
+    charts: Sequence[str] = DEFAULT_CHARTS,
     *,
     by_time: bool = False,
     log: bool = True,
@@ -69,7 +69,7 @@ def write_convergence(
 def figure(
     title: str,
     runs: Sequence[RunRecord],
-    charts: Sequence[str] = FIRST,
+    charts: Sequence[str] = DEFAULT_CHARTS,
     *,
     by_time: bool = False,
     log: bool = True,

@@ -79,4 +79,4 @@ CHARTS: dict[str, Chart] = {
 }
 
 #: Charts shown by default.
-FIRST = ("objective", "quality", "inverted")
+DEFAULT_CHARTS = ("objective", "quality", "inverted")

@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
-from hexmend_app.features.convergence.charts import CHARTS, FIRST
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS
 from hexmend_app.state.view.panel_settings import ChartSettings
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.widgets.inputs.menu_button import MenuButton
@@ -44,7 +44,7 @@ class ConvergenceHead(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.charts = {key: self._action(chart.title, chart.help, key in FIRST) for key, chart in CHARTS.items()}
+        self.charts = {key: self._action(chart.title, chart.help, key in DEFAULT_CHARTS) for key, chart in CHARTS.items()}
         for action in self.charts.values():
             action.toggled.connect(self.charts_changed)
         charts = MenuButton("Charts", "Select the charts.")
