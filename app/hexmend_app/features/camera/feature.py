@@ -66,7 +66,7 @@ class FeatureCamera(Feature):
                 in_view=True,
             ),
             *self._directions(),
-            self._move("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the cutting plane.", self._face,
+            self._move("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the plane.", self._face,
                        lambda: self._plane is not None, in_view=True),
             self._move("roll_left", "Roll &left", "Shift+[", f"Rotate the view by {_ROLL}° counter-clockwise.",
                        lambda: self.canvas.roll(_ROLL)),

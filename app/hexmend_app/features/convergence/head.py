@@ -44,7 +44,9 @@ class ConvergenceHead(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.charts = {key: self._action(chart.title, chart.help, key in DEFAULT_CHARTS) for key, chart in CHARTS.items()}
+        self.charts = {
+            key: self._action(chart.title, chart.help, key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
+        }
         for action in self.charts.values():
             action.toggled.connect(self.charts_changed)
         charts = MenuButton("Charts", "Select the charts.")
