@@ -1,4 +1,4 @@
-"""The panel of the colours: which metric they show, in which map, over which range."""
+"""Panel that selects the metric, the map and the range of the colours."""
 
 from __future__ import annotations
 
@@ -23,28 +23,28 @@ from hexmend_app.widgets.metric_texts import metrics_offered
 from hexmend_app.widgets.wording import short_number
 
 _MODES = {
-    RangeMode.FULL: ("Full", "All values that the metric can take"),
+    RangeMode.FULL: ("Full", "All possible values of the metric"),
     RangeMode.FITTED: (
         "Fitted",
         "Current minimum and maximum, without inverted hexes; follows a running method.",
     ),
-    RangeMode.ACCEPTABLE: ("Acceptable", "The values that solvers are usually content with"),
-    RangeMode.PINNED: ("Pinned", "Two values that you set, initially the current range."),
+    RangeMode.ACCEPTABLE: ("Acceptable", "Values that solvers usually accept"),
+    RangeMode.PINNED: ("Pinned", "Limits that you set, initially the current range."),
 }
-NEUTRAL = "Draw the boundary white and cut faces in one colour, to see shapes; inverted hexes stay magenta."
-SHADING = "Darken corners and holes while the view rests (ambient occlusion), to show depth."
+NEUTRAL = "Draw the boundary white and cut faces in one colour; inverted hexes stay magenta."
+SHADING = "Darken corners and holes when the view is still (ambient occlusion)."
 _BOXES = (("low", 0.0), ("high", 1.0))
 
 
 class ColourPanel(QWidget):
-    """Selects the metric, map and range of the colours.
+    """Panel that selects the metric, map and range of the colours.
 
     Signals
     -------
     scale_changed(ColourScale)
-        The user chose. Of numbers, only finished ones: entered, stepped, or left for another field.
+        The user changed the colours. Limits count once entered, stepped, or left for another field.
     neutral_changed(bool), shading_changed(bool)
-        The user wants no colours of values, or some; shades, or none.
+        The user switched neutral colours or ambient occlusion.
     """
 
     scale_changed = Signal(object)
@@ -54,22 +54,22 @@ class ColourPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._scale = ColourScale()
-        self._ends = (0.0, 1.0)  # of the range in use, wherever it comes from
-        self._set: dict[str, tuple[float, float]] = {}  # ends that were typed for each metric, to find them on return
+        self._ends = (0.0, 1.0)  # of the current range
+        self._pinned: dict[str, tuple[float, float]] = {}  # limits that the user set, by metric
         self._metric = QComboBox()
         let_shrink(self._metric, 7)
         self._metric.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for metric in (*metrics_offered(), *DISPLACEMENT_QUANTITIES.values()):
             self._metric.addItem(metric.title, metric.name)
-            self._metric.setItemData(self._metric.count() - 1, _about(metric.name), Qt.ItemDataRole.ToolTipRole)
+            self._metric.setItemData(self._metric.count() - 1, _description(metric.name), Qt.ItemDataRole.ToolTipRole)
         self._metric.insertSeparator(len(METRICS))
         self._map = MapBox()
         self._reverse = QCheckBox("⇅")
-        set_help(self._reverse, "Reverse", "Reverse the colour map; normally the dark end marks the worst values.")
+        set_help(self._reverse, "Reverse", "Reverse the colour map. By default the dark end marks the worst values.")
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
-        set_help(self._low, "Lowest value", "The value of the first colour; pin the range to set it.")
-        set_help(self._high, "Highest value", "The value of the last colour; pin the range to set it.")
+        set_help(self._low, "Lowest value", "Value of the first colour. Pin the range to set it.")
+        set_help(self._high, "Highest value", "Value of the last colour. Pin the range to set it.")
         self._neutral, self._shading = QCheckBox("Neutral"), QCheckBox("Shading")
         set_help(self._neutral, "Neutral", NEUTRAL)
         set_help(self._shading, "Shading", SHADING)
@@ -100,38 +100,38 @@ class ColourPanel(QWidget):
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
             grid.addWidget(widget, row, 1, 1, 1 if widget is self._map else 2)
-        grid.addWidget(self._mode, 2, 0, 1, 3)  # its four words need the whole width
+        grid.addWidget(self._mode, 2, 0, 1, 3)  # four texts need the whole width
         grid.addWidget(self._reverse, 1, 2)
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(8)
-        for part in (self._low, QLabel("to"), self._high):
-            numbers.addWidget(part, 0 if isinstance(part, QLabel) else 1)
+        for widget in (self._low, QLabel("to"), self._high):
+            numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
         grid.addLayout(numbers, 3, 0, 1, 3)
-        drawn = QHBoxLayout()
-        drawn.setSpacing(16)
-        for part in (self._neutral, self._shading):
-            drawn.addWidget(part)
-        drawn.addStretch()
-        grid.addLayout(drawn, 4, 0, 1, 3)
+        options = QHBoxLayout()
+        options.setSpacing(16)
+        options.addWidget(self._neutral)
+        options.addWidget(self._shading)
+        options.addStretch()
+        grid.addLayout(options, 4, 0, 1, 3)
         grid.addWidget(self._problem, 5, 0, 1, 3)
 
     def set_scale(self, scale: ColourScale) -> None:
-        """Show a choice, without a signal."""
+        """Show a scale; emits no signal."""
         if scale != self._scale:
-            self._take(scale)
+            self._apply(scale)
 
-    def set_drawn(self, neutral: bool, shading: bool) -> None:
-        """Show whether the colours stand for values, and whether there are shades; without a signal."""
+    def set_options(self, neutral: bool, shading: bool) -> None:
+        """Show the options; emits no signal."""
         self._neutral.setChecked(neutral)
         self._shading.setChecked(shading)
 
     def scale(self) -> ColourScale:
-        """The choice that is shown."""
+        """Return the scale shown."""
         return self._scale
 
     def set_ends(self, low: float, high: float) -> None:
-        """Take the ends of the range in use, found from the figures; without a signal."""
+        """Show the ends of the current range, computed from the values; emits no signal."""
         self._ends = (low, high)
         if self._scale.mode is not RangeMode.PINNED:
             self._show_ends()
@@ -140,11 +140,11 @@ class ColourPanel(QWidget):
         """Select a metric as the user would."""
         if metric == self._scale.metric:
             return
-        pinned, mode = self._set.get(metric, self._scale.pinned), self._scale.mode
+        pinned, mode = self._pinned.get(metric, self._scale.pinned), self._scale.mode
         if (metric in DISPLACEMENT_QUANTITIES) != (self._scale.metric in DISPLACEMENT_QUANTITIES):
             mode = RangeMode.FITTED if metric in DISPLACEMENT_QUANTITIES else RangeMode.FULL
-        if mode is RangeMode.PINNED and metric not in self._set:
-            mode = RangeMode.FULL  # the values of one metric mean nothing for another
+        if mode is RangeMode.PINNED and metric not in self._pinned:
+            mode = RangeMode.FULL  # limits of one metric mean nothing for another
         if mode in (RangeMode.FULL, RangeMode.ACCEPTABLE) and declared_range(metric, mode) is None:
             mode = RangeMode.FITTED
         self._change(metric=metric, mode=mode, pinned=pinned)
@@ -152,7 +152,7 @@ class ColourPanel(QWidget):
     def _on_mode(self, mode: RangeMode) -> None:
         pinned = self._scale.pinned
         if mode is RangeMode.PINNED and self._scale.mode is not mode:
-            pinned = self._set.get(self._scale.metric) or _rounded(*self._ends)
+            pinned = self._pinned.get(self._scale.metric) or _rounded(*self._ends)
         self._change(mode=mode, pinned=pinned)
 
     def _on_number(self, box: NumberBox) -> None:
@@ -165,29 +165,29 @@ class ColourPanel(QWidget):
             return
         pinned = (float(self._low.value()), float(self._high.value()))
         if pinned != self._scale.pinned:
-            self._set[self._scale.metric] = pinned
+            self._pinned[self._scale.metric] = pinned
             self._change(pinned=pinned)
 
     def _change(self, **fields: object) -> None:
         scale = dataclasses.replace(self._scale, **fields)
         if scale != self._scale:
-            self._take(scale)
+            self._apply(scale)
             self.scale_changed.emit(scale)
 
-    def _take(self, scale: ColourScale) -> None:
+    def _apply(self, scale: ColourScale) -> None:
         before, self._scale = self._scale, scale
         self._refresh()
-        if (scale.mode, scale.pinned) != (before.mode, before.pinned):  # or what is half typed stays
+        if (scale.mode, scale.pinned) != (before.mode, before.pinned):  # otherwise keep a number being typed
             self._show_ends()
 
     def _show_problem(self) -> bool:
-        """Say what is wrong with the numbers; whether anything is."""
+        """Show the error in the limits, if any; return True if there is one."""
         text = ""
         if self._scale.mode is RangeMode.PINNED:
             text = self._low.problem or self._high.problem
             if not text and not self._low.value() < self._high.value():
                 low, high = (short_number(end) for end in self._scale.pinned)
-                text = f"Expected the lower value first. {low} to {high} stays in use until this is corrected."
+                text = f"Expected the lower value first. The range {low} to {high} is used until this is corrected."
         self._problem.setText(text)
         self._problem.setVisible(bool(text))
         return bool(text)
@@ -202,7 +202,7 @@ class ColourPanel(QWidget):
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
-        set_help(self._metric, "Metric", _about(scale.metric))
+        set_help(self._metric, "Metric", _description(scale.metric))
         self._map.show_map(scale.map, change=scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
@@ -210,33 +210,32 @@ class ColourPanel(QWidget):
             text, help = _MODES[mode]
             ends, button = declared_range(scale.metric, mode), self._mode.button(mode.value)
             button.setEnabled(ends is not None)
-            help = f"{help}: {_range(ends)}." if ends else f"{help}: without bound for this metric."
+            help = f"{help}: {_range_text(ends)}." if ends else f"{help}: unbounded for this metric."
             set_help(button, f"Range: {text}", help)
         for box in (self._low, self._high):
             box.setEnabled(scale.mode is RangeMode.PINNED)
         self._show_problem()
 
 
-def _about(name: str) -> str:
-    """Describe a metric from its declaration, as rich text."""
+def _description(name: str) -> str:
+    """Return the description of a metric as rich text."""
     metric = hex_quantity(name)
-    which = {1: "More is better.", -1: "Less is better.", 0: ""}[better(name)]
-    full, acceptable = _range(metric.full_range), _range(metric.acceptable)
+    direction = {1: "Higher is better.", -1: "Lower is better.", 0: ""}[better(name)]
+    full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
     lines = (
         f"<b>{escape(metric.title)}</b>",
         escape(metric.formula),
-        f"Full range {full}; acceptable {acceptable}. {which}",
+        f"Full range {full}; acceptable {acceptable}. {direction}",
         f"<i>{escape(metric.source)}</i>",
     )
     return f"<qt>{'<br>'.join(lines)}</qt>"
 
 
-def _range(ends: tuple[float, float]) -> str:
-    words = (f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
-    return " to ".join(words)
+def _range_text(ends: tuple[float, float]) -> str:
+    return " to ".join(f"{end:g}".replace("inf", "∞").replace("-", "−") for end in ends)
 
 
 def _rounded(low: float, high: float) -> tuple[float, float]:
-    """The ends as the colour bar writes them, or as they are where that would make them one."""
+    """Return the ends as labelled on the colour bar, or unrounded if the labels are equal."""
     ends = float(range_label(low, low, high)), float(range_label(high, low, high))
     return ends if ends[0] < ends[1] else (low, high)

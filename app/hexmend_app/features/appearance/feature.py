@@ -1,4 +1,4 @@
-"""Appearance of the mesh: colours and edges, and the value that the 3D view draws."""
+"""Feature that draws the mesh in the 3D view and sets its appearance."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
 
-class FeatureLook(Feature):
-    """Brings the session to the view, and the user's wishes to the look."""
+class FeatureAppearance(Feature):
+    """Draws the session's mesh, and applies the colour panel to its appearance."""
 
     order = 30
-    refresh_order = 30  # before features that ask the view what it has drawn
+    refresh_order = 30  # before features that use what the view has drawn
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -37,7 +37,7 @@ class FeatureLook(Feature):
         view.metric_wanted.connect(self.panel.choose_metric)
 
     def actions(self) -> Sequence[Action]:
-        """Edges, shades, and colours or none."""
+        """Return the actions that switch edges, shading and neutral colours."""
         view = self._view
         return (
             Action(
@@ -47,7 +47,7 @@ class FeatureLook(Feature):
                 part=1,
                 keys="E",
                 icon="grid",
-                help="Draw the edges of the hexes.",
+                help="Show the edges of the hexes.",
                 tool="Edges",
                 handle=lambda on: view.change(edges=on),
                 checked=lambda: view.look.edges,
@@ -73,7 +73,7 @@ class FeatureLook(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The colours."""
+        """Return the panel of colours."""
         return (
             Panel(
                 id="look",
@@ -86,11 +86,11 @@ class FeatureLook(Feature):
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
+        """Connect the colour bar, whose special swatches isolate hexes."""
         canvas.colour_bar.special_clicked.connect(self._isolate)
 
     def refresh(self) -> None:
-        """Draw the mesh as it is now; where that fails, no mesh at all rather than the one before."""
+        """Draw the current mesh; if that fails, clear the view rather than show the previous mesh."""
         document = self.session.document
         if self.canvas is not None and document.is_open:
             try:
@@ -108,7 +108,7 @@ class FeatureLook(Feature):
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)
         self.panel.set_scale(self._view.look.scale)
-        self.panel.set_drawn(self._view.look.neutral, self._view.look.shading)
+        self.panel.set_options(self._view.look.neutral, self._view.look.shading)
         if self.canvas is not None and self.canvas.colouring is not None:
             self.panel.set_ends(self.canvas.colouring.low, self.canvas.colouring.high)
 
@@ -126,7 +126,7 @@ class FeatureLook(Feature):
             self.canvas.rest()
         if self.canvas.isHidden():
             self.canvas.show()
-            self.canvas.interactor.setFocus()  # keys turn the mesh, and Tab hides all panels
+            self.canvas.interactor.setFocus()  # for the keys of the view
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now
@@ -134,14 +134,14 @@ class FeatureLook(Feature):
 
     @property
     def _movement(self) -> Displacement | None:
-        """Return the displacement that the view shows, or None."""
+        """Displacement shown by colours or arrows, or None."""
         look = self._view.look
-        wanted = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
-        return self.session.comparison_bases.movement(look.traces.since) if wanted else None
+        needed = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
+        return self.session.comparison_bases.movement(look.traces.since) if needed else None
 
     @property
     def _drawable(self) -> Look:
-        """The look, but for edges and kinds of nodes that are still being found: the view would wait for them."""
+        """Appearance without edges and node classes that are still being computed, for which drawing would wait."""
         look = self._view.look
         structure = look.structure
         if self.session.structure_finder.structure is None:
@@ -152,6 +152,6 @@ class FeatureLook(Feature):
 
     @property
     def _kinds(self) -> np.ndarray | None:
-        """Return the boundary class of each node, or None while unknown."""
+        """Boundary class of each node, or None if not computed yet."""
         classes = self.session.boundary_classifier.of(self.session.document.now.mesh)
         return None if classes is None else classes.kinds

@@ -1,4 +1,4 @@
-"""The choice of a colour map, each with a small picture of it."""
+"""Combo box of colour maps with swatches."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from hexmend_app.theme.style import LINE, on_theme_change, set_help
 from hexmend_app.widgets.inputs.combo import let_shrink
 
 _SWATCH = QSize(48, 12)
-_OF_VALUES = "All maps are perceptually uniform and readable without telling red from green."
+_VALUE_MAPS_HELP = "All maps are perceptually uniform and readable with red-green colour blindness."
 
 
 class MapBox(QComboBox):
-    """Chooses a map of values; for changes there is one.
+    """Combo box that selects a colour map for values; changes have one fixed map.
 
     Signals
     -------
     chosen(str)
-        The user chose a map of values, by name.
+        The user selected the map with this name.
     """
 
     chosen = Signal(str)
@@ -35,16 +35,16 @@ class MapBox(QComboBox):
         on_theme_change(self, self._paint_swatches)
 
     def show_map(self, name: str, change: bool) -> None:
-        """Offer the maps, or, for changes, the one in whose middle there is none, and show which is used."""
-        offered = (CHANGE_MAP,) if change else value_maps()
-        if self.findData(offered[0]) < 0:
+        """List the maps of values, or the diverging map if `change`, and select a map by name."""
+        maps = (CHANGE_MAP,) if change else value_maps()
+        if self.findData(maps[0]) < 0:
             self.clear()
-            for at, key in enumerate(offered):
+            for at, key in enumerate(maps):
                 self.addItem(COLOUR_MAPS[key].title or key, key)
                 self.setItemData(at, COLOUR_MAPS[key].help, Qt.ItemDataRole.ToolTipRole)
             self._paint_swatches()
         self.setCurrentIndex(max(self.findData(name), 0))
-        set_help(self, "Colour map", COLOUR_MAPS[CHANGE_MAP].help if change else _OF_VALUES)
+        set_help(self, "Colour map", COLOUR_MAPS[CHANGE_MAP].help if change else _VALUE_MAPS_HELP)
 
     def _on_activated(self) -> None:
         if self.currentData() in value_maps():
@@ -56,7 +56,7 @@ class MapBox(QComboBox):
 
 
 def _swatch(name: str) -> QIcon:
-    """A small picture of a map, in a pixel each of its colours so that it is sharp at every scale."""
+    """Return an icon of a map, drawn at four times its size so that it is sharp at any scale."""
     colours = np.ascontiguousarray(COLOUR_MAPS[name].table[None].repeat(4 * _SWATCH.height(), axis=0))
     height, width, _ = colours.shape
     pixmap = QPixmap.fromImage(QImage(colours.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888))

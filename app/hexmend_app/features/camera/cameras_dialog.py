@@ -27,12 +27,12 @@ class CamerasDialog(QDialog):
 
     Parameters
     ----------
-    cameras : Cameras
+    cameras : SavedCameras
 
     Signals
     -------
     chosen(name)
-        The user applies a camera; the dialog stays open.
+        The user applied a camera; the dialog stays open.
     """
 
     chosen = Signal(str)
@@ -42,7 +42,7 @@ class CamerasDialog(QDialog):
         self.setWindowTitle("Saved cameras")
         self._cameras = cameras
         self.list = QListWidget()
-        set_help(self.list, "Saved cameras", "Double-click applies a camera, F2 renames it, Delete deletes it.")
+        set_help(self.list, "Saved cameras", "Double-click to apply a camera, F2 to rename it, Delete to delete it.")
         self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
         self._problem = note("", WORSE)
         self._problem.setAccessibleName("Error")
@@ -56,7 +56,7 @@ class CamerasDialog(QDialog):
         QShortcut(QKeySequence(QKeySequence.StandardKey.Delete), self.list, self._delete,
                   context=Qt.ShortcutContext.WidgetShortcut)  # fmt: skip
         self._lay_out()
-        self._show("")
+        self._fill()
         # Queued: the list must not be refilled while its editor is open.
         cameras.changed.connect(self._on_changed, Qt.ConnectionType.QueuedConnection)
 
@@ -96,12 +96,12 @@ class CamerasDialog(QDialog):
             self._cameras.remove(self._name)
 
     def _rename(self, item: QListWidgetItem) -> None:
-        """Rename a camera, or show why the name is rejected."""
+        """Rename a camera, or show the reason if the name is rejected."""
         name, before = item.text().strip(), item.data(_NAME)
         problem = ""
         try:
             if name != before and name in self._cameras.all:
-                problem = f"A camera “{name}” exists already: choose another name, or delete that camera first."
+                problem = f"A camera “{name}” already exists. Choose another name, or delete that camera first."
             elif name != before:
                 self._cameras.rename(before, name)
                 return
@@ -110,16 +110,16 @@ class CamerasDialog(QDialog):
         self.list.blockSignals(True)
         item.setText(before)
         self.list.blockSignals(False)
-        self._refuse(problem)
+        self._show_problem(problem)
 
     def _on_changed(self) -> None:
         """Refresh the list and keep the selected row."""
         row = self.list.currentRow()
-        self._refuse("")
-        self._show("")
+        self._show_problem("")
+        self._fill()
         self.list.setCurrentRow(min(max(row, 0), self.list.count() - 1))
 
-    def _show(self, chosen: str) -> None:
+    def _fill(self) -> None:
         self.list.blockSignals(True)
         self.list.clear()
         for name in self._cameras.all:
@@ -127,8 +127,7 @@ class CamerasDialog(QDialog):
             item.setData(_NAME, name)
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable)
             self.list.addItem(item)
-        names = list(self._cameras.all)
-        self.list.setCurrentRow(names.index(chosen) if chosen in names else min(0, len(names) - 1))
+        self.list.setCurrentRow(0 if self.list.count() else -1)
         self.list.blockSignals(False)
         self._enable()
 
@@ -136,6 +135,6 @@ class CamerasDialog(QDialog):
         for button in self._buttons:
             button.setEnabled(bool(self._name))
 
-    def _refuse(self, problem: str) -> None:
+    def _show_problem(self, problem: str) -> None:
         self._problem.setText(problem)
         self._problem.setVisible(bool(problem))

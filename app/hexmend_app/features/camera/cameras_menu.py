@@ -9,15 +9,16 @@ from hexmend_app.state.view.saved_cameras import SavedCameras
 
 
 class CamerasMenu(QMenu):
-    """Lists the saved cameras by name.
+    """Menu that applies a saved camera.
 
     Parameters
     ----------
-    cameras : Cameras
+    cameras : SavedCameras
 
     Signals
     -------
     chosen(name)
+        The user selected a camera.
     """
 
     chosen = Signal(str)
@@ -26,16 +27,16 @@ class CamerasMenu(QMenu):
         super().__init__("Go to c&amera", parent)
         self._cameras = cameras
         self.aboutToShow.connect(self._fill)
-        cameras.changed.connect(self._offer)
-        self._offer()
+        cameras.changed.connect(self._enable)
+        self._enable()
 
-    def _offer(self) -> None:
+    def _enable(self) -> None:
         self.menuAction().setEnabled(bool(self._cameras.all))
 
     def _fill(self) -> None:
         self.clear()
         for number, name in enumerate(self._cameras.all, start=1):
-            letter = f"&{number % 10}  " if number <= 10 else "     "
-            action = self.addAction(letter + name.replace("&", "&&"))
+            mnemonic = f"&{number % 10}  " if number <= 10 else "     "
+            action = self.addAction(mnemonic + name.replace("&", "&&"))
             action.setStatusTip(f"Apply the camera “{name}”.")
             action.triggered.connect(lambda _=False, name=name: self.chosen.emit(name))

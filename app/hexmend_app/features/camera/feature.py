@@ -1,4 +1,4 @@
-"""Camera of the 3D view: directions, history, and saved cameras."""
+"""Feature that moves the camera, and saves and restores cameras."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hexmend_app.widgets.dialogs.questions import ask_camera_name
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
-#: Direction, id, text, keys, icon and word in the tool bar.
+#: Direction, id, text, keys, icon and text in the tool bar.
 _DIRECTIONS = (
     ("iso", "view_iso", "&Isometric", "0", "axis-arrow", "Iso"),
     ("+x", "view_x", "From +&X", "1", "axis-x-arrow", "X"),
@@ -30,12 +30,12 @@ _DIRECTIONS = (
     ("-z", "view_minus_z", "From −Z", "6", "axis-z-arrow", ""),
 )
 
-#: Degrees that the picture is rolled by at once.
+#: Step of a roll in degrees.
 _ROLL = 15
 
 
 class FeatureCamera(Feature):
-    """Moves the camera, and saves and restores its pose."""
+    """Moves the camera, and saves and restores cameras by name."""
 
     order = 51
 
@@ -48,7 +48,7 @@ class FeatureCamera(Feature):
         self.session.selection.visited.connect(self._fly)
 
     def actions(self) -> Sequence[Action]:
-        """Fit, the directions, back and forward, what is up, and how depth is drawn."""
+        """Return the actions that move, copy, paste and save the camera."""
         return (
             Action(
                 id="fit",
@@ -56,29 +56,29 @@ class FeatureCamera(Feature):
                 menu="View",
                 keys="F",
                 icon="fit-to-page-outline",
-                help="Fit everything visible into the view.",
+                help="Fit the visible mesh to the view.",
                 tool="Fit",
                 handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
             ),
             *self._directions(),
-            self._move("face", "Face the pl&ane", "Shift+C", "Look perpendicularly at the cutting plane.", self._face,
+            self._move("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the plane.", self._face,
                        lambda: self._plane is not None, in_view=True),
-            self._move("roll_left", "Roll to the &left", "Shift+[", "Turn the picture counter-clockwise.",
+            self._move("roll_left", "Roll &left", "Shift+[", f"Rotate the view by {_ROLL}° counter-clockwise.",
                        lambda: self.canvas.roll(_ROLL)),
-            self._move("roll_right", "Roll to the ri&ght", "Shift+]", "Turn the picture clockwise.",
+            self._move("roll_right", "Roll ri&ght", "Shift+]", f"Rotate the view by {_ROLL}° clockwise.",
                        lambda: self.canvas.roll(-_ROLL)),
-            self._move("view_back", "View &back", "Alt+Left", "Return to the previous view.",
+            self._move("view_back", "Previous &view", "Alt+Left", "Return to the previous camera position.",
                        lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
-            self._move("view_forward", "View for&ward", "Alt+Right", "Go to the next view.",
+            self._move("view_forward", "Ne&xt view", "Alt+Right", "Go forward to the next camera position.",
                        lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
             *(
                 Action(
                     id=f"up_{axis}",
-                    text=f"{axis.upper()} is &up" if axis == "z" else f"{axis.upper()} is up",
+                    text=f"{axis.upper()} &up" if axis == "z" else f"{axis.upper()} up",
                     menu="View/Up",
-                    help=f"Point the {axis.upper()} axis upwards in the standard views.",
+                    help=f"Use the {axis.upper()} axis as the vertical axis of the standard views.",
                     handle=lambda on, axis=axis: self.canvas.set_up(axis),
                     enabled=self._ready,
                     checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
@@ -86,17 +86,17 @@ class FeatureCamera(Feature):
                 )
                 for axis in "xyz"
             ),
-            self._move("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for a picture or another "
-                       "window.", self.copy, lambda: self._draws),
+            self._move("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for another window "
+                       "or hexmend render.", self.copy, lambda: self._draws),
             self._move("paste_camera", "&Paste camera", "", "Apply the camera from the clipboard.", self.paste),
-            *self._kept(),
+            *self._saved(),
             Action(
                 id="parallel",
                 text="&Parallel projection",
                 menu="View/Camera",
                 part=3,
                 keys="P",
-                help="Use parallel projection instead of perspective.",
+                help="Use parallel instead of perspective projection.",
                 handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
                 checked=lambda: self.canvas is not None and self.canvas.parallel,
@@ -120,7 +120,7 @@ class FeatureCamera(Feature):
             for name, id, text, keys, icon, tool in _DIRECTIONS
         )
 
-    def _kept(self) -> Sequence[Action]:
+    def _saved(self) -> Sequence[Action]:
         """Return the actions for saved cameras."""
         return (
             Action(
@@ -130,7 +130,7 @@ class FeatureCamera(Feature):
                 part=2,
                 keys="Ctrl+Shift+K",
                 icon="camera-plus-outline",
-                help="Save the camera under a name, for later use, for pictures and in the session.",
+                help="Save the camera under a name, for views, pictures and the session.",
                 handle=self.ask_name,
                 enabled=lambda: self._draws,
                 submenu=self._menu,
@@ -151,14 +151,11 @@ class FeatureCamera(Feature):
         return (StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore),)
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
+        """Refresh when the camera history changes."""
         canvas.views_changed.connect(self.host.refresh_soon)
 
     def refresh(self) -> None:
-        """Come back to where the camera was before something was isolated, once it no longer is.
-
-        Where a session says where the camera is to stand, it does once the session's mesh is drawn.
-        """
+        """Restore the camera of an opened session, and the camera from before an isolation once it ends."""
         if self.session.camera_request.wanted is not None and self._draws:
             self._look_through(self.session.camera_request.wanted, self.session.camera_request.journey)
             self.session.camera_request.wanted, self.session.camera_request.journey = None, PoseHistoryData()
@@ -179,7 +176,7 @@ class FeatureCamera(Feature):
         enabled: Callable[[], bool] = lambda: True,
         in_view: bool = False,
     ) -> Action:
-        """An action that moves the camera from where it is."""
+        """Return an action that needs the 3D view."""
         return Action(
             id=id,
             text=text,
@@ -193,30 +190,30 @@ class FeatureCamera(Feature):
         )
 
     def copy(self) -> None:
-        """Copy where the camera stands, as `hexmend render --camera` takes it."""
+        """Copy the camera to the clipboard in the format of `hexmend render --camera`."""
         QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.stand)))
-        self.host.messages.show_info("The camera was copied: paste it in another window, or after render --camera.")
+        self.host.messages.show_info("Camera copied. Paste it in another window or after hexmend render --camera.")
 
     def paste(self) -> None:
-        """Look from where the text that was copied says; or say what is wrong with it."""
+        """Apply the camera from the clipboard, or show an error."""
         try:
             camera = camera_from(QGuiApplication.clipboard().text())
         except ParameterError as error:
-            self.host.messages.show_error("The camera cannot be pasted", f"{error}.")
+            self.host.messages.show_error("Camera not pasted", f"{error}.")
             return
         self._look_through(camera)
 
     def ask_name(self) -> None:
-        """Ask what to call where the camera stands, and keep it."""
+        """Ask for a name, and save the camera."""
         name = ask_camera_name(self.host.dialog_parent, self._cameras.all)
         if name:
             self.keep(name)
 
     def keep(self, name: str) -> None:
-        """Keep where the camera stands under a name, or say why not."""
+        """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.stand)
-        done = f"The camera is kept as “{name}”: View > Camera has it, and so have pictures."
-        self.host.try_and_report("The camera was not kept", lambda: self._cameras.keep(name, camera), done)
+        success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
+        self.host.try_and_report("Camera not saved", lambda: self._cameras.keep(name, camera), success)
 
     def go(self, name: str) -> None:
         """Apply a saved camera."""
@@ -224,7 +221,7 @@ class FeatureCamera(Feature):
             self._look_through(self._cameras.all[name])
 
     def show_cameras(self) -> None:
-        """Show the cameras that are kept, to be gone to, renamed and deleted."""
+        """Show the dialog of saved cameras."""
         dialog = self.cameras_dialog()
         dialog.exec()
         dialog.deleteLater()
@@ -265,7 +262,7 @@ class FeatureCamera(Feature):
 
     @property
     def _plane(self) -> object:
-        """The plane of the cut that is moved; None where there is none."""
+        """Selected cutting plane; None if the cut is off or by a box."""
         clip = self.session.view.look.clip
         return clip.planes[self.session.view.plane_at] if isinstance(clip, PlaneClip) else None
 

@@ -1,4 +1,4 @@
-"""Methods on one mesh, side by side: which, how far they are, the table of their results and what to do with one."""
+"""Panel that compares methods on one mesh: selection, progress and results."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from hexmend_app.theme.style import MUTED, icon, on_theme_change, set_help, smal
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
 
-_HINT = "Tick methods and press Run: each begins with the mesh as it is now."
+_HINT = "Select methods and press Run. Each starts from the current mesh."
 
-#: Pixels of a column beside its text, and beside its text and a check.
-_AROUND, _CHECK = 14, 26
+#: Width of a column in addition to its text, without and with a check box, in pixels.
+_PADDING, _CHECK_PADDING = 14, 26
 
 
 @dataclass(frozen=True)
@@ -39,28 +39,27 @@ class ComparisonSettings:
 
 
 class ComparePanel(QWidget):
-    """Asks for methods to be compared, and for their results to be shown, taken and saved.
+    """Panel that runs a comparison and shows, applies and saves its results.
 
     Parameters
     ----------
     ticks : sequence of str
-        The methods that are ticked at first.
+        Methods selected by default.
 
     Signals
     -------
     run_requested(names)
-        The user wants these methods to run, in the order of the table as it was made.
+        The user started these methods, in the order of the unsorted table.
     cancel_requested
     view_toggled(name, on)
-        The user wants a row's mesh in a view, or out of it.
+        The user showed or hid the mesh of a row.
     take_requested(name)
-        The user wants a row's mesh as the mesh.
+        The user replaced the mesh by the result of a row.
     save_requested
-        The user wants the table as a file.
     wipe_toggled(bool)
-        The user wants two views over one another, or all side by side.
+        The user switched between a wipe and views side by side.
     offer_changed
-        Whether methods can run has changed.
+        `can_run` changed.
     """
 
     run_requested = Signal(list)
@@ -79,35 +78,33 @@ class ComparePanel(QWidget):
         self._model.view_toggled.connect(self.view_toggled)
         self._model.ticked.connect(self._enable)
         self._run = QPushButton(icon("play"), "Run")
-        set_help(self._run, "Run the comparison", "Run the ticked methods one after another; the mesh stays as it is.")
+        set_help(self._run, "Run comparison", "Run the selected methods in turn. The mesh does not change.")
         self._cancel = QPushButton(icon("stop"), "Cancel")
-        set_help(
-            self._cancel, "Cancel the comparison", "End after the iteration at hand, and keep what has been reached."
-        )
+        set_help(self._cancel, "Cancel comparison", "Stop after the current iteration and keep the results.")
         self._wipe = QPushButton(icon("compare"), "Wipe")
         self._wipe.setCheckable(True)
-        set_help(self._wipe, "Wipe", "Lay two views over one another, with an edge between them that is dragged (W).")
+        set_help(self._wipe, "Wipe", "Show two views in one, with an edge between them to drag (W).")
         self._wipe.toggled.connect(self._paint_wipe)
         on_theme_change(self._wipe, self._paint_wipe)
-        self._take = QPushButton("Take result")
-        set_help(self._take, "Take result", "Let the chosen row's result be the mesh; undo takes it back.")
+        self._take = QPushButton("Use result")
+        set_help(self._take, "Use result", "Replace the mesh by the result of the selected row. Can be undone.")
         self._save = QPushButton(icon("content-save-outline"), "")
         set_help(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
-        self._status.setAccessibleName("Progress of the comparison")
+        self._status.setAccessibleName("Comparison progress")
         tint(self._status, MUTED)
         self._table = self._make_table()
         self._lay_out()
         self._run.clicked.connect(self.run)
         self._cancel.clicked.connect(self.cancel_requested)
         self._wipe.clicked.connect(self.wipe_toggled)
-        self._take.clicked.connect(lambda: self.take_requested.emit(self._chosen()))
+        self._take.clicked.connect(lambda: self.take_requested.emit(self._selected()))
         self._save.clicked.connect(self.save_requested)
         self.set_status()
 
     def _paint_wipe(self) -> None:
-        """Show that the button is pressed by more than Fusion's shade, which the dark theme swallows."""
+        """Colour the pressed button: the shade of the Fusion style is invisible in the dark theme."""
         palette = QPalette()
         if self._wipe.isChecked():
             palette.setColor(QPalette.ColorRole.Button, QColor(str(CHOSEN)))
@@ -131,7 +128,7 @@ class ComparePanel(QWidget):
 
     @staticmethod
     def _frame_checks(table: QTableView) -> None:
-        """Fusion frames the checks of a table by a darker shade of the window's colour."""
+        """Set the frame colour of the check boxes, a darker shade of the window colour in the Fusion style."""
         palette = table.palette()
         palette.setColor(QPalette.ColorRole.Window, QColor(str(FRAME)))
         table.setPalette(palette)
@@ -139,7 +136,7 @@ class ComparePanel(QWidget):
     def _lay_out(self) -> None:
         head = QHBoxLayout()
         buttons = (self._run, self._cancel, self._wipe, self._take, self._save)
-        height = max(button.sizeHint().height() for button in buttons)  # with an icon, or without
+        height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
         for button in buttons:
             button.setFixedHeight(height)
             head.addWidget(button)
@@ -152,8 +149,17 @@ class ComparePanel(QWidget):
         layout.addWidget(self._status)
 
     def set_entries(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
-        """Show rows; `full` where there is no room for another view, `busy` while methods are at work."""
-        self._names = [one.name for one in entries]
+        """Show rows.
+
+        Parameters
+        ----------
+        entries : sequence of ComparisonRow
+        full : bool
+            The largest number of views is open.
+        busy : bool
+            Methods are running.
+        """
+        self._names = [entry.name for entry in entries]
         self._model.fill(entries, full, busy)
         self._fit_columns()
         self._enable()
@@ -165,45 +171,58 @@ class ComparePanel(QWidget):
         return ComparisonSettings(frozenset(self._model.ticks), KEYS[header.sortIndicatorSection()], descending)
 
     def restore(self, settings: ComparisonSettings) -> None:
-        """Set all of it."""
+        """Apply settings."""
         self._model.tick(settings.ticked)
         order = Qt.SortOrder.DescendingOrder if settings.descending else Qt.SortOrder.AscendingOrder
         self._table.sortByColumn(KEYS.index(settings.sorted_by), order)
 
     def _fit_columns(self) -> None:
-        """Make columns as wide as what is in them: the dock is narrow."""
+        """Fit the column widths to their contents."""
         table, model = self._table, self._model
-        head, text = table.horizontalHeader().fontMetrics(), table.fontMetrics()
+        header_metrics, cell_metrics = table.horizontalHeader().fontMetrics(), table.fontMetrics()
         for column in range(model.columnCount()):
             title = model.headerData(column, Qt.Orientation.Horizontal)
-            words = [model.index(row, column).data() for row in range(model.rowCount())]
-            space = _CHECK if column == METHOD else _AROUND
-            inside = max((text.horizontalAdvance(f"{word}0") for word in words if word), default=0) + space
-            table.setColumnWidth(column, max(head.horizontalAdvance(title) + _AROUND, inside))
+            texts = [model.index(row, column).data() for row in range(model.rowCount())]
+            width = max((cell_metrics.horizontalAdvance(f"{text}0") for text in texts if text), default=0)
+            width += _CHECK_PADDING if column == METHOD else _PADDING
+            table.setColumnWidth(column, max(header_metrics.horizontalAdvance(title) + _PADDING, width))
 
     def set_state(self, runnable: bool, editable: bool, several: bool, wiping: bool) -> None:
-        """Say whether methods may run, the mesh may be changed, there are several views, two of them are wiped."""
+        """Enable the controls.
+
+        Parameters
+        ----------
+        runnable : bool
+            Methods may run.
+        editable : bool
+            The mesh may be changed.
+        several : bool
+            There are several views.
+        wiping : bool
+            Two views are shown as a wipe.
+        """
         self._runnable, self._editable = runnable, editable
         self._wipe.setEnabled(several)
         self._wipe.setChecked(wiping)
         self._enable()
 
     def set_status(self, text: str = "") -> None:
-        """Say how far the work is, or what there is to do."""
+        """Show the progress, or a hint if there is none."""
         self._status.setText(text or _HINT)
         self._status.setToolTip(text)
 
     def run(self) -> None:
-        """Ask for the ticked methods to run."""
+        """Request a run of the selected methods."""
         if self._run.isEnabled():
             self.run_requested.emit([name for name in self._names if name in self._model.ticks])
 
     @property
     def can_run(self) -> bool:
-        """Return True if methods are ticked and may run."""
+        """Return True if methods are selected and may run."""
         return self._runnable and bool(self._model.ticks)
 
-    def _chosen(self) -> str:
+    def _selected(self) -> str:
+        """Return the name of the selected row, "" if none is."""
         rows = self._table.selectionModel().selectedRows()
         return self._model.entries[rows[0].row()].name if rows else ""
 
@@ -215,7 +234,7 @@ class ComparePanel(QWidget):
                 self.view_toggled.emit(entry.name, not entry.shown)
 
     def _enable(self) -> None:
-        model, name = self._model, self._chosen()
+        model, name = self._model, self._selected()
         if self._run.isEnabled() != self.can_run:
             self._run.setEnabled(self.can_run)
             self.offer_changed.emit()

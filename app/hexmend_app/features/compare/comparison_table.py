@@ -1,4 +1,4 @@
-"""The rows of a comparison: the mesh as it was, and each method with its figures once they are known."""
+"""Table of a comparison: a row for the initial mesh and one for each method."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from hexmend_app.theme.style import BETTER, MUTED, WORSE, tabular
 
 METHOD, VIEW, _FIRST = 0, 1, 2
 
-#: What columns are known by.
-KEYS = ("method", "view", *(figure.key for figure in LINES))
+#: Keys of the columns.
+KEYS = ("method", "view", *(quantity.key for quantity in LINES))
 
-#: What the row of the mesh as it was is called.
+#: Name of the row of the initial mesh.
 INITIAL = "initial"
 
 _RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -31,21 +31,21 @@ _CHECKS = {True: Qt.CheckState.Checked, False: Qt.CheckState.Unchecked}
 
 @dataclass(frozen=True, eq=False)
 class ComparisonRow:
-    """A row.
+    """Row of the table.
 
     Parameters
     ----------
     name : str
-        Of the method, or `INITIAL`.
+        Name of the method, or `INITIAL`.
     help : str
-        What the row's tooltip says.
+        Tooltip of the row.
     record : mapping
-        The figures, by the keys of `hexmend.report.comparison.LINES`, and "worse", names of those that are worse than
-        the initial mesh's; empty while there are none.
+        Values by the keys of `hexmend.report.comparison.LINES`, and "worse", the names of the regressions; empty
+        without a result.
     has_mesh : bool
-        Whether there is a mesh to be shown or taken.
+        There is a mesh to show or use.
     shown : bool
-        Whether it is in a view.
+        The mesh is in a view.
     """
 
     name: str
@@ -64,34 +64,34 @@ def title_of(name: str) -> str:
     return METHODS[name].title if name in METHODS else name
 
 
-def best(entries: Sequence[ComparisonRow], figure: Quantity) -> set[str]:
-    """Names of the methods whose figure is the best; none where there is nothing to choose.
+def best(entries: Sequence[ComparisonRow], quantity: Quantity) -> set[str]:
+    """Return the names of the methods with the best value; none if all values are equal or neither is better.
 
-    >>> rows = [ComparisonRow("a", "", {"q_min": 0.1}), ComparisonRow("b", "", {"q_min": 0.3}), ComparisonRow("c", "", {})]
+    >>> rows = [ComparisonRow(name, "", {"q_min": value}) for name, value in (("a", 0.1), ("b", 0.3))]
     >>> best(rows, next(one for one in LINES if one.key == "q_min"))
     {'b'}
     """
-    sense = figure.better
-    known = {
-        one.name: sense * one.record[figure.key]
-        for one in entries
-        if one.name != INITIAL and one.record.get(figure.key) is not None
+    sign = quantity.better
+    values = {
+        entry.name: sign * entry.record[quantity.key]
+        for entry in entries
+        if entry.name != INITIAL and entry.record.get(quantity.key) is not None
     }
-    if not sense or len(set(known.values())) < 2:
+    if not sign or len(set(values.values())) < 2:
         return set()
-    most = max(known.values())
-    return {name for name, value in known.items() if value == most}
+    highest = max(values.values())
+    return {name for name, value in values.items() if value == highest}
 
 
 class ComparisonModel(QAbstractTableModel):
-    """Rows that can be sorted, the mesh as it was always first; checks for what is to run and what is in a view.
+    """Model of the table, with the initial mesh always first, and check boxes for methods to run and meshes to show.
 
     Signals
     -------
     view_toggled(name, on)
-        The user wants a row's mesh in a view, or out of it.
+        The user showed or hid the mesh of a row.
     ticked
-        Other methods are to run.
+        The selection of methods changed.
     """
 
     view_toggled = Signal(str, bool)
@@ -106,20 +106,20 @@ class ComparisonModel(QAbstractTableModel):
         self._best: list[set[str]] = [set() for _ in LINES]
 
     def fill(self, entries: Sequence[ComparisonRow], full: bool, busy: bool) -> None:
-        """Take rows, whether there is no room for another view, and whether methods are at work."""
+        """Show rows; see `ComparePanel.set_entries` for the parameters."""
         entries = self._sorted(entries)
         same = [one.name for one in entries] == [one.name for one in self.entries]
         if not same:
             self.beginResetModel()
         self.entries, self.full, self.busy = entries, full, busy
-        self._best = [best(entries, figure) for figure in LINES]
-        if same:  # the view keeps what is chosen, and where it is scrolled to
+        self._best = [best(entries, quantity) for quantity in LINES]
+        if same:  # the view keeps its selection and scroll position
             self.dataChanged.emit(self.index(0, 0), self.index(len(entries) - 1, self.columnCount() - 1))
         else:
             self.endResetModel()
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
-        """Order the rows by a column; what has no figure comes last."""
+        """Sort the rows by a column; rows without a value come last."""
         self._order = (column, order)
         self.layoutAboutToBeChanged.emit()
         before = [one.name for one in self.entries]
@@ -132,20 +132,19 @@ class ComparisonModel(QAbstractTableModel):
     def _sorted(self, entries: Sequence[ComparisonRow]) -> list[ComparisonRow]:
         column, order = self._order
         first = [one for one in entries if one.name == INITIAL]
-        known, without = [], []
-        for one in entries:
-            if one.name != INITIAL:
-                (known if self._value(one, column) is not None else without).append(one)
-        known.sort(key=lambda one: self._value(one, column), reverse=order == Qt.SortOrder.DescendingOrder)
-        return first + known + without
+        methods = [one for one in entries if one.name != INITIAL]
+        with_value = [one for one in methods if self._value(one, column) is not None]
+        without_value = [one for one in methods if self._value(one, column) is None]
+        with_value.sort(key=lambda one: self._value(one, column), reverse=order == Qt.SortOrder.DescendingOrder)
+        return first + with_value + without_value
 
     def _value(self, entry: ComparisonRow, column: int) -> Any:
-        if column == METHOD:  # those that have run first
+        if column == METHOD:  # methods with a result first
             return not entry.record, title_of(entry.name)
         return entry.shown if column == VIEW else entry.record.get(LINES[column - _FIRST].key)
 
     def tick(self, names: Iterable[str]) -> None:
-        """Have these methods run, and no others."""
+        """Select these methods only."""
         self.ticks = set(names)
         if self.entries:
             self.dataChanged.emit(self.index(0, METHOD), self.index(len(self.entries) - 1, METHOD))
@@ -158,31 +157,31 @@ class ComparisonModel(QAbstractTableModel):
         return 0 if parent is not None and parent.isValid() else _FIRST + len(LINES)
 
     def flags(self, index: QModelIndex) -> Qt.ItemFlag:
-        entry, simple = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
+        entry, selectable = self.entries[index.row()], _Flag.ItemIsEnabled | _Flag.ItemIsSelectable
         if index.column() == METHOD and entry.name != INITIAL:
-            return simple | _Flag.ItemIsUserCheckable if not self.busy else simple
+            return selectable | _Flag.ItemIsUserCheckable if not self.busy else selectable
         if index.column() == VIEW:
-            free = entry.has_mesh and (entry.shown or not self.full)
-            return simple | _Flag.ItemIsUserCheckable if free else _Flag.ItemIsSelectable
-        return simple
+            can_toggle = entry.has_mesh and (entry.shown or not self.full)
+            return selectable | _Flag.ItemIsUserCheckable if can_toggle else _Flag.ItemIsSelectable
+        return selectable
 
     def data(self, index: QModelIndex, role: int = _Role.DisplayRole) -> Any:
         entry, column = self.entries[index.row()], index.column()
-        figure = LINES[column - _FIRST] if column >= _FIRST else None
+        quantity = LINES[column - _FIRST] if column >= _FIRST else None
         if role == _Role.DisplayRole:
-            return (
-                title_of(entry.name) if column == METHOD else figure.of(entry.record) if figure and entry.record else ""
-            )
+            if column == METHOD:
+                return title_of(entry.name)
+            return quantity.of(entry.record) if quantity and entry.record else ""
         if role == _Role.CheckStateRole:
             return self._check(entry, column)
         if role == _Role.TextAlignmentRole:
-            return _RIGHT if figure and figure.key != "outcome" else _LEFT
+            return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
         if role == _Role.ToolTipRole:
             if column == VIEW and entry.has_mesh and self.full and not entry.shown:
-                return "Close a view first: there is room for four."
+                return "Close a view first: at most four can be open."
             return f"<qt>{entry.help}</qt>"
-        if figure is not None:
-            return self._emphasis(entry, figure, entry.name in self._best[column - _FIRST], role)
+        if quantity is not None:
+            return self._emphasis(entry, quantity, entry.name in self._best[column - _FIRST], role)
         return None
 
     def _check(self, entry: ComparisonRow, column: int) -> Qt.CheckState | None:
@@ -190,18 +189,17 @@ class ComparisonModel(QAbstractTableModel):
             return _CHECKS[entry.name in self.ticks]
         return _CHECKS[entry.shown] if column == VIEW and entry.has_mesh else None
 
-    def _emphasis(self, entry: ComparisonRow, figure: Quantity, is_best: bool, role: int) -> Any:
+    def _emphasis(self, entry: ComparisonRow, quantity: Quantity, is_best: bool, role: int) -> Any:
         if role == _Role.FontRole and is_best:
             font = tabular(QFont())
             font.setBold(True)
             return font
-        fallen = figure.key in {REGRESSION_KEYS[name] for name in entry.record.get("worse", ())}
-        if role == _Role.AccessibleTextRole and (is_best or fallen):
-            words = [figure.of(entry.record), *["best"] * is_best, *["worse than initial"] * fallen]
-            return ", ".join(words)
+        regressed = quantity.key in {REGRESSION_KEYS[name] for name in entry.record.get("worse", ())}
+        if role == _Role.AccessibleTextRole and (is_best or regressed):
+            return ", ".join([quantity.of(entry.record), *["best"] * is_best, *["worse than initial"] * regressed])
         if role == _Role.ForegroundRole:
-            wrong = fallen or (figure.key == "inverted" and entry.record.get("inverted"))
-            colour = WORSE if wrong else BETTER if is_best else None
+            bad = regressed or (quantity.key == "inverted" and entry.record.get("inverted"))
+            colour = WORSE if bad else BETTER if is_best else None
             return colour and QBrush(QColor(str(colour)))
         return None
 
@@ -220,17 +218,17 @@ class ComparisonModel(QAbstractTableModel):
     def headerData(self, section: int, orientation: Qt.Orientation, role: int = _Role.DisplayRole) -> Any:
         if orientation != Qt.Orientation.Horizontal:
             return None
-        figure = LINES[section - _FIRST] if section >= _FIRST else None
+        quantity = LINES[section - _FIRST] if section >= _FIRST else None
         if role == _Role.DisplayRole:
-            return label(figure, [one.record for one in self.entries]) if figure else ("Method", "View")[section]
+            return label(quantity, [one.record for one in self.entries]) if quantity else ("Method", "View")[section]
         if role == _Role.TextAlignmentRole:
-            return _RIGHT if figure and figure.key != "outcome" else _LEFT
+            return _RIGHT if quantity and quantity.key != "outcome" else _LEFT
         if role == _Role.ForegroundRole:
             return QBrush(QColor(str(MUTED)))
         if role == _Role.ToolTipRole:
-            words = figure.help if figure else (
-                "What is ticked runs. A click on a column's head sorts by it.",
-                "Selected results are shown in views next to the present mesh.",
+            help = quantity.help if quantity else (
+                "Select the methods to run. Click a column header to sort.",
+                "Select the results to show in views next to the current mesh.",
             )[section]  # fmt: skip
-            return f"<qt>{words}</qt>"
+            return f"<qt>{help}</qt>"
         return None

@@ -1,4 +1,4 @@
-"""Methods on the same mesh, compared: the lines between their results, the table and the views."""
+"""Feature that compares methods on the same mesh."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from hexmend_app.state.session.user_events import TableExported
 from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
 from hexmend_app.widgets.wording import counted
 
-#: Methods that are ticked at first: the plain one, the fast one, an optimiser of the thesis, and the default.
+#: Methods selected by default: the simplest, a fast one, an optimiser of the thesis, and the default method.
 TICKED = ("laplacian", "getme", "local-sd", "mend")
 
-_KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;Everything, for programs (*.json)"
+_KINDS = "Table (*.csv);;Markdown (*.md);;LaTeX (*.tex);;All data (*.json)"
 
 
 class FeatureCompare(Feature):
-    """Has methods compared, and shows what they made of the mesh beside it."""
+    """Runs comparisons, and shows their results in a table and in views."""
 
     order = 58
 
@@ -39,7 +39,7 @@ class FeatureCompare(Feature):
         session = self.session
         self._comparison, self._views = session.comparison, session.side_views
         self._seen = ChangeTracker()
-        self._style = ChartStyle()  # what was called what in the last table
+        self._style = ChartStyle()  # of the last saved table
         panel = self.panel = ComparePanel(TICKED)
         panel.run_requested.connect(self._run)
         panel.cancel_requested.connect(self._comparison.cancel)
@@ -50,25 +50,25 @@ class FeatureCompare(Feature):
         panel.offer_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
-        """Compare, and end that."""
+        """Return the actions that run and cancel a comparison."""
         return (
             Action(
                 id="compare",
-                text="&Run the comparison",
+                text="&Run comparison",
                 menu="Compare",
                 keys="F6",
                 icon="play",
-                help="Run the methods that are ticked in the panel one after another; the mesh stays as it is.",
+                help="Run the methods selected in the panel in turn. The mesh does not change.",
                 handle=self.panel.run,
                 enabled=lambda: self.panel.can_run,
             ),
             Action(
                 id="cancel_comparison",
-                text="&Cancel the comparison",
+                text="&Cancel comparison",
                 menu="Compare",
                 keys="Shift+F6",
                 icon="stop",
-                help="End the comparison after the iteration at hand, and keep what has been reached.",
+                help="Stop the comparison after the current iteration and keep the results.",
                 handle=self._comparison.cancel,
                 enabled=lambda: self._comparison.busy and not self._comparison.ending,
             ),
@@ -81,7 +81,7 @@ class FeatureCompare(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The table of methods."""
+        """Return the panel of methods."""
         return (
             Panel(
                 id="compare",
@@ -89,23 +89,23 @@ class FeatureCompare(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=20,
-                help="What each method makes of the mesh, in a table and in views.",
+                help="Results of each method in a table and in views.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show what the methods reached, and what can be done with it."""
+        """Show results and progress."""
         comparison, views, session = self._comparison, self._views, self.session
         if self._seen.changed("table", comparison.results, comparison.initial, views.all, comparison.busy):
             norm = common_norm(one.row for one in comparison.results)
             entries = [self._initial(norm), *(self._entry(name, comparison.of(name), norm) for name in METHODS)]
             self.panel.set_entries(entries, views.full, comparison.busy)
-        runnable = session.editable and not comparison.busy  # two at once would spoil each other's times
+        runnable = session.editable and not comparison.busy  # a second comparison would distort the times
         self.panel.set_state(runnable, session.editable, bool(views.all), views.wipe is not None)
-        self._say()
+        self._show_status()
 
     def _close_results(self) -> None:
-        """Close the views of what is about to be forgotten; others, such as those of iterations, stay."""
+        """Close the views of the previous results."""
         results = [self._comparison.initial, *(one.state for one in self._comparison.results)]
         for number, shown in reversed(list(enumerate(self._views.all, 1))):
             if any(shown.state is state for state in results):
@@ -116,35 +116,33 @@ class FeatureCompare(Feature):
     def _initial(self, norm: ObjectiveNorm) -> ComparisonRow:
         state = self._comparison.initial
         if state is None:
-            return ComparisonRow(INITIAL, "The mesh as it is when the methods begin.", {})
-        help = "The mesh as it was when the methods began."
-        return ComparisonRow(INITIAL, help, _figures(state, norm), True, self._views.shows(state))
+            return ComparisonRow(INITIAL, "The mesh from which the methods start.", {})
+        help = "The mesh from which the methods started."
+        return ComparisonRow(INITIAL, help, _mesh_values(state, norm), True, self._views.shows(state))
 
-    def _entry(self, name: str, compared: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
+    def _entry(self, name: str, result: MethodResult | None, norm: ObjectiveNorm) -> ComparisonRow:
         method = METHODS[name]
-        if compared is None:
+        if result is None:
             return ComparisonRow(name, f"<b>{method.title}</b><br>{method.help}", {})
-        row, state = compared.row, compared.state
-        figures = {one.key: getattr(row, one.key, None) for one in LINES}
-        record = figures | (_figures(state, norm) if state is not None else {}) | {"worse": row.worse}
+        row, state = result.row, result.state
+        values = {one.key: getattr(row, one.key, None) for one in LINES}
+        record = values | (_mesh_values(state, norm) if state is not None else {}) | {"worse": row.worse}
         shown = state is not None and self._views.shows(state)
         return ComparisonRow(name, f"<b>{method.title}</b><br>{row.message}", record, state is not None, shown)
 
-    def _say(self) -> None:
-        comparison, done = self._comparison, len(self._comparison.results)
-        at = comparison.progress
-        if at is None:
-            ended = f"{counted(done, 'method')} compared" if done else ""
-            self.panel.set_status(f"{ended}, interrupted" if comparison.interrupted and ended else ended)
+    def _show_status(self) -> None:
+        comparison, progress = self._comparison, self._comparison.progress
+        if progress is None:
+            interrupted = ", interrupted" if comparison.interrupted else ""
+            count = len(comparison.results)
+            self.panel.set_status(f"{counted(count, 'method')} compared{interrupted}" if count else "")
         elif comparison.ending:
-            self.panel.set_status(f"Ending {title_of(at.method)} after this iteration…")
-        elif at.iteration:
-            additional = f"iteration {at.iteration:,}, {at.seconds:.1f} s"
-            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): {additional}")
+            self.panel.set_status(f"Stopping {title_of(progress.method)} after this iteration…")
         else:
-            self.panel.set_status(f"{title_of(at.method)} ({at.at + 1} of {at.of}): preparing…")
+            step = f"iteration {progress.iteration:,}, {progress.seconds:.1f} s" if progress.iteration else "preparing…"
+            self.panel.set_status(f"{title_of(progress.method)} ({progress.at + 1} of {progress.of}): {step}")
 
-    # What the user asks for
+    # Requests of the user
 
     def _run(self, names: list[str]) -> None:
         self.session.run_setup.use(lambda stage: self._start(names, stage))
@@ -170,43 +168,43 @@ class FeatureCompare(Feature):
             self._views.close_view(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
     def _take(self, name: str) -> None:
-        title = "go back to the compared mesh" if name == INITIAL else METHODS[name].title
+        title = "restore initial mesh" if name == INITIAL else METHODS[name].title
         self.session.commands.take(title, self._state_of(name))
 
     # Files
 
     def ask(self) -> None:
-        """Ask what is called what in the table and where it goes, and write it."""
-        if given := answer(self.dialog()):
-            path, self._style = given
+        """Ask for the names and the file of the table, and write it."""
+        if chosen := answer(self.dialog()):
+            path, self._style = chosen
             self.save(path, self._style)
 
     def dialog(self) -> TableDialog:
-        """The dialog that asks: names are as they were last."""
+        """Return the dialog that saves the table, with the names used last."""
         record = self._comparison.to_data().record()
         names = ["initial", *(row["method"] for row in record["rows"])]
-        proposed = f"{self.host.stem}-comparison.csv"
+        file_name = f"{self.host.stem}-comparison.csv"
 
         def text(style: ChartStyle) -> str:
             return markdown(record_table(record, style.names, style.title))
 
         title = record_table(record).title
-        return TableDialog(text, "the table", proposed, _KINDS, self._style, title, names, self.host.dialog_parent)
+        return TableDialog(text, "the table", file_name, _KINDS, self._style, title, names, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
-        """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; whether it was."""
+        """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
         names, title = (None, None) if style is None else (style.names, style.title)
-        written = self.host.try_and_report(
-            "The table was not saved",
+        saved = self.host.try_and_report(
+            "Table not saved",
             lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
             f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
         )
-        if written:
+        if saved:
             self.session.user_event.emit(TableExported(Path(path), names, title))
-        return written
+        return saved
 
 
-def _figures(state: State, norm: ObjectiveNorm) -> dict[str, Any]:
-    """The figures of a mesh, its objective by the p and offset that the table compares by."""
-    own = {"objective": objective(state.figures, *norm), "objective_formula": norm.formula}
-    return state.summary.to_dict() | own
+def _mesh_values(state: State, norm: ObjectiveNorm) -> dict[str, Any]:
+    """Return the values of a mesh, with the objective in the norm of the table."""
+    norm_values = {"objective": objective(state.figures, *norm), "objective_formula": norm.formula}
+    return state.summary.to_dict() | norm_values

@@ -1,4 +1,4 @@
-"""A Python console in the window, whose commands use and change the open mesh."""
+"""Feature with a Python console whose commands use and change the open mesh."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from hexmend_app.features.console.panel import ConsolePanel
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.task import Task
 
-#: Milliseconds between two looks at what a command has printed.
+#: Milliseconds between two updates of the output.
 _PERIOD = 50
 
 
 class FeatureConsole(Feature):
-    """Runs commands in a thread, shows their output, and makes what they assign to `mesh` an edit."""
+    """Runs commands in a thread, shows their output, and makes a mesh assigned to `mesh` an undoable edit."""
 
     order = 59
 
@@ -34,14 +34,14 @@ class FeatureConsole(Feature):
         self.panel = ConsolePanel()
         self.panel.entered.connect(self.enter)
         self.panel.interrupt_requested.connect(self.interrupt)
-        self.panel.completions = lambda text: self._prepared().completions(text)
+        self.panel.completions = lambda text: self._get_interpreter().completions(text)
         self._timer = QTimer(self, interval=_PERIOD)
         self._timer.timeout.connect(self._show_output)
         self.session.run.ended.connect(self._on_ended)
         self.session.document.mesh_replaced.connect(lambda: self._on_ended(None))
 
     def actions(self) -> Sequence[Action]:
-        """Show the console."""
+        """Return the action that opens the console."""
         return (
             Action(
                 id="console",
@@ -49,14 +49,14 @@ class FeatureConsole(Feature):
                 menu="Edit",
                 keys="Ctrl+`",
                 icon="console",
-                help="Enter Python commands that use and change the open mesh.",
+                help="Open a Python console that uses and changes the open mesh.",
                 handle=self.show,
                 needs_mesh=False,
             ),
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The console."""
+        """Return the console."""
         return (
             Panel(
                 id="console",
@@ -64,12 +64,12 @@ class FeatureConsole(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=80,
-                help="Python commands that use and change the open mesh.",
+                help="Python console that uses and changes the open mesh.",
             ),
         )
 
     def show(self) -> None:
-        """Open the console, ready for a command."""
+        """Open the console and focus its input."""
         self.host.show_panel("console")
         self.panel.input.setFocus()
 
@@ -79,7 +79,7 @@ class FeatureConsole(Feature):
         return self._task is not None
 
     def enter(self, source: str) -> None:
-        """Run source that is complete; else begin its next line."""
+        """Run source code if it is complete, otherwise begin a new line."""
         if self.running:
             return
         if not is_complete(source):
@@ -90,30 +90,30 @@ class FeatureConsole(Feature):
             self.run(source)
 
     def run(self, source: str) -> None:
-        """Run source in a thread; nothing while another command runs."""
+        """Run source code in a thread, unless another command runs."""
         if self.running:
             return
-        interpreter, document = self._prepared(), self.session.document
+        interpreter, document = self._get_interpreter(), self.session.document
         mesh = document.now.mesh if document.is_open else None
         interpreter.namespace.update(mesh=mesh, result=self._result)
 
-        def work(_: Task) -> State | None:
+        def execute(_: Task) -> State | None:
             interpreter.execute(source)
             return _new_state(interpreter, mesh)
 
-        self._task = Task("console", work, yields=True)
+        self._task = Task("console", execute, yields=True)
         self._task.ended.connect(self._finish)
         self.panel.set_running(True)
         self._timer.start()
         self._task.start()
 
     def interrupt(self) -> None:
-        """Raise KeyboardInterrupt in the command under way."""
+        """Raise KeyboardInterrupt in the running command."""
         if self.running:
             self._interpreter.interrupt()
 
     def close(self) -> None:
-        """End the command under way."""
+        """End the running command."""
         self._timer.stop()
         if self._caller is not None:
             self._caller.close()
@@ -123,7 +123,7 @@ class FeatureConsole(Feature):
         self._task = self._interpreter = self._caller = None
         self.panel.set_running(False)
 
-    def _prepared(self) -> Interpreter:
+    def _get_interpreter(self) -> Interpreter:
         if self._interpreter is None:
             caller = self._caller = GuiCaller(self)
             names = {"__name__": "__console__", "hx": hexmend, "mesh": None, "result": None}
@@ -146,21 +146,21 @@ class FeatureConsole(Feature):
         if task.error is not None:
             self.panel.print_error(f"{type(task.error).__name__}: {task.error}\n")
         elif task.result is not None and not self.session.commands.replace_mesh("console", task.result):
-            self.panel.print_error("The mesh was not changed: a run, a repair or a file is under way.\n")
+            self.panel.print_error("Mesh not changed: a run, a repair or a file operation is in progress.\n")
         self.panel.set_running(False)
 
 
 def _new_state(interpreter: Interpreter, mesh: Mesh | None) -> State | None:
-    """The mesh that a command assigned, measured and with what the view draws it from; None without a new one."""
+    """Return the state of a mesh assigned by a command, with data for drawing; None if there is no new mesh."""
     new = interpreter.namespace.get("mesh")
     if new is mesh:
         return None
     if not isinstance(new, Mesh):
-        kind = type(new).__name__
-        interpreter.write(f"The mesh was not changed: expected a hexmend Mesh as mesh, not {kind}.\n", True)
+        type_name = type(new).__name__
+        interpreter.write(f"Mesh not changed: expected mesh to be a hexmend Mesh, not {type_name}.\n", True)
         return None
     if mesh is None or new.hexes is not mesh.hexes:
         new = new.keeping_surface()
     state = State.of(new)
-    _ = new.topology.face_neighbours, new.topology.layers
+    _ = new.topology.face_neighbours, new.topology.layers  # computed here rather than in the GUI thread
     return state

@@ -1,4 +1,4 @@
-"""Objects of the window as a thread may use them: every access happens in the window's thread."""
+"""Proxies of GUI objects for other threads: every access happens in the GUI thread."""
 
 from __future__ import annotations
 
@@ -8,31 +8,31 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-#: Modules whose objects are used in the window's thread alone.
+#: Modules whose objects are used in the GUI thread only.
 _GUI_MODULES = ("hexmend_app.canvas", "hexmend_app.scene", "pyvista.plotting", "pyvistaqt", "vtkmodules.vtkRendering")
 
 
 class GuiCaller(QObject):
-    """Calls functions in the thread that it belongs to, and waits for what they return."""
+    """Calls functions in the GUI thread from other threads, and waits for their results."""
 
-    _asked = Signal(object)
+    _requested = Signal(object)
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._owner = threading.get_ident()
         self._closed = False
-        self._asked.connect(self._perform, Qt.ConnectionType.QueuedConnection)
+        self._requested.connect(self._perform, Qt.ConnectionType.QueuedConnection)
 
     def call(self, function: Callable[[], Any]) -> Any:
-        """Call a function in the window's thread; return or raise what it does."""
+        """Call a function in the GUI thread; return its result or raise its exception."""
         if threading.get_ident() == self._owner:
             return function()
         if self._closed:
             raise RuntimeError("the window is closed")
         call = _Call(function)
-        self._asked.emit(call)
+        self._requested.emit(call)
         try:
-            while not call.over.wait(0.1):  # an interruption comes between two waits
+            while not call.over.wait(0.1):  # KeyboardInterrupt is raised between two waits
                 if self._closed:
                     raise RuntimeError("the window is closed")
         finally:
@@ -45,7 +45,7 @@ class GuiCaller(QObject):
         call.perform()
 
     def close(self) -> None:
-        """Let threads that wait go on with an error."""
+        """Raise `RuntimeError` in threads that wait for a call."""
         self._closed = True
 
 
@@ -62,19 +62,19 @@ class _Call:
             return
         try:
             self.result = self.function()
-        except BaseException as error:  # raised where it was called for
+        except BaseException as error:  # raised in the calling thread
             self.error = error
         finally:
             self.over.set()
 
 
 class GuiProxy:
-    """An object of the window. What it returns is a proxy too where it belongs to the window.
+    """Proxy of a GUI object; GUI objects that it returns are proxies too.
 
     Parameters
     ----------
     target : callable
-        Returns the object; called in the window's thread at each use.
+        Returns the object; called in the GUI thread at each access.
     caller : GuiCaller
     """
 
@@ -84,56 +84,56 @@ class GuiProxy:
         object.__setattr__(self, "_GuiProxy__target", target)
         object.__setattr__(self, "_GuiProxy__caller", caller)
 
-    def __use(self, use: Callable[[Any], Any]) -> Any:
+    def __access(self, operation: Callable[[Any], Any]) -> Any:
         target, caller = self.__target, self.__caller
-        return caller.call(lambda: _wrapped(use(target()), caller))
+        return caller.call(lambda: _wrapped(operation(target()), caller))
 
     def __getattr__(self, name: str) -> Any:
-        return self.__use(lambda target: getattr(target, name))
+        return self.__access(lambda target: getattr(target, name))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        self.__use(lambda target: setattr(target, name, unwrapped(value)))
+        self.__access(lambda target: setattr(target, name, unwrapped(value)))
 
     def __call__(self, *values: Any, **options: Any) -> Any:
-        def use(target: Any) -> Any:
+        def call(target: Any) -> Any:
             return target(*map(unwrapped, values), **{name: unwrapped(value) for name, value in options.items()})
 
-        return self.__use(use)
+        return self.__access(call)
 
     def __getitem__(self, key: Any) -> Any:
-        return self.__use(lambda target: target[unwrapped(key)])
+        return self.__access(lambda target: target[unwrapped(key)])
 
     def __iter__(self) -> Any:
         caller = self.__caller
-        return iter(self.__use(lambda target: [_wrapped(value, caller) for value in target]))
+        return iter(self.__access(lambda target: [_wrapped(value, caller) for value in target]))
 
     def __len__(self) -> int:
-        return self.__use(len)
+        return self.__access(len)
 
     def __eq__(self, other: object) -> bool:
-        return self.__use(lambda target: target == unwrapped(other))
+        return self.__access(lambda target: target == unwrapped(other))
 
     def __hash__(self) -> int:
-        return self.__use(hash)
+        return self.__access(hash)
 
     def __dir__(self) -> list[str]:
-        return self.__use(dir)
+        return self.__access(dir)
 
     def __repr__(self) -> str:
-        return self.__use(repr)
+        return self.__access(repr)
 
 
 def unwrapped(value: Any) -> Any:
-    """Return the object behind a proxy, and anything else as it is."""
+    """Return the object of a proxy; other values unchanged."""
     return value._GuiProxy__target() if isinstance(value, GuiProxy) else value
 
 
 def _wrapped(value: Any, caller: GuiCaller) -> Any:
     owner = getattr(value, "__self__", None) if callable(value) else None
-    if _is_of_window(value) or (owner is not None and _is_of_window(owner)):
+    if _is_gui_object(value) or (owner is not None and _is_gui_object(owner)):
         return GuiProxy(lambda: value, caller)
     return value
 
 
-def _is_of_window(value: Any) -> bool:
+def _is_gui_object(value: Any) -> bool:
     return isinstance(value, QObject) or type(value).__module__.startswith(_GUI_MODULES)

@@ -1,8 +1,8 @@
-"""Runs Python source in a thread, so that the window stays alive and a loop without end can be interrupted.
+"""Interpreter of the console, which runs each command in a thread so that it can be interrupted.
 
-qtconsole's in-process kernel runs its code in the window's thread: an endless loop freezes the window, and no button
-can end it; its import and start take 0.7 s of processor time. Here each command runs in a separate thread;
-`interrupt` raises KeyboardInterrupt there at the next line of Python. Calls into the window go through `gui_proxy`.
+qtconsole's in-process kernel runs code in the GUI thread: an endless loop freezes the window and cannot be stopped, and
+its import and start take 0.7 s of processor time. Here `interrupt` raises KeyboardInterrupt in the thread of the
+command at the next line of Python. Calls into the window use `gui_proxy`.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from codeop import compile_command
 from collections import deque
 from typing import Any
 
-#: Characters of output that may wait to be shown before what prints has to wait.
-_WAITING = 200_000
+#: Largest number of characters of output to be shown; beyond it, a command waits before it prints more.
+_MAX_PENDING = 200_000
 
 
 class Interpreter:
@@ -29,21 +29,21 @@ class Interpreter:
     Parameters
     ----------
     namespace : dict
-        Names that commands find, and where they leave theirs.
+        Global names of the commands.
     """
 
     def __init__(self, namespace: dict[str, Any]):
         self.namespace = namespace
         self._output: deque[tuple[str, bool]] = deque()
-        self._waiting = 0
+        self._pending = 0
         self._lock = threading.Lock()
         self._thread: int | None = None
         self._count = 0
 
     def execute(self, source: str) -> bool:
-        """Execute source, and print the value of its last expression; return True if nothing was raised.
+        """Execute source code and print the value of its last expression; return True if it raised nothing.
 
-        What it prints and raises is among what `output` returns.
+        `output` returns printed text and exceptions.
         """
         self._count += 1
         name = f"<console {self._count}>"
@@ -59,7 +59,7 @@ class Interpreter:
                 sys.stdout, sys.stderr = streams
                 with self._lock:
                     self._thread = None
-        except BaseException as error:  # whatever it is, the console shows it
+        except BaseException as error:  # SystemExit too is shown in the console
             self.print_error(error, name)
             return False
         return True
@@ -75,18 +75,18 @@ class Interpreter:
                 self.write(f"{value!r}\n")
 
     def print_error(self, error: BaseException, name: str = "") -> None:
-        """Print an exception, with the lines of the command but not of the console itself."""
-        where = error.__traceback__
-        while where is not None and where.tb_frame.f_code.co_filename != name:
-            where = where.tb_next
+        """Print an exception with its traceback, without the frames of the console."""
+        frames = error.__traceback__
+        while frames is not None and frames.tb_frame.f_code.co_filename != name:
+            frames = frames.tb_next
         if isinstance(error, KeyboardInterrupt):
             text = "KeyboardInterrupt\n"
         else:
-            text = "".join(traceback.format_exception(type(error), error, where))
+            text = "".join(traceback.format_exception(type(error), error, frames))
         self.write(text, True)
 
     def interrupt(self) -> None:
-        """Raise KeyboardInterrupt in the command under way, if there is one."""
+        """Raise KeyboardInterrupt in the running command, if any."""
         with self._lock:
             if self._thread is not None:
                 thread = ctypes.c_ulong(self._thread)
@@ -94,38 +94,38 @@ class Interpreter:
 
     @property
     def thread(self) -> int | None:
-        """Identifier of the thread in which a command runs; None between commands."""
+        """Identifier of the thread of the running command; None if no command runs."""
         return self._thread
 
     # Output
 
     def write(self, text: str, error: bool = False) -> None:
-        """Add to the output; waits where a command prints faster than can be shown."""
-        while self._waiting > _WAITING and self._thread == threading.get_ident():
+        """Add to the output; waits if a command prints faster than the output is read."""
+        while self._pending > _MAX_PENDING and self._thread == threading.get_ident():
             time.sleep(0.01)
         self._output.append((text, error))
-        self._waiting += len(text)
+        self._pending += len(text)
 
     def output(self) -> list[tuple[str, bool]]:
-        """Return the pieces of text since the last call, each with True if it is an error."""
+        """Return the pieces of text since the last call, as (text, is_error)."""
         pieces = []
         while self._output:
             pieces.append(self._output.popleft())
-        self._waiting = 0
+        self._pending = 0
         return pieces
 
     def completions(self, text: str) -> list[str]:
-        """Return the names that begin with a text such as `mesh.qu`, in order."""
-        from rlcompleter import Completer  # it loads readline
+        """Return the names that begin with a text, such as `mesh.qu`, sorted."""
+        from rlcompleter import Completer  # loads readline
 
-        completer, found = Completer(self.namespace), []
-        while (name := completer.complete(text, len(found))) is not None:
-            found.append(name)
-        return sorted({name.rstrip("(): ") for name in found})
+        completer, names = Completer(self.namespace), []
+        while (name := completer.complete(text, len(names))) is not None:
+            names.append(name)
+        return sorted({name.rstrip("(): ") for name in names})
 
 
 class _Stream(io.TextIOBase):
-    """Sends to the console what its thread prints, and elsewhere what other threads do."""
+    """Stream that sends text of the interpreter's thread to the console, of other threads to `other`."""
 
     def __init__(self, interpreter: Interpreter, error: bool, other: Any):
         self._interpreter, self._error, self._other = interpreter, error, other
@@ -142,7 +142,7 @@ class _Stream(io.TextIOBase):
 
 
 def is_complete(source: str) -> bool:
-    """Return True if Enter after this source runs it, False if it asks for another line.
+    """Return True if Enter runs the source code, False if it begins a new line.
 
     >>> is_complete("1 + 1"), is_complete("for i in range(3):"), is_complete("for i in range(3):\\n    print(i)\\n")
     (True, False, True)
@@ -151,6 +151,6 @@ def is_complete(source: str) -> bool:
         if compile_command(source, symbol="exec") is None:
             return False
     except (SyntaxError, ValueError, OverflowError):
-        return True  # the error is shown
+        return True  # run it to show the error
     last = source.split("\n")[-1]
     return "\n" not in source or not last.strip() or not last[0].isspace()

@@ -1,4 +1,4 @@
-"""The console: what was entered and printed, and below it the command that is being written."""
+"""Panel of the console: the output and, below it, the input."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from hexmend_app.theme.palette import MUTED, TEXT, WORSE
 from hexmend_app.theme.style import BLUE, LINE, icon, on_theme_change, set_help
 
 _WELCOME = (
-    "Python with mesh, result, session, plotter and hx. Assigning to mesh changes the open mesh; undo takes it back.\n"
+    "Python with mesh, result, session, plotter and hx. Assign to mesh to change the open mesh; this can be undone.\n"
 )
 
-#: Lines of output that are kept, and lines of a command that are shown at once.
-_LINES, _ROWS = 5000, 8
+#: Largest number of lines of output, and of visible lines of the input.
+_MAX_LINES, _MAX_ROWS = 5000, 8
 _INDENT = "    "
 
 
 class ConsolePanel(QWidget):
-    """Shows output, and takes commands with a history and completion.
+    """Panel with output, and an input with history and completion.
 
     Signals
     -------
     entered(str)
-        Enter was pressed: source that may be complete.
+        The user pressed Enter; the source code may be incomplete.
     interrupt_requested
     """
 
@@ -36,22 +36,22 @@ class ConsolePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
-        self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_LINES, font=font)
+        self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_MAX_LINES, font=font)
         self.output.setUndoRedoEnabled(False)
-        set_help(self.output, "Console output", "Shows what commands print and return.")
+        set_help(self.output, "Console output", "Output and values of commands.")
         self.input = QPlainTextEdit(font=font, tabChangesFocus=True)
         self.input.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
         self.input.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         set_help(
-            self.input, "Python command", "Enter runs the command, Shift+Enter begins a new line, Tab completes a name."
+            self.input, "Python command", "Press Enter to run, Shift+Enter for a new line, Tab to complete a name."
         )
         self.input.installEventFilter(self)
         self.input.textChanged.connect(self._fit)
         self._interrupt = QPushButton(icon("stop"), "Interrupt")
-        set_help(self._interrupt, "Interrupt the command", "Stop the command that is running (Ctrl+C).")
+        set_help(self._interrupt, "Interrupt command", "Stop the running command (Ctrl+C).")
         self._interrupt.clicked.connect(self.interrupt_requested)
         clear = QPushButton(icon("eraser"), "Clear")
-        set_help(clear, "Clear the output", "Remove all output from the console.")
+        set_help(clear, "Clear output", "Clear the output of the console.")
         clear.clicked.connect(self.output.clear)
         self._prompt = QLabel(">>>", font=font)
         on_theme_change(self, self._apply_theme)
@@ -79,23 +79,23 @@ class ConsolePanel(QWidget):
     # Output
 
     def print_text(self, text: str, colour: str = TEXT) -> None:
-        """Add text at the end; the end stays in sight if it was."""
+        """Append text; scroll to the end if it was visible."""
         bar = self.output.verticalScrollBar()
-        follows = bar.value() == bar.maximum()
+        at_end = bar.value() == bar.maximum()
         cursor = QTextCursor(self.output.document())
         cursor.movePosition(QTextCursor.MoveOperation.End)
-        style = QTextCharFormat()
-        style.setForeground(QColor(str(colour)))
-        cursor.insertText(text, style)
-        if follows:
+        text_format = QTextCharFormat()
+        text_format.setForeground(QColor(str(colour)))
+        cursor.insertText(text, text_format)
+        if at_end:
             bar.setValue(bar.maximum())
 
     def print_error(self, text: str) -> None:
-        """Add an error at the end."""
+        """Append an error."""
         self.print_text(text, WORSE)
 
     def echo(self, source: str) -> None:
-        """Show a command with its prompts, remember it, and empty the input."""
+        """Append a command with its prompts to output and history, and clear the input."""
         first, *rest = source.split("\n")
         self.print_text("\n".join([f">>> {first}", *(f"... {line}" for line in rest)]) + "\n", BLUE)
         if source.strip() and self._history[-1:] != [source]:
@@ -104,26 +104,26 @@ class ConsolePanel(QWidget):
         self.input.clear()
 
     def set_running(self, running: bool) -> None:
-        """Show that a command runs, or that another can be entered."""
+        """Show whether a command is running."""
         self._interrupt.setEnabled(running)
         self._prompt.setText("..." if running else ">>>")
 
     # Input
 
     def new_line(self) -> None:
-        """Begin a line of the command, indented like the one before, and more after a colon."""
+        """Begin a new line, indented like the previous one, and further after a colon."""
         cursor = self.input.textCursor()
         before = cursor.block().text()[: cursor.positionInBlock()]
         indent = before[: len(before) - len(before.lstrip())] + _INDENT * before.rstrip().endswith(":")
         cursor.insertText("\n" + indent)
 
     def _fit(self) -> None:
-        rows = min(max(1, self.input.blockCount()), _ROWS)
+        rows = min(max(1, self.input.blockCount()), _MAX_ROWS)
         margin = round(2 * self.input.document().documentMargin()) + 2 * self.input.frameWidth()
         self.input.setFixedHeight(rows * self.input.fontMetrics().lineSpacing() + margin + 2)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Run, complete, look through the history, interrupt."""
+        """Handle the keys of the input: run, complete, history, interrupt."""
         if event.type() == QEvent.Type.KeyPress:
             return self._on_key(event)
         return super().eventFilter(watched, event)
@@ -136,7 +136,7 @@ class ConsolePanel(QWidget):
                 self.new_line()
             else:
                 self.entered.emit(self.input.toPlainText())
-        elif key == Qt.Key.Key_Tab and self.input.toPlainText():  # else the keyboard goes on to the next control
+        elif key == Qt.Key.Key_Tab and self.input.toPlainText():  # in an empty input, Tab moves the focus
             self._complete(cursor)
         elif key == Qt.Key.Key_Up and cursor.blockNumber() == 0:
             self._recall(-1)
@@ -156,17 +156,17 @@ class ConsolePanel(QWidget):
         self.input.moveCursor(QTextCursor.MoveOperation.End)
 
     def _complete(self, cursor: QTextCursor) -> None:
-        """Complete the name before the cursor as far as it is clear, and list what it may become."""
+        """Complete the name before the cursor as far as it is unique, or list the candidates."""
         before = cursor.block().text()[: cursor.positionInBlock()]
         name = re.search(r"[\w.]*$", before).group()
         if not name:
             cursor.insertText(_INDENT)
             return
-        found = self.completions(name)
-        common = found[0] if found else ""
-        for other in found:
-            while not other.startswith(common):
+        names = self.completions(name)
+        common = names[0] if names else ""
+        for candidate in names:
+            while not candidate.startswith(common):
                 common = common[:-1]
         cursor.insertText(common[len(name) :])
-        if len(found) > 1 and common == name:
-            self.print_text("  ".join(one.rpartition(".")[2] for one in found) + "\n", MUTED)
+        if len(names) > 1 and common == name:
+            self.print_text("  ".join(candidate.rpartition(".")[2] for candidate in names) + "\n", MUTED)

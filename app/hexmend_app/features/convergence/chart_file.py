@@ -1,4 +1,4 @@
-"""The convergence charts as a file: a figure, or the figures of all runs."""
+"""Export of the convergence charts as a figure, or of the values of all runs as a table."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.convergence import Convergence, DrawnChart, DrawnCurve
 from hexmend.report.documents import write_csv
-from hexmend_app.features.convergence.charts import CHARTS, FIRST, Chart
-from hexmend_app.features.convergence.curves import Columns, Curve, beginning, colour_of
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, Chart
+from hexmend_app.features.convergence.curves import Columns, Curve, colour_of, run_start
 from hexmend_app.state.mesh.run_record import RunRecord
 
-#: Kinds of file.
+#: Suffixes of the files that can be written.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
@@ -23,7 +23,7 @@ def write_convergence(
     path: str | Path,
     title: str,
     runs: Sequence[RunRecord],
-    charts: Sequence[str] = FIRST,
+    charts: Sequence[str] = DEFAULT_CHARTS,
     *,
     by_time: bool = False,
     log: bool = True,
@@ -31,32 +31,32 @@ def write_convergence(
     current: RunRecord | None = None,
     style: ChartStyle | None = None,
 ) -> None:
-    """Write how runs went: charts as SVG, PDF or PNG, or all figures of all runs as CSV, by the path's suffix.
+    """Write the charts as SVG, PDF or PNG, or all values of all runs as CSV, by the suffix of the path.
 
     Parameters
     ----------
     path : path-like
     title : str
-        Above the figure.
-    runs : sequence of Record
+        Title of the figure.
+    runs : sequence of RunRecord
         The oldest first.
     charts : sequence of str
-        Names of `hexmend_app.features.convergence.charts.CHARTS`.
+        Keys of `hexmend_app.features.convergence.charts.CHARTS`.
     by_time : bool
-        Against seconds, not iterations.
+        Plot against seconds instead of iterations.
     log : bool
-        Axes of what says more so go by powers of ten.
+        Use logarithmic axes for the quantities that suit them.
     from_zero : bool
-        Branches begin at 0, not where they left their run.
-    current : Record, optional
-        The run that is drawn strongly.
+        Start branches at 0 instead of where they branched off.
+    current : RunRecord, optional
+        Run drawn with a thick line.
     style : ChartStyle, optional
-        Sizes and names.
+        Sizes, and other names of runs.
 
     Raises
     ------
     HexmendError
-        For another suffix, or where the file cannot be written; the one that was there stays.
+        If the suffix is another one or the file cannot be written; an existing file is not changed.
     """
     style = ChartStyle() if style is None else style
     if suffix_for(Path(path), "a chart", SUFFIXES) == ".csv":
@@ -69,14 +69,14 @@ def write_convergence(
 def figure(
     title: str,
     runs: Sequence[RunRecord],
-    charts: Sequence[str] = FIRST,
+    charts: Sequence[str] = DEFAULT_CHARTS,
     *,
     by_time: bool = False,
     log: bool = True,
     from_zero: bool = False,
     current: RunRecord | None = None,
 ) -> Convergence:
-    """The charts, on white paper; see `write_convergence`."""
+    """Return the charts as a figure; see `write_convergence` for the parameters."""
     curves = [_curve(run, from_zero, run is current) for run in runs if run.plotted and run.rows]
     drawn = [_drawn(CHARTS[key], curves, by_time, log) for key in charts]
     return Convergence(drawn, title, "seconds in the method" if by_time else "iteration", not by_time)
@@ -88,24 +88,24 @@ def _curve(run: RunRecord, from_zero: bool, current: bool) -> Curve:
     return Curve(
         columns,
         run.slot,
-        (0.0, 0.0) if from_zero else beginning(run),
+        (0.0, 0.0) if from_zero else run_start(run),
         shown=True,
         current=current,
-        going=False,
-        kept=run.numbers,
+        running=False,
+        stored=run.numbers,
     )
 
 
 def _rows(run: RunRecord, names: Mapping[str, str]) -> list[dict]:
-    """A row an iteration: the run, what it branched from, and every figure that there is; `names` are others' names."""
+    """Return a row for each iteration: the run, its parent, and all values; `names` maps runs to other names."""
     columns = Columns(run)
     columns.grow()
     name = names.get(run.name) or run.name
     parent = "" if run.parent is None else names.get(run.parent.name) or run.parent.name
-    each = columns.of("step_seconds")
+    step_seconds = columns.of("step_seconds")
     return [
         {"run": name, "branch_of": parent, **row, "step_seconds": seconds if at else None}
-        for at, (row, seconds) in enumerate(zip(run.rows, each.tolist(), strict=False))
+        for at, (row, seconds) in enumerate(zip(run.rows, step_seconds.tolist(), strict=False))
     ]
 
 
@@ -113,9 +113,9 @@ def _drawn(chart: Chart, curves: Sequence[Curve], by_time: bool, log: bool) -> D
     drawn = []
     for curve in curves:
         for at, quantity in enumerate(chart.quantities):
-            part = quantity.title if len(chart.quantities) > 1 else ""
+            label = quantity.title if len(chart.quantities) > 1 else ""
             x, y = curve.drawn(quantity.key, by_time)
             if np.isfinite(y).any():
                 name, colour = curve.record.name, colour_of(curve).light
-                drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, part))
+                drawn.append(DrawnCurve(name, colour, x.tolist(), y.tolist(), bool(at), curve.current, label))
     return DrawnChart(chart.title, drawn, log and chart.quantities[0].log, chart.quantities[0].whole)

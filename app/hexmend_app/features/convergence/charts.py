@@ -1,4 +1,4 @@
-"""Charts that can be plotted for a run."""
+"""Charts of the quantities of a run."""
 
 from __future__ import annotations
 
@@ -7,76 +7,76 @@ from dataclasses import dataclass
 from hexmend.iteration.figures import DIAGNOSTICS, HISTORY
 from hexmend.quantity import Quantity, format_significant
 
-#: The time of one iteration, which the plot takes from the times of two.
+#: Seconds per iteration: the plot computes them from the recorded times.
 STEP_SECONDS = Quantity(
     "step_seconds", "seconds per iteration", "Time that the method took for each iteration.", format_significant, -1
 )
-_FIGURES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
+_QUANTITIES = HISTORY | DIAGNOSTICS | {STEP_SECONDS.key: STEP_SECONDS}
 
 
 @dataclass(frozen=True)
-class Quantity:
-    """A figure of every iteration.
+class PlottedQuantity:
+    """Quantity of each iteration, and how to plot it.
 
     Parameters
     ----------
-    figure : Figure
-        Of `HISTORY`, `NOTES`, or `STEP_SECONDS`.
+    quantity : Quantity
+        Of `HISTORY` or `DIAGNOSTICS`, or `STEP_SECONDS`.
     log : bool
-        Whether its logarithm says more than itself.
+        A logarithmic axis suits it.
     whole : bool
-        Whether it is a count.
+        Its values are integers.
     """
 
-    figure: Quantity
+    quantity: Quantity
     log: bool = False
     whole: bool = False
 
     @property
     def key(self) -> str:
-        """Its name in records."""
-        return self.figure.key
+        """Key in records."""
+        return self.quantity.key
 
     @property
     def title(self) -> str:
-        """Its name in words."""
-        return self.figure.label
+        """Label in texts."""
+        return self.quantity.label
 
 
 @dataclass(frozen=True)
 class Chart:
-    """Quantities that are plotted over one another."""
+    """Chart of one or more quantities with a common axis."""
 
     key: str
     title: str
-    quantities: tuple[Quantity, ...]
+    quantities: tuple[PlottedQuantity, ...]
 
     @property
     def help(self) -> str:
-        """Return the help texts of the quantities."""
-        return " ".join(one.figure.help for one in self.quantities)
+        """Help texts of the quantities."""
+        return " ".join(one.quantity.help for one in self.quantities)
 
 
-def _alone(key: str, title: str = "", **style: bool) -> Chart:
-    return Chart(key, title or _FIGURES[key].label, (Quantity(_FIGURES[key], **style),))
+def _single(key: str, title: str = "", **options: bool) -> Chart:
+    return Chart(key, title or _QUANTITIES[key].label, (PlottedQuantity(_QUANTITIES[key], **options),))
 
 
-#: In the order in which it is offered.
+#: Charts by key, in menu order.
 CHARTS: dict[str, Chart] = {
     chart.key: chart
     for chart in (
-        _alone("objective", "objective", log=True),
-        Chart("quality", "quality", (Quantity(_FIGURES["q_min"]), Quantity(_FIGURES["q_mean"]))),
-        _alone("inverted", "inverted hexes", log=True, whole=True),
-        _alone("largest_move", log=True),
-        _alone("gradient_norm", log=True),
-        _alone("step_length", log=True),
-        _alone("solver_iterations", whole=True),
-        _alone("backtracks", whole=True),
-        _alone("step_seconds", log=True),
-        _alone("delta", log=True),
+        _single("objective", "objective", log=True),
+        Chart("quality", "quality", (PlottedQuantity(_QUANTITIES["q_min"]), PlottedQuantity(_QUANTITIES["q_mean"]))),
+        _single("inverted", "inverted hexes", log=True, whole=True),
+        _single("largest_move", log=True),
+        _single("gradient_norm", log=True),
+        _single("step_length", log=True),
+        _single("solver_iterations", whole=True),
+        _single("backtracks", whole=True),
+        _single("step_seconds", log=True),
+        _single("delta", log=True),
     )
 }
 
-#: What is plotted at first.
-FIRST = ("objective", "quality", "inverted")
+#: Charts shown by default.
+DEFAULT_CHARTS = ("objective", "quality", "inverted")

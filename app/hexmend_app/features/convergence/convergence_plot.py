@@ -1,4 +1,4 @@
-"""One small chart of a run's figures against its iterations, of several runs over one another."""
+"""Chart of one or two quantities of several runs against iterations or seconds."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from hexmend_app.features.convergence.axis import UNIT, Scale, powers, simple
-from hexmend_app.features.convergence.charts import Chart, Quantity
+from hexmend_app.features.convergence.axis import UNIT, Scale, linear_scale, log_scale
+from hexmend_app.features.convergence.charts import Chart, PlottedQuantity
 from hexmend_app.features.convergence.curves import Curve, colour_of, thinned
-from hexmend_app.features.convergence.line import MOST, RunLine
+from hexmend_app.features.convergence.line import MAX_POINTS, RunLine
 from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import TEXT
@@ -23,15 +23,15 @@ from hexmend_app.widgets.plots import calm_plot
 _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
 _DASHES = ("—", "- -")
 
-#: Pixels from a curve within which a click means it rather than the run that is gone through.
-_REACH = 12
+#: Largest distance of a click from a curve that selects it, in pixels; farther away the current run is selected.
+_PICK_DISTANCE = 12
 
-_LEAST_HEIGHT = 46
+_MIN_HEIGHT = 46
 _HELP = "Click or drag in the chart to go to an iteration."
 
 
 class _PickView(pg.ViewBox):
-    """Tells where it is clicked and where a drag goes."""
+    """View box that reports the positions of clicks and drags; True at the start of each."""
 
     picked = Signal(QPointF, bool)
 
@@ -39,13 +39,13 @@ class _PickView(pg.ViewBox):
         super().__init__(enableMenu=False, defaultPadding=0)
 
     def mouseClickEvent(self, ev) -> None:
-        """Tell where."""
+        """Report a click."""
         if ev.button() == Qt.MouseButton.LeftButton:
             ev.accept()
             self.picked.emit(ev.scenePos(), True)
 
     def mouseDragEvent(self, ev, axis=None) -> None:
-        """Tell where it goes."""
+        """Report a drag."""
         if ev.button() != Qt.MouseButton.LeftButton:
             ev.ignore()
             return
@@ -53,21 +53,21 @@ class _PickView(pg.ViewBox):
         self.picked.emit(ev.scenePos(), ev.isStart())
 
     def wheelEvent(self, ev, axis=None) -> None:
-        """Leave the wheel to the panel, which scrolls."""
+        """Ignore the wheel, which scrolls the panel."""
         ev.ignore()
 
 
 class ConvergencePlot(QWidget):
-    """Draws one chart; its owner sets the iterations and their positions.
+    """Widget that draws one chart; the panel sets its axis.
 
     Attributes
     ----------
-    here : pg.InfiniteLine
-        Stands at the iteration shown.
-    lines : dict
-        The `RunLine`s, by a run's slot and the quantity.
-    scale : Scale or None
-        Of the figures: its ends and its ticks.
+    marker : pg.InfiniteLine
+        At the iteration shown in the view.
+    lines : dict of (int, str) to RunLine
+        By slot of the run and key of the quantity.
+    scale : Scale
+        The vertical axis.
 
     Parameters
     ----------
@@ -75,10 +75,10 @@ class ConvergencePlot(QWidget):
 
     Signals
     -------
-    picked(Record, number)
-        The user clicked at an iteration, or dragged there.
+    picked(RunRecord, number)
+        The user clicked or dragged to an iteration.
     hovered(QPointF or None)
-        The mouse is over a place of `plot`'s scene.
+        The mouse is at this position of the scene of `plot`, or outside it.
     """
 
     picked = Signal(object, int)
@@ -89,7 +89,7 @@ class ConvergencePlot(QWidget):
         self.chart = chart
         self.view = _PickView()
         self.plot = calm_plot(self.view)
-        self.plot.setMinimumHeight(_LEAST_HEIGHT)
+        self.plot.setMinimumHeight(_MIN_HEIGHT)
         self.plot.setAccessibleName(f"Chart of {chart.title}")
         self.plot.setAccessibleDescription(f"{chart.help} {_HELP}")
         self.plot.setWhatsThis(f"{chart.help} {_HELP}")
@@ -97,19 +97,19 @@ class ConvergencePlot(QWidget):
         self.title.setWordWrap(False)
         set_help(self.title, chart.title, f"{chart.help} {_HELP}")
         self._blank = note()
-        self._blank.setAccessibleName(f"Why the chart of {chart.title} is blank")
+        self._blank.setAccessibleName(f"Reason why the chart of {chart.title} is empty")
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         QVBoxLayout(self.plot).addWidget(self._blank)
-        self.here = pg.InfiniteLine(0, movable=False)
-        self.here.setZValue(20)
-        self.plot.addItem(self.here, ignoreBounds=True)
+        self.marker = pg.InfiniteLine(0, movable=False)
+        self.marker.setZValue(20)
+        self.plot.addItem(self.marker, ignoreBounds=True)
         self.plot.getAxis("bottom").setStyle(showValues=False)
         self.plot.getAxis("bottom").label.setFont(smaller(self.font()))
         self.lines: dict[tuple[int, str], RunLine] = {}
         self._curves: Sequence[Curve] = ()
         self._by_time = self._log = False
-        self._dragged_record: RunRecord | None = None  # whose curve is dragged
+        self._dragged_record: RunRecord | None = None
         self.scale = Scale(0.0, 0.0, ())
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -121,41 +121,41 @@ class ConvergencePlot(QWidget):
         on_theme_change(self, self._paint)
 
     def _paint(self) -> None:
-        self.here.setPen(pg.mkPen(str(TEXT), width=1))
+        self.marker.setPen(pg.mkPen(str(TEXT), width=1))
         self.draw(self._curves, self._by_time, self._log)
 
-    # What is drawn
+    # Drawing
 
     def draw(self, curves: Sequence[Curve], by_time: bool, log: bool) -> None:
-        """Draw runs against iterations or seconds, figures by powers of ten where that says more."""
-        self._curves, self._by_time, self._log = [one for one in curves if one.shown], by_time, log
+        """Draw runs against iterations or seconds; `log` applies to quantities that suit it."""
+        self._curves, self._by_time, self._log = [curve for curve in curves if curve.shown], by_time, log
         self._fit()
         wanted = {(curve.slot, quantity.key) for curve in self._curves for quantity in self.chart.quantities}
         for key in self.lines.keys() - wanted:
             for item in self.lines.pop(key).items:
                 self.plot.removeItem(item)
         for curve in self._curves:
-            for style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
-                self._draw_curve(curve, quantity, style)
+            for pen_style, quantity in zip(_STYLES, self.chart.quantities, strict=False):
+                self._draw_curve(curve, quantity, pen_style)
         self.title.setText(titled(self.chart, curves, _DASHES))
         self._blank.setText(reason_if_blank(self.chart, curves))
 
-    def _draw_curve(self, curve: Curve, quantity: Quantity, style: Qt.PenStyle) -> None:
+    def _draw_curve(self, curve: Curve, quantity: PlottedQuantity, pen_style: Qt.PenStyle) -> None:
         line = self.lines.get((curve.slot, quantity.key))
         if line is None:
             line = self.lines[curve.slot, quantity.key] = RunLine()
             for item in line.items:
                 self.plot.addItem(item, ignoreBounds=True)
-        options = (str(colour_of(curve)), curve.current, style)
-        subject = (curve.record, len(curve.columns), curve.begins, self._by_time, self.is_log, self.scale.floor)
-        line.draw(options, subject, lambda: self._line(curve, quantity))
+        style = (str(colour_of(curve)), curve.current, pen_style)
+        version = (curve.record, len(curve.columns), curve.start, self._by_time, self.is_log, self.scale.floor)
+        line.draw(style, version, lambda: self._points(curve, quantity))
 
-    def _line(self, curve: Curve, quantity: Quantity) -> tuple[np.ndarray, np.ndarray]:
+    def _points(self, curve: Curve, quantity: PlottedQuantity) -> tuple[np.ndarray, np.ndarray]:
         x, y = curve.drawn(quantity.key, self._by_time)
-        return thinned(x, self.heights(y), MOST)
+        return thinned(x, self.heights(y), MAX_POINTS)
 
     def heights(self, values: np.ndarray) -> np.ndarray:
-        """Return the positions of values on the axis."""
+        """Return the positions of values on the vertical axis, (k,) float64."""
         if not self.is_log:
             return values
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -166,21 +166,30 @@ class ConvergencePlot(QWidget):
 
     @property
     def is_log(self) -> bool:
-        """Return True if the axis is logarithmic."""
+        """Return True if the vertical axis is logarithmic."""
         return self._log and self.chart.quantities[0].log
 
     def mark(self, x: float | None) -> None:
-        """Draw the line of the iteration that is shown; None for none."""
-        self.here.setVisible(x is not None)
+        """Move the marker of the iteration shown; None hides it."""
+        self.marker.setVisible(x is not None)
         if x is not None:
-            self.here.setValue(x)
+            self.marker.setValue(x)
 
-    def set_span(self, low: float, high: float) -> None:
-        """Take the ends of the axis that all charts share."""
+    def set_x_range(self, low: float, high: float) -> None:
+        """Set the ends of the horizontal axis."""
         self.plot.setXRange(low, high, padding=0)
 
-    def set_foot(self, label: str | None, ticks: list[tuple[float, str]], left: int) -> None:
-        """Take ticks below and what they count, None where another chart below says so, and the room at the left."""
+    def set_bottom_axis(self, label: str | None, ticks: list[tuple[float, str]], left_width: int) -> None:
+        """Set the ticks and the label of the horizontal axis, and the width of the vertical axis.
+
+        Parameters
+        ----------
+        label : str, optional
+            None for an axis without texts: those are below the lowest chart.
+        ticks : list of (position, text)
+        left_width : int
+            Pixels.
+        """
         bottom = self.plot.getAxis("bottom")
         bottom.setTicks([ticks])
         bottom.setStyle(showValues=label is not None)
@@ -189,48 +198,48 @@ class ConvergencePlot(QWidget):
         if label is not None:
             bottom.setLabel(label)
         bottom.setHeight(2 * line if label is not None else 5)
-        self.plot.setMinimumHeight(_LEAST_HEIGHT + (2 * line if label is not None else 0))
-        self.plot.getAxis("left").setWidth(left)
+        self.plot.setMinimumHeight(_MIN_HEIGHT + (2 * line if label is not None else 0))
+        self.plot.getAxis("left").setWidth(left_width)
         bottom.resizeEvent()
 
     def _fit(self) -> None:
-        """Let the axis of figures reach as far as they do."""
-        parts = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
-        known = np.concatenate([*parts, np.empty(0)])
-        known, whole = known[np.isfinite(known)], self.chart.quantities[0].whole
-        scale = UNIT if self.chart.key == "quality" else (powers if self.is_log else simple)(known, whole)
+        """Fit the vertical axis to the values."""
+        columns = [curve.columns.of(one.key) for curve in self._curves for one in self.chart.quantities]
+        values = np.concatenate([*columns, np.empty(0)])
+        values, whole = values[np.isfinite(values)], self.chart.quantities[0].whole
+        scale = UNIT if self.chart.key == "quality" else (log_scale if self.is_log else linear_scale)(values, whole)
         if scale != self.scale:
             self.scale = scale
             self.plot.getAxis("left").setTicks([list(scale.ticks)])
             self.plot.setYRange(scale.low, scale.high, padding=0.08)
 
-    # Under the mouse
+    # Mouse
 
     def at(self, place: QPointF) -> tuple[Curve, int] | None:
-        """The run and the iteration that a place of the scene means; None where nothing is drawn."""
+        """Return the run and iteration at a position of the scene, or None if the chart is empty."""
         if not self._curves:
             return None
-        here = self.view.mapSceneToView(place)
-        wide, high = self.view.viewPixelSize()
-        best, least = None, _REACH
+        point = self.view.mapSceneToView(place)
+        pixel_width, pixel_height = self.view.viewPixelSize()
+        best, smallest = None, _PICK_DISTANCE
         for curve in self._curves:
-            number = curve.nearest(here.x(), self._by_time)
+            number = curve.nearest(point.x(), self._by_time)
             for quantity in self.chart.quantities:
                 y = self.heights(curve.columns.of(quantity.key)[number : number + 1])[0]
                 x = curve.x(self._by_time)[number]
-                away = math.hypot((x - here.x()) / wide, (y - here.y()) / high)
-                if away < least:
-                    best, least = (curve, number), away
+                distance = math.hypot((x - point.x()) / pixel_width, (y - point.y()) / pixel_height)
+                if distance < smallest:
+                    best, smallest = (curve, number), distance
         if best is None:
-            curve = next((one for one in self._curves if one.current), self._curves[0])
-            best = curve, curve.nearest(here.x(), self._by_time)
+            curve = next((curve for curve in self._curves if curve.current), self._curves[0])
+            best = curve, curve.nearest(point.x(), self._by_time)
         return best
 
-    def _on_picked(self, place: QPointF, begins: bool) -> None:
-        found = self.at(place)
-        if begins:
-            self._dragged_record = None if found is None else found[0].record
-        dragged = next((one for one in self._curves if one.record is self._dragged_record), None)
+    def _on_picked(self, place: QPointF, starts: bool) -> None:
+        if starts:
+            picked = self.at(place)
+            self._dragged_record = None if picked is None else picked[0].record
+        dragged = next((curve for curve in self._curves if curve.record is self._dragged_record), None)
         if dragged is not None:
             self.picked.emit(dragged.record, dragged.nearest(self.view.mapSceneToView(place).x(), self._by_time))
 

@@ -1,4 +1,4 @@
-"""The figures of runs as curves: against what they are plotted, and where each run begins."""
+"""Values of runs as curves: columns of values, positions on the axis, and thinning."""
 
 from __future__ import annotations
 
@@ -12,36 +12,36 @@ from hexmend_app.features.convergence.charts import CHARTS, STEP_SECONDS
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import BLUE, KEPT, Role
 
-#: Colours of runs, by slot; after the last, the first again.
+#: Colours of runs, by slot modulo their number.
 RUN_COLOURS = (BLUE, *KEPT)
 
-_STORED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.figure is not STEP_SECONDS)
+_RECORDED = tuple(one.key for chart in CHARTS.values() for one in chart.quantities if one.quantity is not STEP_SECONDS)
 
 
 class Columns:
-    """The figures of one run as arrays, (k,) float64, that grow with it; nan where there is none.
+    """Values of one run as arrays, (k,) float64, that grow with the run; nan if there is no value.
 
     Parameters
     ----------
-    record : Record
+    record : RunRecord
     """
 
     def __init__(self, record: RunRecord):
         self.record = record
         self._known = 0
         self._changes: list[int] = []
-        self._rows = np.empty((64, len(_STORED) + 1))
+        self._rows = np.empty((64, len(_RECORDED) + 1))
 
     def grow(self) -> None:
-        """Take the iterations that there are by now."""
+        """Read the iterations added to the record since the last call."""
         rows = self.record.rows
-        newest = len(rows)  # by the thread that runs, more may come meanwhile
+        newest = len(rows)  # the run's thread may append more meanwhile
         if newest > len(self._rows):
-            self._rows = np.resize(self._rows, (max(newest, 2 * len(self._rows)), len(_STORED) + 1))
+            self._rows = np.resize(self._rows, (max(newest, 2 * len(self._rows)), len(_RECORDED) + 1))
         for at in range(self._known, newest):
-            self._rows[at] = [*(_number(rows[at].get(key)) for key in _STORED), rows[at]["seconds"]]
+            self._rows[at] = [*(_number(rows[at].get(key)) for key in _RECORDED), rows[at]["seconds"]]
         if self._known == 0 < newest:
-            self._rows[0, _STORED.index("largest_move")] = np.nan  # where it begins, nothing has moved yet
+            self._rows[0, _RECORDED.index("largest_move")] = np.nan  # nothing has moved at the start
         self._known = newest
         self._changes = objective_changes(rows[:newest])
 
@@ -50,78 +50,78 @@ class Columns:
 
     @property
     def seconds(self) -> np.ndarray:
-        """Since the run began."""
+        """Seconds since the start of the run, (k,) float64."""
         return self._rows[: self._known, -1]
 
     def of(self, key: str) -> np.ndarray:
-        """A quantity's values."""
+        """Return the values of a quantity, (k,) float64."""
         if key == STEP_SECONDS.key:
             return np.diff(self.seconds, prepend=np.nan)
-        return self._rows[: self._known, _STORED.index(key)]
+        return self._rows[: self._known, _RECORDED.index(key)]
 
     def breaks(self, key: str) -> list[int]:
-        """Iterations from which on a quantity is another figure: the objective of another stage."""
+        """Return the iterations at which the definition of a quantity changes: a new objective in another stage."""
         return self._changes if key == "objective" else []
 
     def reports(self, key: str) -> bool:
-        """Return True if the method reports this quantity."""
+        """Return True if the method reports this quantity, or may after its first iteration."""
         return self._known < 2 or bool(np.isfinite(self.of(key)).any())
 
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A run as it is plotted.
+    """Curve of a run in the charts.
 
     Parameters
     ----------
     columns : Columns
     slot : int
-        What its colour goes by; it keeps it while others come and go.
-    begins : (iteration, seconds)
-        Where on the axis.
+        Index of its colour.
+    start : (iteration, seconds)
+        Position of the first iteration on the axis.
     shown, current : bool
-        Whether it is plotted at all, and is the run that is gone through.
-    going : bool
-        Whether it goes on.
-    kept : callable
-        Numbers of the iterations whose positions are there, ascending, (k,) int.
+        The run is plotted; the run is selected in the timeline.
+    running : bool
+        The run has not ended.
+    stored : callable
+        Returns the numbers of the iterations with stored positions, ascending, (k,) int.
     """
 
     columns: Columns
     slot: int
-    begins: tuple[float, float]
+    start: tuple[float, float]
     shown: bool
     current: bool
-    going: bool
-    kept: Callable[[], np.ndarray]
+    running: bool
+    stored: Callable[[], np.ndarray]
 
     @property
     def record(self) -> RunRecord:
-        """The run."""
+        """Record of the run."""
         return self.columns.record
 
     def x(self, by_time: bool) -> np.ndarray:
         """Return the axis positions of the iterations, (k,) float64."""
         if by_time:
-            return self.begins[1] + self.columns.seconds
-        return self.begins[0] + np.arange(len(self.columns))
+            return self.start[1] + self.columns.seconds
+        return self.start[0] + np.arange(len(self.columns))
 
     def drawn(self, key: str, by_time: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of a quantity's line, (k,) float64; nan is a gap, as where the objective changes."""
+        """Return x and y of a quantity, (k,) float64; nan is a gap, for example where the objective changes."""
         breaks = self.columns.breaks(key)
         return np.insert(self.x(by_time), breaks, np.nan), np.insert(self.columns.of(key), breaks, np.nan)
 
     def nearest(self, x: float, by_time: bool) -> int:
-        """Number of the iteration that is nearest to a place on the axis."""
+        """Return the iteration nearest to a position on the axis."""
         return int(np.abs(self.x(by_time) - x).argmin())
 
 
 def colour_of(curve: Curve) -> Role:
-    """The colour of a run."""
+    """Return the colour of a run."""
     return RUN_COLOURS[curve.slot % len(RUN_COLOURS)]
 
 
-def beginning(record: RunRecord) -> tuple[float, float]:
+def run_start(record: RunRecord) -> tuple[float, float]:
     """Return the start of a run in iterations and seconds; a branch starts where it left its parent."""
     iteration, seconds = 0.0, 0.0
     while record.parent is not None:
@@ -132,12 +132,18 @@ def beginning(record: RunRecord) -> tuple[float, float]:
 
 
 def thinned(x: np.ndarray, y: np.ndarray, most: int = 2000) -> tuple[np.ndarray, np.ndarray]:
-    """A curve of more than `most` points by the least and the greatest value of as many pieces as make about `most`.
+    """Reduce a curve of more than `most` points to the smallest and largest value of intervals.
 
     Parameters
     ----------
     x, y : (k,) float64
         nan in y is a gap.
+    most : int
+        Approximate number of points of the result.
+
+    Returns
+    -------
+    x, y : (j,) float64
     """
     if len(x) <= most:
         return x, y

@@ -1,4 +1,4 @@
-"""Convergence feature: connects the history of runs to the charts that plot it."""
+"""Feature that plots the history of runs."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from hexmend.report.charts import ChartStyle
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.convergence.chart_file import figure, write_convergence
 from hexmend_app.features.convergence.chart_settings import ChartSettings
-from hexmend_app.features.convergence.curves import Columns, Curve, beginning
+from hexmend_app.features.convergence.curves import Columns, Curve, run_start
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
-_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;All figures of all runs (*.csv)"
+_KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Values of all runs (*.csv)"
 
-#: Milliseconds between two drawings while a run goes on.
+#: Milliseconds between two redraws during a run.
 _PERIOD = 100
 
 
 class FeatureConvergence(Feature):
-    """Brings the figures of all runs to the charts, and the user's clicks there to the timeline."""
+    """Plots the values of all runs and sends clicks in the charts to the timeline."""
 
     order = 56
 
@@ -37,7 +37,7 @@ class FeatureConvergence(Feature):
         self._history = session.history
         self._columns: dict[RunRecord, Columns] = {}
         self._seen = ChangeTracker()
-        self._style = ChartStyle()  # what the last figure was like
+        self._style = ChartStyle()  # of the last saved figure
         panel = self.panel = ConvergencePanel()
         self._soon = QSignalThrottler(parent=panel)
         self._soon.setTimeout(_PERIOD)
@@ -57,7 +57,7 @@ class FeatureConvergence(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The charts."""
+        """Return the panel of charts."""
         return (
             Panel(
                 id="convergence",
@@ -65,12 +65,12 @@ class FeatureConvergence(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=10,
-                help="How the figures of each run went, iteration by iteration.",
+                help="Convergence of each run, iteration by iteration.",
             ),
         )
 
     def refresh(self) -> None:
-        """Plot what there is: while a run goes on, ten times a second."""
+        """Plot the runs; during a run at most ten times a second."""
         if not self.panel.isVisible():
             return
         known = [(record, record.newest, record.result) for record in self._history.records]
@@ -102,11 +102,11 @@ class FeatureConvergence(Feature):
         return Curve(
             self._columns[record],
             record.slot,
-            (0.0, 0.0) if self.panel.head.from_zero.isChecked() else beginning(record),
+            (0.0, 0.0) if self.panel.head.from_zero.isChecked() else run_start(record),
             shown=record.plotted,
             current=record is self._timeline.record,
-            going=self._smoothing.busy and record is self._smoothing.record,
-            kept=lambda: self._history.kept(record),
+            running=self._smoothing.busy and record is self._smoothing.record,
+            stored=lambda: self._history.kept(record),
         )
 
     def _mark(self) -> None:
@@ -119,32 +119,32 @@ class FeatureConvergence(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask what the charts are to be like and where they go, and write them."""
-        if given := answer(self.dialog()):
-            path, self._style = given
+        """Ask for the style and the file of the charts, and write them."""
+        if chosen := answer(self.dialog()):
+            path, self._style = chosen
             self.save(path, self._style)
 
     def dialog(self) -> ChartDialog:
-        """The dialog that asks: sizes and names are as they were last."""
+        """Return the dialog that saves the charts, with the style used last."""
         event = self._report(Path())
-        chart, proposed = figure(*event.given[1:], **event.options), f"{self.host.stem}-convergence.svg"
-        return ChartDialog(chart, "the charts", proposed, _KINDS, self._style, self.host.dialog_parent)
+        chart, file_name = figure(*event.given[1:], **event.options), f"{self.host.stem}-convergence.svg"
+        return ChartDialog(chart, "the charts", file_name, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
-        """Write the charts as a figure, or the figures of all runs as CSV, by the suffix; whether it was done."""
+        """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
         return self.host.try_and_report(
-            "The charts were not saved",
+            "Charts not saved",
             lambda: self.session.commands.export(self._report(Path(path), style)),
             f"Convergence saved to {path}",
         )
 
     def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
-        """The call that writes them."""
-        set_to = self.panel.head.settings()
-        options = {"by_time": set_to.by_time, "log": set_to.logarithmic, "from_zero": set_to.from_zero}
+        """Return the export of the charts, or of the values."""
+        settings = self.panel.head.settings()
+        options = {"by_time": settings.by_time, "log": settings.logarithmic, "from_zero": settings.from_zero}
         if self._timeline.record is not None:
             options["current"] = self._timeline.record
         if style is not None:
             options["style"] = style
-        values = path, self._document.name, self._history.records, set_to.shown
-        return FileExported("convergence", write_convergence, values, options)
+        arguments = path, self._document.name, self._history.records, settings.shown
+        return FileExported("convergence", write_convergence, arguments, options)

@@ -1,4 +1,4 @@
-"""Controls above the convergence charts: charts shown, axis and scale."""
+"""Controls of the convergence charts: selected charts, axis and scale."""
 
 from __future__ import annotations
 
@@ -7,33 +7,33 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from hexmend_app.features.convergence.chart_settings import ChartSettings
-from hexmend_app.features.convergence.charts import CHARTS, FIRST
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
 
-_LOG = "Axes by powers of ten, but for quality and the counts of solver iterations and cuts; zero stands below them."
-_FROM_ZERO = "Lay all runs over one another from their start, rather than let a branch begin where it left its parent."
+_LOG = "Logarithmic axes, except for quality, solver iterations and backtracks. Zero is drawn below the smallest value."
+_FROM_ZERO = "Start every run at 0 instead of where it branched off."
 
 
 class ConvergenceHead(QWidget):
-    """Chooses charts and axes; asks to save.
+    """Controls that select charts and axes.
 
     Attributes
     ----------
     charts : dict of str to QAction
-        By the charts' keys, checked where they are drawn.
+        By chart key, checked if the chart is shown.
     log, from_zero, save : QAction
     axis : Segmented
 
     Signals
     -------
     charts_changed
-        Others are to be drawn.
+        The user selected other charts.
     axes_changed
-        Iterations or seconds, linear or logarithmic.
+        The user changed between iterations and seconds, or between linear and logarithmic.
     from_zero_changed
-        Where branches begin.
+        The user changed the start of branches.
     save_requested
     """
 
@@ -44,35 +44,37 @@ class ConvergenceHead(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.charts = {key: self._action(chart.title, chart.help, key in FIRST) for key, chart in CHARTS.items()}
+        self.charts = {
+            key: self._action(chart.title, chart.help, key in DEFAULT_CHARTS) for key, chart in CHARTS.items()
+        }
         for action in self.charts.values():
             action.toggled.connect(self.charts_changed)
-        which = MenuButton("Charts", "Which figures are plotted, each in a chart of its own.")
-        which.setText("Charts ▾")
-        which.menu().addActions(list(self.charts.values()))
-        which.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        charts = MenuButton("Charts", "Select the charts.")
+        charts.setText("Charts ▾")
+        charts.menu().addActions(list(self.charts.values()))
+        charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.log = self._action("Logarithmic axes", _LOG, True)
         self.log.toggled.connect(self.axes_changed)
-        self.from_zero = self._action("Branches begin at 0", _FROM_ZERO, False)
+        self.from_zero = self._action("Start branches at 0", _FROM_ZERO, False)
         self.from_zero.toggled.connect(self.from_zero_changed)
-        self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the figures of all runs as CSV.")
+        self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
         self.save.triggered.connect(self.save_requested)
-        more = MenuButton("More of the charts", "Logarithmic axes, where branches begin, and saving.")
-        more.setIcon(icon("dots-vertical"))
-        more.menu().addActions([self.log, self.from_zero, self.save])
+        options = MenuButton("Chart options", "Logarithmic axes, start of branches, save.")
+        options.setIcon(icon("dots-vertical"))
+        options.menu().addActions([self.log, self.from_zero, self.save])
         self.axis = Segmented(
-            "Axis of the charts",
+            "Chart axis",
             [
-                ("iteration", "Iteration", "Plot against the number of the iteration."),
-                ("time", "Time", "Plot against the seconds that the method took."),
+                ("iteration", "Iteration", "Plot against iterations."),
+                ("time", "Time", "Plot against the seconds spent in the method."),
             ],
         )
         self.axis.setFont(smaller(self.font()))
         self.axis.chosen.connect(self.axes_changed)
         buttons = QHBoxLayout()
-        for part in (which, more):
-            part.setFixedHeight(self.axis.sizeHint().height())
-            buttons.addWidget(part)
+        for button in (charts, options):
+            button.setFixedHeight(self.axis.sizeHint().height())
+            buttons.addWidget(button)
         self._layout = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.addLayout(buttons, 1)
@@ -85,8 +87,8 @@ class ConvergenceHead(QWidget):
         action.setToolTip(f"<qt>{help}</qt>")
         return action
 
-    def set_in_a_row(self, on: bool) -> None:
-        """Lay its parts side by side, or below one another."""
+    def set_horizontal(self, on: bool) -> None:
+        """Arrange the controls side by side, or stack them."""
         directions = QBoxLayout.Direction
         self._layout.setDirection(directions.LeftToRight if on else directions.TopToBottom)
 
@@ -101,7 +103,7 @@ class ConvergenceHead(QWidget):
         return ChartSettings(shown, self.log.isChecked(), self.from_zero.isChecked(), self.by_time)
 
     def restore(self, settings: ChartSettings) -> None:
-        """Set all of it, and say so."""
+        """Apply settings and emit `axes_changed`."""
         for key, action in self.charts.items():
             action.setChecked(key in settings.shown)
         self.log.setChecked(settings.logarithmic)

@@ -1,4 +1,4 @@
-"""Convergence panel: charts of the runs' figures below one another, and their settings."""
+"""Panel of convergence charts, stacked, with their settings and the list of runs."""
 
 from __future__ import annotations
 
@@ -20,35 +20,34 @@ from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.style import note
 from hexmend_app.widgets.scrolled import scrolled
 
-_NONE = "No method has run on this mesh yet. Its figures will appear here, iteration by iteration."
+_EMPTY = "No runs yet. Values of each iteration will appear here."
 
-#: Width of what stands beside the charts, and of the whole from which on it does so.
+#: Width of the controls next to the charts, and smallest width of a panel with the controls at the side, in pixels.
 _SIDE, _WIDE = 158, 420
 
-# Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
+# Qt's QWIDGETSIZE_MAX, which PySide6 does not export.
 _UNBOUNDED = (1 << 24) - 1
 
 
 class ConvergencePanel(QWidget):
-    """Plots runs.
+    """Panel that plots runs.
 
     Attributes
     ----------
     head : ConvergenceHead
     legend : RunLegend
     side, plotting : QWidget
-        What has these two, and what plots the runs.
+        Parents of the controls and of the charts.
 
     Signals
     -------
-    picked(Record, number)
-        The user wants to go to an iteration.
-    toggled(Record, bool), forget_requested(Record)
-        The user wants a run plotted or not, or forgotten.
+    picked(RunRecord, number)
+        The user selected an iteration.
+    toggled(RunRecord, bool), forget_requested(RunRecord)
+        The user showed, hid or deleted a run.
     choice_changed
-        The user wants it plotted otherwise.
+        The user changed the start of branches.
     save_requested
-        The user wants the charts as a file.
     """
 
     picked = Signal(object, int)
@@ -60,7 +59,7 @@ class ConvergencePanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.curves: Sequence[Curve] = ()
-        self._foot: tuple = ()
+        self._axis: tuple = ()  # low, high, by_time
         self._shown: tuple[RunRecord, int] | None = None
         self.plots = {key: ConvergencePlot(chart) for key, chart in CHARTS.items()}
         for plot in self.plots.values():
@@ -84,8 +83,8 @@ class ConvergencePanel(QWidget):
         charts.setSpacing(2)
         for plot in self.plots.values():
             charts.addWidget(plot, 1)
-        self._none = note(_NONE)
-        self._none.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._empty = note(_EMPTY)
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.plotting, self._runs = scrolled(stack), scrolled(self.legend)
         side = QVBoxLayout()
         side.setContentsMargins(0, 0, 0, 0)
@@ -95,29 +94,29 @@ class ConvergencePanel(QWidget):
         self.side.setLayout(side)
         self._layout = QBoxLayout(QBoxLayout.Direction.RightToLeft, self)
         self._layout.setContentsMargins(6, 4, 6, 4)
-        for part, stretch in ((self.side, 0), (self.plotting, 1), (self._none, 1)):
-            self._layout.addWidget(part, stretch)
+        for widget, stretch in ((self.side, 0), (self.plotting, 1), (self._empty, 1)):
+            self._layout.addWidget(widget, stretch)
 
     def minimumSizeHint(self) -> QSize:
         """Return the fixed minimum size, wide enough for the buttons in one row."""
         return QSize(_SIDE + 120, 150)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Put the runs beside the charts, or above them where that leaves too little room."""
+        """Place the controls next to the charts, or above them in a narrow panel."""
         super().resizeEvent(event)
         self._place()
 
     def _place(self) -> None:
-        neighbour = self.width() >= _WIDE
+        wide = self.width() >= _WIDE
         directions = QBoxLayout.Direction
-        self._layout.setDirection(directions.RightToLeft if neighbour else directions.TopToBottom)
-        self.head.set_in_a_row(not neighbour)
-        self.side.setMinimumWidth(_SIDE if neighbour else 0)
-        self.side.setMaximumWidth(_SIDE if neighbour else _UNBOUNDED)
+        self._layout.setDirection(directions.RightToLeft if wide else directions.TopToBottom)
+        self.head.set_horizontal(not wide)
+        self.side.setMinimumWidth(_SIDE if wide else 0)
+        self.side.setMaximumWidth(_SIDE if wide else _UNBOUNDED)
         row = self.fontMetrics().height() + 3
-        self._runs.setMaximumHeight(_UNBOUNDED if neighbour else min(2, len(self.curves)) * row)
+        self._runs.setMaximumHeight(_UNBOUNDED if wide else min(2, len(self.curves)) * row)
 
-    # What is plotted
+    # Curves
 
     @property
     def by_time(self) -> bool:
@@ -126,21 +125,21 @@ class ConvergencePanel(QWidget):
 
     @property
     def drawn(self) -> list[ConvergencePlot]:
-        """The charts that are chosen, in their order."""
+        """The selected charts, from top to bottom."""
         return [plot for key, plot in self.plots.items() if self.head.charts[key].isChecked()]
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
-        """Plot these runs, the oldest first."""
+        """Plot runs, the oldest first."""
         self.curves = curves
         self.legend.set_curves(curves)
         self.head.save.setEnabled(bool(curves))
-        self._none.setVisible(not curves)
+        self._empty.setVisible(not curves)
         self.plotting.setVisible(bool(curves))
         self._place()
         self._redraw()
 
     def set_shown(self, record: RunRecord | None, number: int = 0) -> None:
-        """Mark the iteration that the view shows; None where that is none."""
+        """Mark the iteration shown in the view; None for no mark."""
         self._shown = None if record is None else (record, number)
         self._mark()
 
@@ -148,7 +147,7 @@ class ConvergencePanel(QWidget):
         drawn = self.drawn
         for plot in self.plots.values():
             plot.setVisible(plot in drawn)
-        self._foot = ()
+        self._axis = ()
         self._redraw()
 
     def _redraw(self) -> None:
@@ -158,37 +157,37 @@ class ConvergencePanel(QWidget):
         self._mark()
 
     def _fit(self) -> None:
-        """Let the axis reach as far as the runs; while one goes on, in steps, so that it seldom changes."""
-        places = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
-        low = min((float(x[0]) for x in places), default=0.0)
-        high = max((float(x[-1]) for x in places), default=1.0)
+        """Fit the shared axis to the runs; in steps during a run, so that it changes seldom."""
+        positions = [curve.x(self.by_time) for curve in self.curves if curve.shown and len(curve.columns)]
+        low = min((float(x[0]) for x in positions), default=0.0)
+        high = max((float(x[-1]) for x in positions), default=1.0)
         high = max(high, low + (1e-3 if self.by_time else 1.0))
-        if any(curve.going for curve in self.curves):
+        if any(curve.running for curve in self.curves):
             step = 10.0 ** len(f"{high - low:.0f}") / 20
             high = low + step * (1 + (high - low) // step)
-        foot = (low, high, self.by_time)
-        if foot == self._foot:
+        axis = (low, high, self.by_time)
+        if axis == self._axis:
             return
-        self._foot = foot
-        spare = 0.012 * (high - low)
+        self._axis = axis
+        margin = 0.012 * (high - low)
         ticks = [(tick, f"{tick:,.6g}") for tick in nice_ticks(low, high, 8) if self.by_time or tick == round(tick)]
-        left = self.fontMetrics().horizontalAdvance("000,000")
+        left_width = self.fontMetrics().horizontalAdvance("000,000")
         label = "seconds in the method" if self.by_time else "iteration"
         for plot in self.drawn:
-            plot.set_span(low - spare, high + spare)
-            plot.set_foot(label if plot is self.drawn[-1] else None, ticks, left)
+            plot.set_x_range(low - margin, high + margin)
+            plot.set_bottom_axis(label if plot is self.drawn[-1] else None, ticks, left_width)
 
     def _mark(self) -> None:
-        found = None
+        x = None
         if self._shown is not None:
             record, number = self._shown
-            curve = next((one for one in self.curves if one.record is record and one.shown), None)
+            curve = next((curve for curve in self.curves if curve.record is record and curve.shown), None)
             if curve is not None and number < len(curve.columns):
-                found = float(curve.x(self.by_time)[number])
+                x = float(curve.x(self.by_time)[number])
         for plot in self.drawn:
-            plot.mark(found)
+            plot.mark(x)
 
-    # Under the mouse
+    # Tooltips
 
     def _on_hovered(self, plot: ConvergencePlot, place: QPointF | None) -> None:
         text = ""

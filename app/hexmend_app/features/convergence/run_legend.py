@@ -1,4 +1,4 @@
-"""The runs that are plotted: each with its colour and a check box, and a cross to forget it."""
+"""List of the plotted runs, each with its colour, a check box and a delete button."""
 
 from __future__ import annotations
 
@@ -24,13 +24,14 @@ QToolButton:focus {{ border: 1px solid {BLUE}; }}
 
 
 class RunLegend(QWidget):
-    """Lists runs, the oldest first; the name of the one that is gone through is bold.
+    """List of runs, the oldest first; the name of the current run is bold.
 
     Signals
     -------
-    toggled(Record, bool)
-        The user wants a run plotted, or not.
-    forget_requested(Record)
+    toggled(RunRecord, bool)
+        The user showed or hid a run.
+    forget_requested(RunRecord)
+        The user deleted a run.
     """
 
     toggled = Signal(object, bool)
@@ -46,12 +47,12 @@ class RunLegend(QWidget):
         on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
 
     def set_curves(self, curves: Sequence[Curve]) -> None:
-        """Show these runs."""
-        for record in self.rows.keys() - {one.record for one in curves}:
+        """List these runs."""
+        for record in self.rows.keys() - {curve.record for curve in curves}:
             row = self.rows.pop(record)
             self._layout.removeWidget(row)
             row.hide()
-            row.deleteLater()  # its button is the one that was clicked
+            row.deleteLater()  # not at once: this may be called by its button
         for curve in curves:
             if curve.record not in self.rows:
                 row = self.rows[curve.record] = RunRow(curve)
@@ -62,11 +63,18 @@ class RunLegend(QWidget):
 
 
 class RunRow(QWidget):
-    """One run."""
+    """Row of the list for one run.
+
+    Attributes
+    ----------
+    box : QCheckBox
+    cross : QToolButton
+        Deletes the run.
+    """
 
     def __init__(self, curve: Curve):
         super().__init__()
-        self._report: tuple = ()
+        self._shown: tuple = ()
         self.box = QCheckBox(curve.record.name)
         self.box.setFont(smaller(self.font()))
         self.box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -83,19 +91,19 @@ class RunRow(QWidget):
         layout.addWidget(self.cross)
 
     def show_curve(self, curve: Curve) -> None:
-        """Say what there is of the run now."""
+        """Show the current state of the run."""
         record = curve.record
-        text = (curve.shown, curve.current, curve.going, record.newest, record.parent)
-        if text == self._report:
+        state = (curve.shown, curve.current, curve.running, record.newest, record.parent)
+        if state == self._shown:
             return
-        self._report = text
+        self._shown = state
         self.box.setChecked(curve.shown)
         font = self.box.font()
         font.setBold(curve.current)
         self.box.setFont(font)
-        branch = f", from {record.parent.name} on" if record.parent is not None else ""
-        here = " It is the run that is gone through." if curve.current else ""
-        set_help(self.box, record.name, f"Plot {record.title}: {counted(record.newest, 'iteration')}{branch}.{here}")
-        self.cross.setEnabled(not curve.going)
-        help = "It goes on: stop it first." if curve.going else "Its figures and iterations are gone then."
-        set_help(self.cross, f"Forget {record.name}", f"Keep {record.name} no longer. {help}")
+        branch = f", branched from {record.parent.name}" if record.parent is not None else ""
+        current = " This is the current run." if curve.current else ""
+        set_help(self.box, record.name, f"Plot {record.title}: {counted(record.newest, 'iteration')}{branch}.{current}")
+        self.cross.setEnabled(not curve.running)
+        help = "Stop the run to delete it." if curve.running else "Delete this run with its iterations and values."
+        set_help(self.cross, f"Delete {record.name}", help)

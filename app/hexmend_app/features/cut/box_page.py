@@ -1,4 +1,4 @@
-"""Page that edits the sides of a clipping box."""
+"""Page that edits the sides of a cutting box."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _TICKS = 1000
 
 
 class BoxPage(QWidget):
-    """Moves the six sides of a box along the axes.
+    """Page that moves the six sides of an axis-aligned box.
 
     Signals
     -------
     changed(low, high)
-        The user moved a side; both corners as tuples of 3 floats.
+        The user moved a side; the lowest and highest corner as tuples of 3 floats.
     """
 
     changed = Signal(object, object)
@@ -40,8 +40,8 @@ class BoxPage(QWidget):
             slider.setRange(0, _TICKS)
             slider.setPageStep(_TICKS // 20)
             slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            help = f"Where the box begins and ends along {name}. Drag an end, or what is between them to move both."
-            set_help(slider, f"{name} of the box", help)
+            help = f"Extent of the box along {name}. Drag an end, or drag between the ends to move both."
+            set_help(slider, f"{name} extent of the box", help)
             slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
             text = QLabel()
             text.setFont(tabular(smaller(text.font())))
@@ -49,19 +49,19 @@ class BoxPage(QWidget):
             text.setMinimumWidth(text.fontMetrics().horizontalAdvance("-0.000 – -0.000"))
             label = QLabel(name)
             label.setBuddy(slider)
-            for column, part in enumerate((label, slider, text)):
-                grid.addWidget(part, axis, column)
+            for column, widget in enumerate((label, slider, text)):
+                grid.addWidget(widget, axis, column)
             self._sliders.append(slider)
             self._texts.append(text)
         self._refresh()
 
     def set_bounds(self, bounds: np.ndarray) -> None:
-        """Take the lowest and the highest corner of the mesh, (2, 3); without a signal."""
+        """Set the lowest and highest corner of the mesh, (2, 3); emits no signal."""
         self._bounds = bounds
         self._refresh()
 
     def set_corners(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
-        """Show a box; without a signal."""
+        """Show a box; emits no signal."""
         self._corners = np.array([low, high])
         self._refresh()
 
@@ -69,15 +69,15 @@ class BoxPage(QWidget):
         low, high = self._bounds[:, axis]
         before = self._ticks(axis)
         for end in range(2):
-            if ticks[end] != before[end]:  # or what was dragged in the view would be rounded
+            if ticks[end] != before[end]:  # the other end is not rounded to a tick
                 self._corners[end, axis] = low + (high - low) * ticks[end] / _TICKS
         self._write()
         self.changed.emit(*(tuple(corner.tolist()) for corner in self._corners))
 
     def _ticks(self, axis: int) -> tuple[int, int]:
         low, high = self._bounds[:, axis]
-        shares = (self._corners[:, axis] - low) / ((high - low) or 1.0)
-        return tuple(int(tick) for tick in np.clip(np.rint(_TICKS * shares), 0, _TICKS))
+        fractions = (self._corners[:, axis] - low) / ((high - low) or 1.0)
+        return tuple(int(tick) for tick in np.clip(np.rint(_TICKS * fractions), 0, _TICKS))
 
     def _refresh(self) -> None:
         for axis, slider in enumerate(self._sliders):

@@ -1,4 +1,4 @@
-"""The panel that cuts the mesh open, by planes or by a box."""
+"""Panel that cuts the mesh with planes or a box."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.inputs.segmented import Segmented
 
-_MOST = 6  # planes
+_MAX_PLANES = 6
 
 
 @dataclass(frozen=True)
 class CutPanelSettings:
-    """The planes and the box that are cut along, or would be, and which of the two it is."""
+    """The current or proposed planes and box, and which of the two cuts."""
 
     planes: PlaneClip
     box: BoxClip
@@ -29,18 +29,18 @@ class CutPanelSettings:
 
 
 class ClipPanel(QWidget):
-    """Sets what is cut away.
+    """Panel that edits the cut.
 
     Signals
     -------
     clip_changed(PlaneClip, BoxClip or None)
-        The user moved, turned, added or switched.
+        The user changed the cut; None if it is off.
     plane_chosen(int)
-        The user wants this plane of several to be the one that is moved, here and in the view.
+        The user selected the plane to edit here and in the view.
     handles_changed(bool)
-        The user wants the plane or the box drawn in the view, or not.
+        The user showed or hid the plane or the box in the view.
     snap_changed(bool)
-        The user wants planes that are turned in the view to snap to the axes, or not.
+        The user switched snapping to the axes, for planes that are rotated in the view.
     """
 
     clip_changed = Signal(object)
@@ -55,40 +55,40 @@ class ClipPanel(QWidget):
         self._box = BoxClip((0, 0, 0), (1, 1, 1))
         self._at = 0
         self._on = QCheckBox("Cut")
-        set_help(self._on, "Cut", "Cut the mesh open and look inside (C).")
+        set_help(self._on, "Cut", "Cut the mesh open (C).")
         self._kind = Segmented(
             "Cut by",
             [
-                ("planes", "Planes", "Cut along one plane or several."),
+                ("planes", "Planes", "Cut along one or more planes."),
                 ("box", "Box", "Cut along the six sides of a box."),
             ],
         )
         self._handles = QCheckBox("Handles")
         self._handles.setChecked(True)
-        set_help(self._handles, "Handles", "Draw the plane or the box in the view, where it can be dragged and turned.")
-        self._row = PlaneRow(_MOST)
+        set_help(self._handles, "Handles", "Show the plane or the box in the view to drag and rotate it.")
+        self._row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
         self._hide_label = QLabel("Hide")
         self._beyond = Segmented(
             "Hide",
             [
-                ("any", "Beyond any", "Hide what lies beyond one of the planes or more."),
-                ("all", "Beyond all", "Hide only what lies beyond all planes: cut a corner out."),
+                ("any", "Beyond any", "Hide everything beyond at least one plane."),
+                ("all", "Beyond all", "Hide only the region beyond all planes; cuts out a corner."),
             ],
         )
         self._side = Segmented(
-            "Hide of the box",
+            "Hide side of the box",
             [
-                ("any", "Outside", "Show what is in the box."),
-                ("all", "Inside", "Cut the box out of the mesh."),
+                ("any", "Outside", "Hide everything outside the box."),
+                ("all", "Inside", "Hide everything inside the box."),
             ],
         )
         self._cut = Segmented(
             "Cut",
             [
-                ("crinkle", "Whole hexes", "Show a hex whole where its centre lies on the kept side."),
-                ("smooth", "Smooth cut", "Cut through the hexes; the cut shows the inside of each."),
+                ("crinkle", "Whole hexes", "Show a whole hex if its centre is on the visible side."),
+                ("smooth", "Smooth cut", "Cut through hexes and cap the cut surface."),
             ],
         )
         self._lay_out()
@@ -97,8 +97,8 @@ class ClipPanel(QWidget):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        for part in (self._on, self._kind):
-            head.addWidget(part)
+        head.addWidget(self._on)
+        head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
         grid = QGridLayout(self)
@@ -108,11 +108,11 @@ class ClipPanel(QWidget):
         grid.setColumnStretch(1, 1)
         grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
         grid.addLayout(head, 0, 0, 1, 2)
-        for at, part in enumerate((self._row, self._plane_page, self._box_page), start=1):
-            grid.addWidget(part, at, 0, 1, 2)
+        for row, widget in enumerate((self._row, self._plane_page, self._box_page), start=1):
+            grid.addWidget(widget, row, 0, 1, 2)
         hide = QHBoxLayout()
-        for part in (self._beyond, self._side):
-            hide.addWidget(part)
+        hide.addWidget(self._beyond)
+        hide.addWidget(self._side)
         grid.addWidget(self._hide_label, 4, 0)
         grid.addLayout(hide, 4, 1)
         grid.addWidget(self._cut, 5, 0, 1, 2)
@@ -131,12 +131,17 @@ class ClipPanel(QWidget):
             choice.chosen.connect(lambda key: self._change(notch=key == "all"))
         self._cut.chosen.connect(lambda key: self._change(crinkle=key == "crinkle"))
 
-    # What the state tells
+    # Called by the feature
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float] | None) -> None:
-        """Take the mesh's (x low, x high, y low, y high, z low, z high), or None without a mesh; without a signal.
+        """Set the bounds of the mesh; emits no signal.
 
-        While nothing is cut, the plane and the box that would be switched on are placed in the mesh.
+        If the cut is off, the proposed plane and box are centred in the mesh.
+
+        Parameters
+        ----------
+        bounds : tuple of 6 floats, optional
+            (x low, x high, y low, y high, z low, z high); None without a mesh.
         """
         self._bounds = None if bounds is None else np.asarray(bounds, dtype=float).reshape(3, 2).T
         if self._bounds is not None:
@@ -150,13 +155,14 @@ class ClipPanel(QWidget):
         self._refresh()
 
     def set_clip(self, clip: Clip | None, at: int = 0) -> None:
-        """Show a cut, for example one dragged in the view, or that there is none; without a signal.
+        """Show a cut; emits no signal.
 
         Parameters
         ----------
-        clip : PlaneClip, BoxClip or None
+        clip : PlaneClip or BoxClip, optional
+            None if the cut is off.
         at : int
-            Which of several planes is the one that is moved.
+            Index of the selected plane.
         """
         self._on.setChecked(clip is not None)
         if clip is not None:
@@ -168,15 +174,15 @@ class ClipPanel(QWidget):
         self._refresh()
 
     def set_handles(self, shown: bool) -> None:
-        """Show whether the plane or the box is drawn in the view; without a signal."""
+        """Check or uncheck the handles; emits no signal."""
         self._handles.setChecked(shown)
 
     def settings(self) -> CutPanelSettings:
-        """Return the clip in use, or the clip that switching on would use."""
+        """Return the current or proposed planes and box."""
         return CutPanelSettings(self._planes, self._box, self._kind.value() == "box")
 
     def restore(self, settings: CutPanelSettings) -> None:
-        """Propose the same; what is cut stays as it is."""
+        """Set the proposed planes and box; a cut that is on does not change."""
         on, boxed = self._on.isChecked(), self._kind.value() == "box"
         if not on or boxed:
             self._planes = settings.planes
@@ -187,14 +193,14 @@ class ClipPanel(QWidget):
         self._refresh()
 
     def clip(self) -> Clip | None:
-        """The cut shown, or None while it is off."""
+        """Return the cut, or None if it is off."""
         return self.proposal() if self._on.isChecked() and self._bounds is not None else None
 
     def proposal(self) -> Clip:
-        """The cut as it stands, or as it would be switched on."""
+        """Return the cut, or if it is off, the cut that switching on would make."""
         return self._box if self._kind.value() == "box" else self._planes
 
-    # What the user does
+    # Called by the widgets
 
     def _on_chosen(self, at: int) -> None:
         self._at = at
@@ -202,17 +208,17 @@ class ClipPanel(QWidget):
         self.plane_chosen.emit(at)
 
     def _on_add(self) -> None:
-        """One more plane, across the axis that has the fewest so far."""
-        used = np.sum([np.abs(plane.normal) for plane in self._planes.planes], axis=0)
-        normal = np.eye(3)[int(used.round(6).argmin())]
+        """Add a plane normal to the axis with the fewest planes."""
+        counts = np.sum([np.abs(plane.normal) for plane in self._planes.planes], axis=0)
+        normal = np.eye(3)[int(counts.round(6).argmin())]
         plane = ClipPlane(tuple(normal), tuple(self._bounds.mean(axis=0)))
         self._planes = dataclasses.replace(self._planes, planes=(*self._planes.planes, plane))
         self._choose(len(self._planes.planes) - 1)
 
     def _on_remove(self) -> None:
-        left = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._at)
-        self._planes = dataclasses.replace(self._planes, planes=left)
-        self._choose(min(self._at, len(left) - 1))
+        remaining = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._at)
+        self._planes = dataclasses.replace(self._planes, planes=remaining)
+        self._choose(min(self._at, len(remaining) - 1))
 
     def _choose(self, at: int) -> None:
         self._at = at
@@ -228,7 +234,7 @@ class ClipPanel(QWidget):
         self._announce()
 
     def _change(self, **fields: bool) -> None:
-        """Cut otherwise along the same planes, or the same box: what is set here is meant for both."""
+        """Change the hidden side of the planes or the box, or `crinkle` of both."""
         if "crinkle" in fields:
             self._planes = dataclasses.replace(self._planes, **fields)
             self._box = dataclasses.replace(self._box, **fields)
@@ -247,7 +253,7 @@ class ClipPanel(QWidget):
         planes, clip = self._planes.planes, self.proposal()
         self._on.setEnabled(self._bounds is not None)
         several = len(planes) > 1
-        shown = {  # nothing while nothing is cut: the column has much to hold
+        visible = {  # little while the cut is off, to save space
             self._kind: on,
             self._handles: on,
             self._row: on and not box,
@@ -258,8 +264,8 @@ class ClipPanel(QWidget):
             self._beyond: on and several and not box,
             self._cut: on,
         }
-        for part, seen in shown.items():
-            part.setVisible(seen)
+        for widget, shown in visible.items():
+            widget.setVisible(shown)
         self._row.set_planes(len(planes), self._at)
         self._plane_page.set_plane(planes[self._at])
         self._box_page.set_corners(self._box.low, self._box.high)

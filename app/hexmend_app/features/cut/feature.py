@@ -1,4 +1,4 @@
-"""Cutting the mesh open: planes, a box, layers peeled off, hexes isolated or dug away."""
+"""Feature that shows the inside of the mesh: cut, peel, isolate and dig."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class FeatureCut(Feature):
-    """Carries cuts from panels and from the view's handles to the look, and back."""
+    """Connects the cut panels and the handles in the view with the appearance."""
 
     order = 52
 
@@ -30,7 +30,7 @@ class FeatureCut(Feature):
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)
         self.panel.snap_changed.connect(view.set_snap)
-        self._proposed: CutPanelSettings | None = None  # by a session: after the mesh, for which cuts are proposed anew
+        self._proposed: CutPanelSettings | None = None  # by a session; shown after its mesh, which resets the proposal
         self.inside = InsidePanel()
         self.inside.peel_changed.connect(lambda layers: view.change(peel=layers))
         self.inside.shrink_changed.connect(lambda share: view.change(shrink=share))
@@ -41,7 +41,7 @@ class FeatureCut(Feature):
         self.inside.restore_requested.connect(view.undig_all)
 
     def actions(self) -> Sequence[Action]:
-        """Cut, isolate, dig."""
+        """Return the actions that cut, isolate and dig."""
         view, selection = self._view, self.session.selection
         return (
             Action(
@@ -59,33 +59,33 @@ class FeatureCut(Feature):
             ),
             Action(
                 id="isolate",
-                text="&Isolate the hex",
+                text="&Isolate hex",
                 menu="Hex",
                 part=1,
                 keys="I",
-                help="Show nothing but the chosen hex and its neighbours.",
+                help="Show only the selected hex and its neighbours.",
                 handle=lambda: view.isolate((selection.hex,)),
                 enabled=lambda: selection.hex is not None,
                 in_view=True,
             ),
             Action(
                 id="dig",
-                text="&Dig the hex away",
+                text="&Dig hex away",
                 menu="Hex",
                 part=1,
                 keys="Delete",
-                help="Hide the chosen hex and look behind it; Ctrl and a click in the view does the same.",
+                help="Hide the selected hex to see behind it. Ctrl+click in the view does the same.",
                 handle=lambda: self._dig(selection.hex),
                 enabled=lambda: selection.hex is not None,
                 in_view=True,
             ),
             Action(
                 id="undig",
-                text="&Undo digging",
+                text="&Undo dig",
                 menu="Hex",
                 part=1,
                 keys="Backspace",
-                help="Show the hex again that was dug away last.",
+                help="Restore the hex that was dug away last.",
                 handle=view.undig_last,
                 enabled=lambda: bool(view.look.dug),
                 in_view=True,
@@ -97,7 +97,7 @@ class FeatureCut(Feature):
         return (StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose),)
 
     def panels(self) -> Sequence[Panel]:
-        """The cut, and below it what else opens the mesh."""
+        """Return the cut panel and, below it, the panel that peels, shrinks and isolates."""
         return (
             Panel(
                 id="cut",
@@ -106,7 +106,7 @@ class FeatureCut(Feature):
                 place=PanelPlace.TOOLS,
                 tab="Cut",
                 order=30,
-                help="Planes or a box that cut the mesh open.",
+                help="Cut the mesh open with planes or a box.",
             ),
             Panel(
                 id="inside",
@@ -115,26 +115,26 @@ class FeatureCut(Feature):
                 place=PanelPlace.TOOLS,
                 tab="Cut",
                 order=31,
-                help="Layers peeled off, hexes shrunk, isolated or dug away.",
+                help="Peel, shrink, isolate and dig hexes.",
             ),
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Take what is dragged and dug in the view."""
+        """Connect dragging and digging in the view."""
         canvas.plane_dragged.connect(self._view.drag_plane)
         canvas.box_dragged.connect(self._view.drag_box)
         canvas.dug.connect(self._dig)
 
     def refresh(self) -> None:
-        """Show the cut as it is now."""
+        """Show the current cut."""
         document, view = self.session.document, self._view
         for panel in (self.panel, self.inside):
             panel.setEnabled(document.is_open)
         if not document.is_open:
             return
-        # Before the bounds: what is not cut is proposed anew in another mesh.
-        seen = not self._seen.changed("cut", document.start, view.look.clip, view.plane_at, view.handles)
-        if not seen or self.panel.clip() != view.look.clip:  # switched off and on again between two looks
+        # Before set_bounds, which resets the proposal if the cut is off.
+        changed = self._seen.changed("cut", document.start, view.look.clip, view.plane_at, view.handles)
+        if changed or self.panel.clip() != view.look.clip:  # or switched off and on again between two refreshes
             self.panel.set_clip(view.look.clip, view.plane_at)
             self.panel.set_handles(view.handles)
         if self._seen.changed("mesh", document.start):
@@ -155,7 +155,7 @@ class FeatureCut(Feature):
         self.refresh()
 
     def _left(self) -> CutLeft | None:
-        """Return the hexes left by the cut if cutting the current mesh again would leave other hexes."""
+        """Return the hexes left by the cut if cutting the current mesh would leave different ones."""
         document, look = self.session.document, self._view.look
         filters = None if self.canvas is None else self.canvas.viewport.filters
         if filters is None or not document.is_open or not filters.suit(document.now.mesh):

@@ -1,4 +1,4 @@
-"""Page that edits one clipping plane."""
+"""Page that edits a cutting plane."""
 
 from __future__ import annotations
 
@@ -18,15 +18,14 @@ _TICKS = 1000
 
 
 class PlanePage(QWidget):
-    """Aligns a plane with an axis, moves it and flips it.
+    """Page that aligns a plane with an axis, moves it and flips it.
 
-    The slider walks along the plane's axis through the mesh's bounds, in the direction of the axis also where the plane
-    is flipped.
+    The slider covers the mesh's bounds along the plane's normal, in the same direction if the plane is flipped.
 
     Signals
     -------
     changed(ClipPlane)
-        The user moved or turned the plane.
+        The user changed the plane.
     """
 
     changed = Signal(object)
@@ -38,33 +37,33 @@ class PlanePage(QWidget):
         self._axis = Segmented(
             "Axis",
             [(key, key.upper(), f"A plane normal to the {key.upper()} axis.") for key in _AXES]
-            + [("free", "Free", "A plane rotated in the view; choose X, Y or Z to align it with an axis.")],
+            + [("free", "Free", "A plane that was rotated in the view; select X, Y or Z to align it with an axis.")],
         )
         self._flip = QPushButton(icon("swap-horizontal"), "")
         self._flip.setFixedWidth(34)
-        set_help(self._flip, "Flip", "Hide the other side of the plane.")
+        set_help(self._flip, "Flip", "Hide the opposite side of the plane.")
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
         self._slider.setPageStep(_TICKS // 20)
-        set_help(self._slider, "Position", "Position of the plane; arrow keys move it by a thousandth of the mesh.")
+        set_help(self._slider, "Position", "Position of the plane; arrow keys move it by 1/1000 of the mesh's extent.")
         self._value = QLabel()
         self._value.setFont(tabular(self._value.font()))
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
-        set_help(self._value, "Position in mesh units", "Position along the plane's axis in the mesh's unit of length.")
+        set_help(self._value, "Position in mesh units", "Position along the plane's normal, in mesh units.")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)
         grid.setVerticalSpacing(7)
         grid.setColumnStretch(1, 1)
         grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
-        for row, (text, widget, neighbour) in enumerate(
+        for row, (text, widget, companion) in enumerate(
             (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
         ):
             label = QLabel(text)
             label.setBuddy(widget)
-            for column, part in enumerate((label, widget, neighbour)):
-                grid.addWidget(part, row, column)
+            for column, cell in enumerate((label, widget, companion)):
+                grid.addWidget(cell, row, column)
 
         self._axis.chosen.connect(self._on_axis)
         self._slider.valueChanged.connect(self._on_slider)
@@ -72,17 +71,17 @@ class PlanePage(QWidget):
         self._refresh()
 
     def set_bounds(self, bounds: np.ndarray) -> None:
-        """Take the lowest and the highest corner of the mesh, (2, 3); without a signal."""
+        """Set the lowest and highest corner of the mesh, (2, 3); emits no signal."""
         self._bounds = bounds
         self._refresh()
 
     def set_plane(self, plane: ClipPlane) -> None:
-        """Show a plane; without a signal."""
+        """Show a plane; emits no signal."""
         self._plane = plane
         self._refresh()
 
     def _direction(self) -> np.ndarray:
-        """(3,) unit normal in the sense in which its largest component is positive: the slider's axis."""
+        """Return the slider's axis, (3,): the unit normal with its largest component positive."""
         normal = np.array(self._plane.normal)
         return normal if normal[np.argmax(np.abs(normal).round(9))] > 0 else -normal
 
@@ -93,14 +92,14 @@ class PlanePage(QWidget):
         return float(ends.min(axis=0).sum()), float(ends.max(axis=0).sum())
 
     def _on_axis(self, key: str) -> None:
-        if key != "free":  # which says how the plane stands; there is nothing to set
+        if key != "free":  # free is a state, not a command
             self._change(ClipPlane(_AXES[key], tuple(self._bounds.mean(axis=0))))
 
     def _on_slider(self, tick: int) -> None:
         low, high = self._span()
         direction, centre = self._direction(), self._bounds.mean(axis=0)
-        place = low + (high - low) * tick / _TICKS
-        origin = centre + direction * (place - centre @ direction)
+        coordinate = low + (high - low) * tick / _TICKS
+        origin = centre + direction * (coordinate - centre @ direction)
         self._change(dataclasses.replace(self._plane, origin=tuple(origin)))
 
     def _change(self, plane: ClipPlane) -> None:
@@ -109,13 +108,13 @@ class PlanePage(QWidget):
 
     def _refresh(self) -> None:
         size = np.abs(self._plane.normal)
-        straight = [key for key, axis in _AXES.items() if np.allclose(size, axis, atol=1e-6)]
-        self._axis.set_value(straight[0] if straight else "free")
-        self._axis.button("free").setEnabled(not straight)
+        aligned = [key for key, axis in _AXES.items() if np.allclose(size, axis, atol=1e-6)]
+        self._axis.set_value(aligned[0] if aligned else "free")
+        self._axis.button("free").setEnabled(not aligned)
         low, high = self._span()
-        place = float(self._direction() @ self._plane.origin)
+        coordinate = float(self._direction() @ self._plane.origin)
         with QSignalBlocker(self._slider):
-            # A plane of the mesh before may lie farther away than Qt can count.
-            share = min(max((place - low) / (high - low), 0.0), 1.0) if high > low else 0.0
-            self._slider.setValue(round(_TICKS * share))
-        self._value.setText(position(place, float(np.ptp(self._bounds, axis=0).max())))
+            # A plane of the previous mesh may be farther away than an int of Qt can hold.
+            fraction = min(max((coordinate - low) / (high - low), 0.0), 1.0) if high > low else 0.0
+            self._slider.setValue(round(_TICKS * fraction))
+        self._value.setText(position(coordinate, float(np.ptp(self._bounds, axis=0).max())))

@@ -1,4 +1,4 @@
-"""Row that selects, adds and removes clipping planes."""
+"""Row that selects, adds and removes cutting planes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _SNAP = "Align a plane with an axis when it is rotated close to the axis."
 
 
 class PlaneRow(QWidget):
-    """Lists the planes by number; adds and removes planes.
+    """Row with a tab for each plane and buttons that add and remove planes.
 
     Parameters
     ----------
@@ -21,8 +21,11 @@ class PlaneRow(QWidget):
     Signals
     -------
     chosen(int)
+        The user selected the plane with this index.
     add_requested, remove_requested
+        The user pressed the button.
     snap_changed(bool)
+        The user switched snapping.
     """
 
     chosen = Signal(int)
@@ -37,22 +40,22 @@ class PlaneRow(QWidget):
         self._tabs.setDrawBase(False)
         self._tabs.setExpanding(False)
         self._tabs.setUsesScrollButtons(True)
-        self._tabs.setMinimumWidth(64)  # or it asks for twice as much where there is one plane
-        set_help(self._tabs, "Plane", "The plane that is edited here and in the view.")
+        self._tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
+        set_help(self._tabs, "Plane", "Plane that is edited here and in the view.")
         self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
         for button in (self._add, self._remove):
             button.setFixedWidth(30)
-        set_help(self._add, "Add a plane", "Add a cutting plane.")
-        set_help(self._remove, "Remove the plane", "Remove this plane.")
+        set_help(self._add, "Add plane", "Add a cutting plane.")
+        set_help(self._remove, "Remove plane", "Remove this cutting plane.")
         self._snap = QCheckBox("Snap")
         self._snap.setChecked(True)
-        set_help(self._snap, "Snap to the axes", _SNAP)
+        set_help(self._snap, "Snap to axes", _SNAP)
         label = QLabel("Plane")
         label.setBuddy(self._tabs)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        for part in (label, self._tabs, self._add, self._remove):
-            row.addWidget(part)
+        for widget in (label, self._tabs, self._add, self._remove):
+            row.addWidget(widget)
         row.addStretch()
         row.addWidget(self._snap)
         self._tabs.currentChanged.connect(self.chosen)
@@ -62,7 +65,7 @@ class PlaneRow(QWidget):
         self.set_planes(1, 0)
 
     def set_planes(self, count: int, at: int) -> None:
-        """Show `count` planes and select plane `at`; without a signal."""
+        """Show `count` planes and select the plane with index `at`; emits no signal."""
         with QSignalBlocker(self._tabs):
             while self._tabs.count() < count:
                 self._tabs.addTab(str(self._tabs.count() + 1))

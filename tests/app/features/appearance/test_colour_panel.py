@@ -1,4 +1,4 @@
-"""What the colours show, chosen by mouse and keys."""
+"""The colour panel by mouse and keys."""
 
 import dataclasses
 from html import escape
@@ -21,7 +21,7 @@ _LEFT = Qt.MouseButton.LeftButton
 
 @pytest.fixture
 def unbounded(monkeypatch):
-    """A metric without an upper end, of which less is better."""
+    """Register a metric without an upper bound, of which lower values are better."""
     bounds = (1.0, float("inf"))
     metric = Metric("long", "Long", "long / short", "nobody", bounds, bounds, -1, "None.", of=lambda *_: None)
     monkeypatch.setattr(METRICS, "_entries", {**METRICS, "long": metric})
@@ -65,9 +65,9 @@ def reverse(panel):
 
 
 def problem(panel):
-    """What is said to be wrong with the range; empty while nothing is."""
-    said = [label.text() for label in panel.findChildren(QLabel) if label.isVisible() and "xpected" in label.text()]
-    return " ".join(said)
+    """Return the error shown for the limits, "" if there is none."""
+    labels = panel.findChildren(QLabel)
+    return " ".join(label.text() for label in labels if label.isVisible() and "xpected" in label.text())
 
 
 def press(panel, mode):
@@ -75,7 +75,7 @@ def press(panel, mode):
 
 
 def choose(combo, name):
-    """Walk to an entry with the arrow keys."""
+    """Select an entry with the arrow keys."""
     combo.setFocus()
     while combo.currentData() != name:
         there, here = combo.findData(name), combo.currentIndex()
@@ -99,7 +99,7 @@ def test_every_metric_is_offered_with_what_it_declares(panel):
         assert f"acceptable {metric.acceptable[0]:g} to" in tip
     tip = metrics(panel).itemData(metrics(panel).findData("long"), Qt.ItemDataRole.ToolTipRole)
     assert "1 to ∞" in tip
-    assert "Less is better" in tip
+    assert "Lower is better" in tip
 
 
 def test_every_map_is_offered_with_a_swatch(panel):
@@ -125,7 +125,7 @@ def test_ranges_without_bound_cannot_be_chosen(panel, heard):
     assert heard[-1].mode is RangeMode.FITTED
     for mode in ("full", "acceptable"):
         assert not ranges(panel).button(mode).isEnabled()
-        assert "without bound" in ranges(panel).button(mode).toolTip()
+        assert "unbounded" in ranges(panel).button(mode).toolTip()
         press(panel, mode)
     assert panel.scale().mode is RangeMode.FITTED
     choose(metrics(panel), "q")
@@ -146,7 +146,7 @@ def test_a_half_typed_number_is_no_wish(panel, heard):
     press(panel, "pinned")
     heard.clear()
     type_in(high(panel), "0.35", enter=False)
-    panel.set_ends(0.1, 0.2)  # a frame arrives meanwhile
+    panel.set_ends(0.1, 0.2)  # an iteration is drawn meanwhile
     assert high(panel).lineEdit().text() == "0.35"
     assert heard == []
     QTest.keyClick(high(panel).lineEdit(), Qt.Key.Key_Tab)

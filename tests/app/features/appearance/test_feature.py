@@ -1,4 +1,4 @@
-"""The look in the window: what the colours show, over which range, and what is drawn anew when."""
+"""Appearance in the window: colours, ranges, and when the mesh is redrawn."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def panel(window):
-    """The panel of the colours, in front."""
+    """Return the colour panel, in front."""
     window.show_panel("look")
     window.refresh()
     return window.features["appearance"].panel
 
 
 def differ(before, after):
-    """The share of pixels that are clearly others."""
+    """Return the fraction of pixels that differ clearly."""
     return (np.abs(after - before).sum(axis=2) > 60).mean()
 
 
@@ -39,7 +39,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     maps.setFocus()
     QTest.keyClick(maps, Qt.Key.Key_Down)
     assert differ(recoloured, pixels(window)) > 0.05
-    low, high = (named(panel, QAbstractSpinBox, f"{which} value") for which in ("Lowest", "Highest"))
+    low, high = (named(panel, QAbstractSpinBox, f"{end} value") for end in ("Lowest", "Highest"))
     press(named(panel, QAbstractButton, "Range: Fitted"))
     assert f"from {low.value():g} to {high.value():g}" in bar.accessibleDescription()
     assert not low.isEnabled()
@@ -58,7 +58,7 @@ def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, monkeyp
     viewport, now = window.canvas.viewport, window.session.document.now
     rebuilt = []
     rebuild = viewport.body.rebuild
-    monkeypatch.setattr(viewport.body, "rebuild", lambda *what: (rebuilt.append(1), rebuild(*what)))
+    monkeypatch.setattr(viewport.body, "rebuild", lambda *arguments: (rebuilt.append(1), rebuild(*arguments)))
     window.session.view.change(quality_range=ValueRange("q", 0.4, 1))
     window.refresh()
     moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
@@ -76,7 +76,7 @@ def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, monkeyp
 
 def test_the_mesh_is_drawn_once_for_all_that_changes_in_a_turn(window, qtbot, monkeypatch):
     drawn, draw = [], window.canvas.draw
-    monkeypatch.setattr(window.canvas, "draw", lambda *what: (drawn.append(1), draw(*what)))
+    monkeypatch.setattr(window.canvas, "draw", lambda *arguments: (drawn.append(1), draw(*arguments)))
     for edges in (False, True, False):
         window.session.view.change(edges=edges)
     assert drawn == []

@@ -8,7 +8,7 @@ from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
 from hexmend.mesh.hexahedron import EDGES, UNIT_CUBE
 from hexmend.quality import METRICS, measure
 
-#: Metrics whose values are Verdict's, the infinite ones apart.
+#: Functions of VTK by the metrics that have the same finite values.
 THEIRS = {
     "shape": "HexShape",
     "condition": "HexCondition",
@@ -21,16 +21,16 @@ THEIRS = {
     "jacobian": "HexJacobian",
 }
 
-#: What Verdict calls infinite is 1e30, of which condition numbers are a third.
+#: Verdict returns 1e30 for infinity, and a third of it for condition numbers.
 HUGE = 1e29
 
 
-#: Among these edges of the twelve Verdict looks for the longest.
+#: The edges, of twelve, among which Verdict looks for the longest.
 SEEN = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6]])
 
 
 def cells(x):
-    """Hexes with corners x (m, 8, 3) as cells of VTK."""
+    """Return hexes with corners x (m, 8, 3) as a VTK grid."""
     grid, points = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
     points.SetDataTypeToDouble()
     for row in x.reshape(-1, 3):
@@ -43,7 +43,7 @@ def cells(x):
 
 
 def values(name, x):
-    """A metric of hexes with corners x (m, 8, 3)."""
+    """Return a metric of hexes with corners x (m, 8, 3)."""
     points, hexes = x.reshape(-1, 3).copy(), np.arange(8 * len(x), dtype=np.int32).reshape(-1, 8)
     return METRICS[name].of(points, hexes, measure(points, hexes))
 
@@ -54,7 +54,7 @@ def of_cells(function, x):
 
 
 def of_faces(function, x):
-    """Values of the six faces of each hex, (m, 6)."""
+    """Return the values of the six faces of each hex, (m, 6)."""
     return of_cells(lambda cell: [function(cell.GetFace(f)) for f in range(6)], x)
 
 
@@ -91,7 +91,7 @@ def test_angles_are_those_of_the_faces(kind):
     least, greatest = values("min-angle", x), values("max-angle", x)
     np.testing.assert_allclose(least, of_faces(vtkMeshQuality.QuadMinAngle, x).min(axis=1), atol=1e-5)
     theirs = of_faces(vtkMeshQuality.QuadMaxAngle, x).max(axis=1)
-    convex = theirs <= 180  # of a concave face Verdict takes the angle inside, ours is that between the edges
+    convex = theirs <= 180  # for a concave face Verdict uses the interior angle, Hexmend the angle between the edges
     np.testing.assert_allclose(greatest[convex], theirs[convex], atol=1e-5)
     assert convex.any() or kind == "tangled"
 

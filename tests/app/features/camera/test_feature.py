@@ -1,4 +1,4 @@
-"""The camera as text, from one window to another."""
+"""Copying and pasting the camera."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def test_a_direction_is_pasted_too(window):
 
 
 @pytest.mark.parametrize("text", ["", "some words", "{ from = 'up' }", "{ position = [nan, 0, 0] }"])
-def test_what_is_no_camera_is_said_and_changes_nothing(window, text):
+def test_pasting_other_text_shows_an_error_and_changes_nothing(window, text):
     stand = window.canvas.stand
     QGuiApplication.clipboard().setText(text)
     window.action("paste_camera").trigger()
-    assert window.messages.messages()[-1][:2] == ("error", "The camera cannot be pasted")
+    assert window.messages.messages()[-1][:2] == ("error", "Camera not pasted")
     assert window.canvas.stand == stand

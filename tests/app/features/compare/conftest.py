@@ -1,4 +1,4 @@
-"""Windows in which methods are compared."""
+"""Windows with a comparison."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def comparing(window, qtbot):
-    """The panel in front and short runs asked for."""
+    """Return a window with the panel in front and short runs."""
     return prepared(window, qtbot)
 
 
 @pytest.fixture
 def compared(comparing, qtbot):
-    """Three methods' results in the table."""
+    """Return a window with the results of three methods."""
     choose_methods(comparing, "laplacian", "getme", "local-sd")
-    press(button(comparing, "Run the comparison"))
+    press(button(comparing, "Run comparison"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     return comparing

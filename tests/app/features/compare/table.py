@@ -1,4 +1,4 @@
-"""The table of the comparison, as a hand uses it."""
+"""The table of the comparison, driven by the mouse."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from hexmend_app.canvas.view_captions import CaptionRow
 from hexmend_app.features.compare.comparison_table import METHOD
 from tests.app.driving import LEFT, choose, named
 
-COLUMN = {figure.key: at for at, figure in enumerate(LINES, 2)}
-
+COLUMN = {quantity.key: at for at, quantity in enumerate(LINES, 2)}
 
 SHORT, ENDLESS = StoppingCriteria(max_iterations=4), StoppingCriteria(max_iterations=100_000, tolerance=0.0)
 
@@ -32,7 +31,7 @@ def row(window, name):
 
 
 def tick(window, name, column):
-    """Click on the check of a row."""
+    """Click on a check box of a row."""
     table = table_of(window)
     index = model(window).index(row(window, name), column)
     table.scrollTo(index)
@@ -53,7 +52,7 @@ def choose_methods(window, *names):
 
 
 def prepared(window, qtbot):
-    """The window with the panel in front and short runs asked for."""
+    """Return the window with the panel in front and short runs."""
     window.show_panel("compare")
     choose(window, "mend", SHORT)
     qtbot.waitUntil(window.features["compare"].panel.isVisible)
@@ -61,9 +60,9 @@ def prepared(window, qtbot):
 
 
 def captions(window):
-    """What the views are called that have captions, row by row."""
+    """Return the captions of the views, row by row."""
     window.refresh()
-    QApplication.processEvents()  # layouts show what was put into them a moment later
-    own = Qt.FindChildOption.FindDirectChildrenOnly
-    parts = [part for row in window.findChildren(CaptionRow) for part in row.findChildren(QWidget, options=own)]
+    QApplication.processEvents()  # layouts apply changes in the event loop
+    direct = Qt.FindChildOption.FindDirectChildrenOnly
+    parts = [part for row in window.findChildren(CaptionRow) for part in row.findChildren(QWidget, options=direct)]
     return [part.accessibleName().partition(":")[0] for part in parts if part.isVisibleTo(window)]

@@ -1,4 +1,4 @@
-"""Comparing methods in the window, with mouse and keys: the table."""
+"""Comparisons in the window, by mouse and keys: the table."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
         assert record["iterations"] == 4
     assert [one.name for one in model(compared).entries[:4]] == ["initial", "getme", "laplacian", "local-sd"]
     corner = compared.statusBar()
-    assert named(corner, QLabel, "Counts").isVisible()  # the table leaves the counts their place
+    assert named(corner, QLabel, "Counts").isVisible()  # the table does not cover the counts
     best = min(expected.rows, key=lambda one: one.after.inverted).method
     cell = model(compared).index(row(compared, best), COLUMN["inverted"])
     assert cell.data(Qt.ItemDataRole.FontRole).bold()
@@ -60,7 +60,7 @@ def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_pa
     open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
     choose(comparing, "laplacian", StoppingCriteria(keep_last=True))
     choose_methods(comparing, "laplacian", "smart-laplacian")
-    press(button(comparing, "Run the comparison"))
+    press(button(comparing, "Run comparison"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
 
     def cell(name, figure):
@@ -99,30 +99,30 @@ def test_a_click_on_a_head_sorts_and_the_initial_mesh_stays_first(compared):
 
 
 def test_cancel_ends_with_the_iteration_at_hand_and_keeps_what_was_reached(comparing, qtbot, monkeypatch):
-    at_hand, go_on = Event(), Event()
+    reached, resume = Event(), Event()
     steps = METHODS["local-sd"].steps
 
-    def held(self, mesh):
-        for number, step in enumerate(steps(self, mesh)):  # the first is the mesh as it is
+    def paused(self, mesh):
+        for number, step in enumerate(steps(self, mesh)):  # number 0 is the initial mesh
             if number == 3:
-                at_hand.set()
-                assert go_on.wait(PATIENCE / 1000)
+                reached.set()
+                assert resume.wait(PATIENCE / 1000)
             yield step
 
-    monkeypatch.setattr(METHODS["local-sd"], "steps", held)
+    monkeypatch.setattr(METHODS["local-sd"], "steps", paused)
     comparison = comparing.session.comparison
     choose(comparing, "mend", ENDLESS)
     choose_methods(comparing, "local-sd", "mend")
-    press(button(comparing, "Run the comparison"))
-    qtbot.waitUntil(at_hand.is_set, timeout=PATIENCE)
+    press(button(comparing, "Run comparison"))
+    qtbot.waitUntil(reached.is_set, timeout=PATIENCE)
     comparing.refresh()
-    offered = comparing.window_actions["compare"].isEnabled()
-    press(button(comparing, "Cancel the comparison"))
-    status = named(comparing.features["compare"].panel, QLabel, "Progress of the comparison")
+    enabled = comparing.window_actions["compare"].isEnabled()
+    press(button(comparing, "Cancel comparison"))
+    status = named(comparing.features["compare"].panel, QLabel, "Comparison progress")
     ending = status.text()
-    go_on.set()
-    assert not offered
-    assert ending == f"Ending {METHODS['local-sd'].title} after this iteration…"
+    resume.set()
+    assert not enabled
+    assert ending == f"Stopping {METHODS['local-sd'].title} after this iteration…"
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
     (one,) = comparison.results
     assert one.row.outcome == "stopped"
@@ -140,7 +140,7 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, 
 
     monkeypatch.setattr(METHODS["getme"], "steps", broken)
     choose_methods(comparing, "getme", "laplacian")
-    press(button(comparing, "Run the comparison"))
+    press(button(comparing, "Run comparison"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     failed, well = (model(comparing).entries[row(comparing, name)] for name in ("getme", "laplacian"))
     assert failed.record["outcome"] == "failed"
@@ -155,7 +155,7 @@ def test_another_mesh_ends_the_work_and_empties_everything(compared, qtbot, mesh
     tick(compared, "getme", VIEW)
     choose(compared, "mend", ENDLESS)
     choose_methods(compared, "local-sd")
-    press(button(compared, "Run the comparison"))
+    press(button(compared, "Run comparison"))
     open_and_wait(qtbot, compared, mesh_file)
     assert not compared.session.comparison.busy
     assert not any(one.record for one in model(compared).entries)
@@ -169,7 +169,7 @@ def test_the_window_closes_while_methods_run(fresh_window, qtbot):
     comparing = prepared(fresh_window, qtbot)
     choose(comparing, "mend", ENDLESS)
     choose_methods(comparing, "local-sd")
-    press(button(comparing, "Run the comparison"))
+    press(button(comparing, "Run comparison"))
     qtbot.waitUntil(lambda: comparing.session.comparison.progress.iteration > 0, timeout=PATIENCE)
     comparing.close()
     assert not comparing.session.comparison.busy
@@ -177,11 +177,11 @@ def test_the_window_closes_while_methods_run(fresh_window, qtbot):
 
 def test_a_result_is_taken_and_undo_takes_it_back(compared):
     before = compared.session.document.now.mesh
-    assert not button(compared, "Take result").isEnabled()
+    assert not button(compared, "Use result").isEnabled()
     index = model(compared).index(row(compared, "laplacian"), COLUMN["inverted"])
     table = table_of(compared)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualRect(index).center())
-    press(button(compared, "Take result"))
+    press(button(compared, "Use result"))
     taken = compared.session.comparison.of("laplacian").state
     np.testing.assert_array_equal(compared.session.document.now.mesh.points, taken.mesh.points)
     assert compared.session.document.undo_title == METHODS["laplacian"].title
@@ -193,7 +193,7 @@ def test_methods_run_with_the_values_that_were_set_for_them(comparing, qtbot):
     choose(comparing, "getme", SHORT, relaxation=0.25)
     choose(comparing, "laplacian", SHORT)
     choose_methods(comparing, "getme")
-    press(button(comparing, "Run the comparison"))
+    press(button(comparing, "Run comparison"))
     qtbot.waitUntil(lambda: not comparing.session.comparison.busy, timeout=PATIENCE)
     assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
 
@@ -206,7 +206,7 @@ def test_the_table_is_saved_as_any_of_four_files_or_the_reason_given(compared, t
     record = json.loads((tmp_path / "table.json").read_text())
     assert [one["method"] for one in record["rows"]] == ["getme", "laplacian", "local-sd"]
     assert not compared.features["compare"].save(tmp_path / "table.doc")
-    kind, words = compared.messages.messages()[-1][:2]
+    kind, text = compared.messages.messages()[-1][:2]
     assert kind == "error"
     assert not (tmp_path / "table.doc").exists()
-    assert words
+    assert text

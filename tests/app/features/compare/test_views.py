@@ -1,4 +1,4 @@
-"""Results of a comparison in views side by side, with mouse and keys."""
+"""Results of a comparison in views side by side, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
     series = compared.features["histogram"].panel.series()
     assert [one.name for one in series][2:] == [title_of("getme"), title_of("laplacian"), title_of("local-sd")]
     initial = model(compared).index(0, VIEW)
-    assert not model(compared).flags(initial) & Qt.ItemFlag.ItemIsEnabled  # there is no room
+    assert not model(compared).flags(initial) & Qt.ItemFlag.ItemIsEnabled  # four views are open
     tick(compared, "initial", VIEW)
     assert len(compared.canvas.panes.all) == 4
     for view, name in zip(compared.canvas.panes.all[1:], ("getme", "laplacian", "local-sd"), strict=True):
@@ -76,7 +76,7 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
     tick(compared, "getme", VIEW)
     tick(compared, "initial", VIEW)
     assert captions(compared) == ["now", "mine", title_of("getme"), "initial"]
-    press(button(compared, "Run the comparison"))
+    press(button(compared, "Run comparison"))
     assert captions(compared) == ["now", "mine"]
     qtbot.waitUntil(lambda: not compared.session.comparison.busy, timeout=PATIENCE)
     assert not any(one.shown for one in model(compared).entries)
@@ -142,7 +142,7 @@ def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(com
     half = changed.shape[1] // 2
     left, right = changed[:, :half].mean(), changed[:, half:].mean()
     assert left > 0.01  # the plane is a faint one
-    assert right < left / 4  # edges may be drawn a little otherwise, for there is something else in depth
+    assert right < left / 4  # edges may differ slightly: the depth buffer has another range
 
 
 @pytest.mark.slow
@@ -157,10 +157,10 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
     centre = compared.session.document.now.mesh.points.mean(axis=0)
     compared.session.view.set_clip(PlaneClip.at((0, 0, 1), tuple(centre)))
     compared.refresh()
-    QApplication.processEvents()  # the wipe's choices take room from the view
+    QApplication.processEvents()  # the row of the wipe makes the view smaller
     pixels(compared)
     x, y, z = compared.session.view.look.clip.planes[0].origin
-    place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, beside its arrow
+    place = seen_at(compared, (x + 4, y - 4, z))  # on the plane, next to its arrow
     before = compared.canvas.panes.all[1].shown
     drag(compared.canvas.interactor, place, place + QPoint(0, -30))
     assert compared.session.view.look.clip.planes[0].origin[2] > z

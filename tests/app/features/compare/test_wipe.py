@@ -1,4 +1,4 @@
-"""Two results in one view, and the edge between them that is dragged."""
+"""The wipe: two results in one view with an edge to drag."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_either_side_of_the_wipe_is_chosen_by_name(compared):
     left, right = compared.findChild(WipeRow).findChildren(QComboBox)
     assert [right.itemText(k) for k in range(right.count())] == ["now", title_of("getme"), title_of("laplacian")]
     for _ in range(2):
-        QTest.keyClick(left, Qt.Key.Key_Down)  # to what is at the right: they change places
+        QTest.keyClick(left, Qt.Key.Key_Down)  # selects the right mesh: the two change places
         compared.refresh()
     assert (left.currentText(), right.currentText()) == (title_of("laplacian"), title_of("getme"))
     seen = compared.canvas.panes.seen

@@ -1,4 +1,4 @@
-"""The console: commands run beside the window, change the mesh as an edit, and can be interrupted."""
+"""The console: commands run in a thread, change the mesh as an edit, and can be interrupted."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def console(window, qtbot):
-    """The console of the shared window, and what enters a command and waits for its end."""
+    """Return the console of the window, with a function that enters a command and waits for it."""
     feature = window.features["console"]
     window.action("console").trigger()
     feature.panel.output.clear()
@@ -53,7 +53,7 @@ def test_assigning_to_mesh_is_an_undoable_edit(window, console):
     assert document.now is before
     window.session.commands.redo()
     window.session.commands.undo()
-    assert "expected a hexmend Mesh" in console.enter_and_wait("mesh = 3")
+    assert "expected mesh to be a hexmend Mesh" in console.enter_and_wait("mesh = 3")
     assert document.now is before
 
 
@@ -72,7 +72,7 @@ def test_an_endless_loop_can_be_interrupted(window, console, qtbot):
     qtbot.keyClicks(console.panel.input, "while True: pass")
     qtbot.keyClick(console.panel.input, Qt.Key.Key_Return)
     assert console.running
-    qtbot.wait(100)  # the window is alive
+    qtbot.wait(100)  # the window responds
     qtbot.keyClick(console.panel.input, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(lambda: not console.running, timeout=PATIENCE)
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()

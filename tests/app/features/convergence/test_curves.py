@@ -1,4 +1,4 @@
-"""Figures of runs as curves."""
+"""Values of runs as curves."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 from hexmend.run import StoppingCriteria, iterate
 from hexmend.smoothers import METHODS
 from hexmend_app.features.convergence.charts import CHARTS
-from hexmend_app.features.convergence.curves import Columns, Curve, beginning, thinned
+from hexmend_app.features.convergence.curves import Columns, Curve, run_start, thinned
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from tests.core.grids import grid, scrambled
@@ -62,12 +62,12 @@ def test_a_branch_begins_where_it_left_its_parent():
     trunk = recorded("laplacian")
     branch = recorded("local-sd", 4, RecordedIteration(trunk, 3))
     twig = recorded("getme", 2, RecordedIteration(branch, 2))
-    assert beginning(trunk) == (0, 0)
-    assert beginning(twig)[0] == 5
-    assert beginning(twig)[1] == trunk.rows[3]["seconds"] + branch.rows[2]["seconds"]
+    assert run_start(trunk) == (0, 0)
+    assert run_start(twig)[0] == 5
+    assert run_start(twig)[1] == trunk.rows[3]["seconds"] + branch.rows[2]["seconds"]
     columns = Columns(twig)
     columns.grow()
-    curve = Curve(columns, 0, beginning(twig), True, True, False, twig.numbers)
+    curve = Curve(columns, 0, run_start(twig), True, True, False, twig.numbers)
     assert curve.x(by_time=False).tolist() == [5, 6, 7]
     assert curve.nearest(5.6, by_time=False) == 1
     assert curve.nearest(-3, by_time=False) == 0

@@ -1,4 +1,4 @@
-"""How runs converge, in the window."""
+"""Convergence charts in the window."""
 
 from __future__ import annotations
 
@@ -46,21 +46,21 @@ def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel
     qtbot.waitUntil(lambda: window.session.timeline.moment.number == 3, timeout=PATIENCE)
     window.refresh()
     assert window.session.document.previews
-    assert panel.plots["inverted"].here.value() == 3
+    assert panel.plots["inverted"].marker.value() == 3
     window.session.timeline.go(record, 6)
     window.refresh()
-    assert panel.plots["objective"].here.value() == 6
+    assert panel.plots["objective"].marker.value() == 6
 
 
 def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, qtbot, panel):
     first = run(window, qtbot)
     window.session.timeline.go(first, 4)
     second = run(window, qtbot, "laplacian", 3)
-    begins = {one.record: one.begins[0] for one in panel.curves}
-    assert begins == {first: 0, second: 4}
+    starts = {one.record: one.start[0] for one in panel.curves}
+    assert starts == {first: 0, second: 4}
     assert {one.record: one.current for one in panel.curves} == {first: False, second: True}
     panel.head.from_zero.trigger()
-    assert [one.begins[0] for one in panel.curves] == [0, 0]
+    assert [one.start[0] for one in panel.curves] == [0, 0]
     slots = {one.record: one.slot for one in panel.curves}
     press(panel.legend.rows[first].cross)
     assert [one.record for one in panel.curves] == [second]

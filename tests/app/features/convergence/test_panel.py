@@ -1,4 +1,4 @@
-"""Charts of runs, with mouse and keys."""
+"""Convergence charts by mouse and keys."""
 
 import numpy as np
 import pytest
@@ -19,8 +19,8 @@ START = State.of(grid(2))
 
 
 def record(name, count, parent=None, **more):
-    made = RunRecord(name, name.title(), START, parent)
-    made.rows = [
+    record = RunRecord(name, name.title(), START, parent)
+    record.rows = [
         {
             "iteration": k,
             "seconds": 0.1 * k,
@@ -33,19 +33,19 @@ def record(name, count, parent=None, **more):
         }
         for k in range(count)
     ]
-    return made
+    return record
 
 
-def curve(record, slot=0, begins=(0.0, 0.0), shown=True, current=True, going=False, kept=None):
+def curve(record, slot=0, start=(0.0, 0.0), shown=True, current=True, running=False, stored=None):
     columns = Columns(record)
     columns.grow()
-    numbers = record.numbers if kept is None else lambda: np.array(kept)
-    return Curve(columns, slot, begins, shown, current, going, numbers)
+    numbers = record.numbers if stored is None else lambda: np.array(stored)
+    return Curve(columns, slot, start, shown, current, running, numbers)
 
 
 TRUNK = record("getme", 21)
 BRANCH = record("local-sd", 9, RecordedIteration(TRUNK, 8), delta=0.01)
-BOTH = (curve(TRUNK, kept=range(0, 21, 4)), curve(BRANCH, 1, (8.0, 0.8), current=False))
+BOTH = (curve(TRUNK, stored=range(0, 21, 4)), curve(BRANCH, 1, (8.0, 0.8), current=False))
 
 
 @pytest.fixture
@@ -57,7 +57,7 @@ def panel(shown):
 
 
 def place(panel, key, x, y=None):
-    """Where a place of a chart is in its widget; y as it is drawn, or the middle."""
+    """Return the widget of a chart and a position in it; y in the coordinates of the axis, or the middle."""
     plot = panel.plots[key]
     (low, high) = plot.view.viewRange()[1]
     at = plot.view.mapViewToScene(QPointF(x, (low + high) / 2 if y is None else y))
@@ -88,12 +88,12 @@ def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
     assert inverted.heights(np.array([100.0, 0.0])).tolist() == [100, 0]
 
 
-def test_what_a_method_does_not_tell_is_said(panel):
+def test_headings_name_runs_that_do_not_report_a_quantity(panel):
     panel.head.charts["delta"].trigger()
     panel.head.charts["gradient_norm"].trigger()
-    assert panel.plots["delta"].title.text() == "delta: getme does not tell this"
-    assert panel.plots["gradient_norm"].title.text() == "gradient norm: getme and local-sd do not tell this"
-    assert "not tell" not in panel.plots["objective"].title.text()
+    assert panel.plots["delta"].title.text() == "delta: not reported by getme"
+    assert panel.plots["gradient_norm"].title.text() == "gradient norm: not reported by getme and local-sd"
+    assert "not reported" not in panel.plots["objective"].title.text()
 
 
 def test_every_chart_can_be_drawn_alone(panel):
@@ -138,18 +138,18 @@ def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
 
 def test_the_iteration_shown_is_marked_on_its_branch(panel):
     panel.set_shown(BRANCH, 3)
-    assert {plot.here.value() for plot in panel.drawn} == {11.0}
+    assert {plot.marker.value() for plot in panel.drawn} == {11.0}
     QTest.mouseClick(panel.head.axis.button("time"), LEFT)
-    assert panel.drawn[0].here.value() == pytest.approx(1.1)
+    assert panel.drawn[0].marker.value() == pytest.approx(1.1)
     panel.set_shown(None)
-    assert not panel.drawn[0].here.isVisible()
+    assert not panel.drawn[0].marker.isVisible()
 
 
 def test_the_line_of_the_objective_ends_where_a_stage_has_another_one(panel):
     stages = record("recipe", 9)
     for row in stages.rows:
         row["objective_formula"] = "Σ η²" if row["iteration"] < 5 else "Σ η⁴, offset 0"
-    one = curve(stages, kept=range(9))
+    one = curve(stages, stored=range(9))
     x, y = one.drawn("objective", by_time=False)
     assert len(x) == len(y) == 10
     assert np.flatnonzero(np.isnan(x)).tolist() == [5]
@@ -163,18 +163,18 @@ def test_the_line_of_the_objective_ends_where_a_stage_has_another_one(panel):
     assert np.isnan(y[5])
 
 
-def test_what_is_under_the_mouse_is_told_and_what_was_thinned_out(panel):
-    said = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
-    assert said.splitlines() == [
-        "getme 10: q min 0.2381, q mean 0.9000 (nearest kept: 8)",
-        "local-sd 2: q min 0.1111, q mean 0.9000 (nearest kept: 0)",
+def test_tooltips_give_values_and_the_nearest_stored_iteration(panel):
+    text = describe(CHARTS["quality"], BOTH, 9.8, by_time=False)
+    assert text.splitlines() == [
+        "getme 10: q min 0.2381, q mean 0.9000 (nearest stored: 8)",
+        "local-sd 2: q min 0.1111, q mean 0.9000 (nearest stored: 0)",
     ]
     assert describe(CHARTS["objective"], BOTH[:1], 0, by_time=False) == "getme 0: objective infinite"
-    assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not told"
+    assert describe(CHARTS["delta"], BOTH[:1], 4, by_time=False) == "getme 4: delta not reported"
     assert describe(CHARTS["inverted"], BOTH, 40, by_time=False) == ""
     paused = record("mend", 5)
     paused.pauses[3] = "Hex 7 inverted"
-    assert describe(CHARTS["inverted"], [curve(paused)], 3, by_time=False).endswith("paused there: Hex 7 inverted")
+    assert describe(CHARTS["inverted"], [curve(paused)], 3, by_time=False).endswith("paused: Hex 7 inverted")
     assert " at 0.4 s: " in describe(CHARTS["inverted"], BOTH[:1], 0.41, by_time=True)
 
 
@@ -190,7 +190,7 @@ def test_runs_are_switched_and_forgotten_in_the_legend(panel):
     QTest.keyClick(row.cross, Qt.Key.Key_Space)
     assert toggled == [("local-sd", False)]
     assert forgotten == ["local-sd"]
-    panel.set_curves((curve(TRUNK, going=True), curve(BRANCH, 1, (8.0, 0.8), shown=False, current=False)))
+    panel.set_curves((curve(TRUNK, running=True), curve(BRANCH, 1, (8.0, 0.8), shown=False, current=False)))
     assert not panel.legend.rows[TRUNK].cross.isEnabled()
     assert all(slot == 0 for slot, _ in panel.plots["objective"].lines)
     panel.set_curves(())
@@ -198,14 +198,14 @@ def test_runs_are_switched_and_forgotten_in_the_legend(panel):
     assert not panel.head.save.isEnabled()
 
 
-def test_where_room_is_short_runs_stand_above_the_charts(panel):
-    def beside():
+def test_runs_are_listed_above_the_charts_in_a_narrow_panel(panel):
+    def at_side():
         return panel.side.mapTo(panel, QPoint(0, 0)).x() > panel.plotting.mapTo(panel, QPoint(0, 0)).x()
 
-    assert beside()
+    assert at_side()
     panel.resize(330, 300)
     turn()
-    assert not beside()
+    assert not at_side()
     assert panel.plotting.width() > 250
 
 
@@ -215,7 +215,7 @@ def test_while_a_run_goes_on_axes_change_seldom(panel):
     spans = set()
     for count in range(100, 200):
         growing.rows = rows[:count]
-        panel.set_curves((curve(growing, going=True),))
+        panel.set_curves((curve(growing, running=True),))
         low, high = panel.drawn[0].view.viewRange()[0]
         assert high >= count - 1
         spans.add((low, high))

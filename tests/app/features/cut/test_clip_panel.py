@@ -1,4 +1,4 @@
-"""The clipping plane set by mouse and keys."""
+"""The cut panel by mouse and keys."""
 
 import numpy as np
 import pytest
@@ -58,11 +58,11 @@ def tabs(panel):
 
 
 def add(panel):
-    return named(panel, QPushButton, "Add a plane")
+    return named(panel, QPushButton, "Add plane")
 
 
 def remove(panel):
-    return named(panel, QPushButton, "Remove the plane")
+    return named(panel, QPushButton, "Remove plane")
 
 
 def switch_on(panel):
@@ -226,9 +226,9 @@ def test_a_box_is_moved_by_its_sliders_and_turned_inside_out(panel, heard):
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
     assert heard[-1] == BoxClip((0, 7.5, 2.5), (2, 22.5, 3.5))
     assert not slider(panel).isVisible()
-    sides = named(panel, QRangeSlider, "Y of the box")
+    sides = named(panel, QRangeSlider, "Y extent of the box")
     QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
-    QTest.mouseClick(named(panel, Segmented, "Hide of the box").button("all"), _LEFT)
+    QTest.mouseClick(named(panel, Segmented, "Hide side of the box").button("all"), _LEFT)
     box = heard[-1]
     assert (box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.high[1] > 22.5

@@ -1,4 +1,4 @@
-"""Cutting the mesh open in the window, with mouse and keys."""
+"""Cuts in the window, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.app.driving import drag, key, named, pixels, press, seen_at, tick
 
 
 def moving(window):
-    """What the 3D view shows while something changes: a frame at rest has other edges and shades."""
+    """Return the pixels of a moving view, which has other edges and shading than a still one."""
     window.canvas.changed()
     return pixels(window)
 
@@ -54,7 +54,7 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
     window.canvas.draw_still()
     before = window.session.view.look.clip
     x, y, z = before.planes[0].origin
-    place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, beside its arrow
+    place = seen_at(window, (x + 0.3, y - 0.3, z))  # on the plane, next to its arrow
     drag(window.canvas.interactor, place, place + QPoint(0, -60))
     after = window.session.view.look.clip
     assert after.planes[0].origin[2] > z
@@ -107,13 +107,13 @@ def test_a_side_of_the_box_is_dragged_in_the_view(window, qtbot):
 def test_two_planes_cut_a_corner_out(window, qtbot):
     key(window, Qt.Key.Key_C)
     one = window.canvas.viewport.shown
-    press(named(window.features["cut"].panel, QPushButton, "Add a plane"))
+    press(named(window.features["cut"].panel, QPushButton, "Add plane"))
     assert len(window.session.view.look.clip.planes) == 2
     both = window.canvas.viewport.shown
     choose(window, "Beyond all")
     corner = window.canvas.viewport.shown
     assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
-    press(named(window.features["cut"].panel, QPushButton, "Remove the plane"))
+    press(named(window.features["cut"].panel, QPushButton, "Remove plane"))
     assert isinstance(window.session.view.look.clip, PlaneClip)
     assert window.canvas.viewport.shown == one
 

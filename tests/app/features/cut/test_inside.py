@@ -1,4 +1,4 @@
-"""Looking inside: the panel by mouse and keys, and the window that hides what it asks for."""
+"""The panel Inside by mouse and keys, and its effect in the window."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from hexmend_app.widgets.inputs.slider_box import SliderBox
 from tests.app.driving import LEFT, choose, click, named, open_and_wait, press, tick
 from tests.patience import PATIENCE
 
-PEEL, SHRINK, RINGS = "Layers peeled from the boundary", "Shrink the hexes", "Rings around what is isolated"
-BUTTONS = ("Show all", "Undo digging", "Restore all")
+PEEL, SHRINK, RINGS = "Peel layers", "Shrink hexes", "Rings around isolated hexes"
+BUTTONS = ("Show all", "Undo dig", "Restore all")
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def panel(qtbot):
 
 @pytest.fixture
 def window(window, qtbot, tmp_path):
-    """The window with a tangled mesh in it that can be peeled."""
+    """Return the window with an inverted mesh of several layers."""
     io.write(tmp_path / "cube.vtu", gallery.make("cube", size=1000, scramble=0.3, seed=1))
     open_and_wait(qtbot, window, tmp_path / "cube.vtu")
     window.refresh()
@@ -46,13 +46,13 @@ def window(window, qtbot, tmp_path):
 
 
 def faces(window):
-    """The hexes of the faces that are drawn."""
+    """Return the hexes of the drawn faces."""
     window.refresh()
     return window.canvas.viewport.body.faces.hexes
 
 
 def shown(window):
-    """What the panel says of how many hexes are shown."""
+    """Return the text of the panel about the number of hexes shown."""
     window.refresh()
     return window.features["cut"].inside.shown.text()
 
@@ -123,15 +123,15 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
     heard = []
     panel.all_requested.connect(lambda: heard.append("all"))
     panel.undo_requested.connect(lambda: heard.append("undo"))
-    panel.restore_requested.connect(lambda: heard.append("put back"))
+    panel.restore_requested.connect(lambda: heard.append("restore"))
     for button in buttons:
         QTest.mouseClick(button, LEFT)
-    assert heard == ["all", "undo", "put back"]
+    assert heard == ["all", "undo", "restore"]
 
 
 @pytest.mark.parametrize(
     ("numbers", "text"),
-    [((0, 0), ""), ((5, 1000), "5 of 1,000 hexes shown"), ((0, 8), "None of 8 hexes is left to show.")],
+    [((0, 0), ""), ((5, 1000), "5 of 1,000 hexes shown"), ((0, 8), "0 of 8 hexes shown")],
 )
 def test_it_says_how_many_are_shown(panel, numbers, text):
     panel.set_shown(*numbers)
@@ -171,7 +171,7 @@ def test_digging_undoing_and_putting_back(window):
     window.refresh()
     assert [label for label in panel.findChildren(QLabel) if label.text() == "3 hexes dug away"]
     assert not {0, 1, 2} & set(faces(window))
-    press(named(panel, QPushButton, "Undo digging"))
+    press(named(panel, QPushButton, "Undo dig"))
     assert view.look.dug == {0, 1}
     press(named(panel, QPushButton, "Restore all"))
     assert not view.look.dug
@@ -186,7 +186,7 @@ def test_everything_combines(window):
     mesh, figures = window.session.document.now.mesh, window.session.document.now.figures
     clip = PlaneClip.at((1, 0, 0), tuple(mesh.points.mean(axis=0)))
     patch = mesh.topology.hexes_around([444], 3)
-    view.isolate(np.flatnonzero(patch), 1)  # which gives up what would hide some of it
+    view.isolate(np.flatnonzero(patch), 1)  # restores hexes that peeling would hide
     view.change(clip=clip, peel=1, quality_range=ValueRange("q", 0.2, 0.9))
     view.dig(443)
     expected = clip.planes[0].signed_distance(mesh.points[mesh.hexes].mean(axis=1)) <= 0
@@ -218,7 +218,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     qtbot.waitUntil(lambda: window.session.run.phase is Phase.PAUSED, timeout=PATIENCE)
     window.refresh()
     drawn = window.canvas.viewport
-    assert drawn.body.faces is before  # nothing depends on quality, so no face is looked for anew
+    assert drawn.body.faces is before  # nothing depends on quality, so the faces are reused
     corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
     assert not np.array_equal(drawn.frame.mesh.points, window.session.document.start.mesh.points)
     expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
@@ -282,7 +282,7 @@ def test_nothing_is_cut_off(window, qtbot, size):
     parts = [panel.isolated, panel.dug, panel.shown, named(panel, QCheckBox, "Sharp edges and outline")]
     parts += [named(panel, QPushButton, name) for name in BUTTONS]
     for part in parts:
-        # A button's hint is 80 pixels at least, whatever its word.
+        # The hint of a button is at least 80 pixels.
         button = isinstance(part, QPushButton)
         need = part.fontMetrics().horizontalAdvance(part.text()) + 10 if button else part.sizeHint().width()
         assert part.width() >= need, part.text()

@@ -1,4 +1,4 @@
-"""A cut by whole hexes that was made before the mesh moved: scenes, pictures and sessions have the same hexes."""
+"""Cuts by whole hexes made before the mesh moved: scenes, pictures and sessions restore the same hexes."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ CLIP = PlaneClip.at((1, 0.3, 0), (2.1, 2.0, 2.0))
 
 @pytest.fixture
 def moved(window, qtbot, tmp_path):
-    """A mesh that was cut, and then smoothed; the hexes that are left, which a cut made now would not leave."""
+    """Cut and then smooth a mesh; return a mask of the visible hexes, which differ from those of a new cut."""
     io.write(tmp_path / "mesh.vtu", scrambled(grid(4), 0.9))
     open_and_wait(qtbot, window, tmp_path / "mesh.vtu")
     window.session.view.set_clip(CLIP)
@@ -68,7 +68,7 @@ def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path)
         open_and_wait(qtbot, window, tmp_path / name)
         window.refresh()
         np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
-    window.session.view.set_clip(CLIP)  # made anew
+    window.session.view.set_clip(CLIP)  # a new cut
     window.refresh()
     assert (window.canvas.viewport.kept() != moved).any()
 

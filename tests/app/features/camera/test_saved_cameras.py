@@ -1,4 +1,4 @@
-"""Cameras that are kept by name: asked for, gone to, renamed, deleted, and in pictures."""
+"""Saved cameras: naming, applying, renaming, deleting, and their use in pictures."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def kept(window):
-    """Two cameras, and what the canvas had for them."""
+def saved(window):
+    """Save two cameras; return their poses by name."""
     stands = {}
     for name, direction in (("front & side", "-y"), ("top", "+z")):
         window.canvas.look_along(direction)
@@ -30,7 +30,7 @@ def kept(window):
 
 
 @pytest.fixture
-def dialog(window, kept, qtbot):
+def dialog(window, saved, qtbot):
     dialog = window.features["camera"].cameras_dialog()
     qtbot.addWidget(dialog)
     dialog.show()
@@ -50,9 +50,9 @@ def menu_of(window):
     return menu
 
 
-def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatch):
-    cameras, asked = window.session.saved_cameras, []
-    monkeypatch.setattr(QInputDialog, "getText", lambda *given: asked.append(given[4]) or (" front ", True))
+def test_a_camera_is_saved_under_a_name_and_replaced_by_asking(window, monkeypatch):
+    cameras, proposed = window.session.saved_cameras, []
+    monkeypatch.setattr(QInputDialog, "getText", lambda *arguments: proposed.append(arguments[4]) or (" front ", True))
     window.action("keep_camera").trigger()
     first = Camera.at(window.canvas.stand)
     assert cameras.all == {"front": first}
@@ -63,24 +63,24 @@ def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatc
         window.action("keep_camera").trigger()
         assert (cameras.all == before) == (answer == QMessageBox.StandardButton.No)
     assert cameras.all == {"front": Camera.at(window.canvas.stand)}
-    assert asked[0] == "camera 1"
+    assert proposed[0] == "camera 1"
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("never", False))
     window.action("keep_camera").trigger()
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("x" * 500, True))
     window.action("keep_camera").trigger()
     assert list(cameras.all) == ["front"]
-    assert window.messages.messages()[-1][1] == "The camera was not kept"
+    assert window.messages.messages()[-1][1] == "Camera not saved"
 
 
-def test_the_menu_goes_to_a_camera(window, kept):
+def test_the_menu_goes_to_a_camera(window, saved):
     menu = menu_of(window)
     assert menu.menuAction().isEnabled()
     menu.aboutToShow.emit()
     first, second = menu.actions()
     second.trigger()
-    assert window.canvas.stand == kept["top"]
+    assert window.canvas.stand == saved["top"]
     first.trigger()
-    assert window.canvas.stand == kept["front & side"]
+    assert window.canvas.stand == saved["front & side"]
 
 
 def test_without_cameras_there_is_nothing_to_go_to(window):
@@ -89,11 +89,11 @@ def test_without_cameras_there_is_nothing_to_go_to(window):
     assert not window.action("cameras").isEnabled()
 
 
-def test_the_dialog_goes_to_cameras_and_deletes_them(window, kept, dialog, qtbot):
-    assert names(dialog) == list(kept)
+def test_the_dialog_goes_to_cameras_and_deletes_them(window, saved, dialog, qtbot):
+    assert names(dialog) == list(saved)
     dialog.list.setCurrentRow(1)
     button(dialog, "&Go to").click()
-    assert window.canvas.stand == kept["top"]
+    assert window.canvas.stand == saved["top"]
     button(dialog, "&Delete").click()
     qtbot.waitUntil(lambda: names(dialog) == ["front & side"], timeout=PATIENCE)
     button(dialog, "&Delete").click()
@@ -111,55 +111,55 @@ def type_name(dialog, row, text):
     QTest.keyClick(editor, Qt.Key.Key_Return)
 
 
-def test_the_dialog_renames(window, kept, dialog, qtbot):
+def test_the_dialog_renames(window, saved, dialog, qtbot):
     camera = window.session.saved_cameras.all["top"]
     type_name(dialog, 1, "from above")
     qtbot.waitUntil(lambda: names(dialog) == ["front & side", "from above"], timeout=PATIENCE)
     assert window.session.saved_cameras.all["from above"] == camera
     type_name(dialog, 0, "from above")
-    said = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
-    qtbot.waitUntil(lambda: "already" in said.text(), timeout=PATIENCE)
+    problem = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
+    qtbot.waitUntil(lambda: "already" in problem.text(), timeout=PATIENCE)
     assert names(dialog) == list(window.session.saved_cameras.all) == ["front & side", "from above"]
 
 
 @pytest.mark.slow
-def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtbot, mesh_file):
+def test_scenes_and_pictures_of_the_window_have_them(window, saved, tmp_path, qtbot, mesh_file):
     save, cameras = window.features["save"], window.session.saved_cameras
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
     dialog.camera.setCurrentText("top")
-    assert dialog.scene().camera.stand == kept["top"]
+    assert dialog.scene().camera.stand == saved["top"]
     write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
     dialog.load(str(tmp_path / "more.toml"))
-    assert list(dialog.scene().cameras) == [*kept, "top (2)", "left"]
+    assert list(dialog.scene().cameras) == [*saved, "top (2)", "left"]
     assert save.picture(tmp_path / "p.png", (200, 150))
-    mine = dict(cameras.all)
-    assert read_metadata(tmp_path / "p.png").scene.cameras == mine
-    for name in mine:
+    before = dict(cameras.all)
+    assert read_metadata(tmp_path / "p.png").scene.cameras == before
+    for name in before:
         cameras.remove(name)
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert cameras.all == mine
+    assert cameras.all == before
     open_and_wait(qtbot, window, mesh_file)
-    assert cameras.all == mine
+    assert cameras.all == before
 
 
-def test_render_looks_through_a_camera_of_a_session(window, kept, tmp_path, capsys):
+def test_render_looks_through_a_camera_of_a_session(window, saved, tmp_path, capsys):
     path = tmp_path / "work.hexmend"
     assert window.features["session"].save_and_wait(path)
     scene = tmp_path / "scene.toml"
-    words = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
-    assert main([*words, "--camera", "front & side"]) == 0
-    assert read_scene(scene).camera.stand == kept["front & side"]
+    arguments = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
+    assert main([*arguments, "--camera", "front & side"]) == 0
+    assert read_scene(scene).camera.stand == saved["front & side"]
     with Image.open(tmp_path / "p.png") as image:
         assert image.size == (200, 150)
-    assert main([*words, "--camera", "camera 9"]) == 2
+    assert main([*arguments, "--camera", "camera 9"]) == 2
     assert "in the scene or the session (known: front & side, top)" in capsys.readouterr().err
 
 
-def test_a_session_whose_cameras_are_lost_is_asked_about(window, kept, tmp_path, monkeypatch):
-    asked = []
+def test_a_session_whose_cameras_are_lost_is_asked_about(window, saved, tmp_path, monkeypatch):
+    questions = []
     monkeypatch.setattr(
-        QMessageBox, "exec", lambda self: asked.append(self.text()) or QMessageBox.StandardButton.Cancel
+        QMessageBox, "exec", lambda self: questions.append(self.text()) or QMessageBox.StandardButton.Cancel
     )
     assert window.may_leave()
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -170,10 +170,10 @@ def test_a_session_whose_cameras_are_lost_is_asked_about(window, kept, tmp_path,
     window.refresh()
     assert window.isWindowModified()
     assert not window.may_leave()
-    assert asked == ["The cameras of work.hexmend are others than were saved."]
+    assert questions == ["The cameras of work.hexmend are others than were saved."]
 
 
-def test_nothing_is_left_of_the_dialog(window, kept, qtbot, monkeypatch):
+def test_nothing_is_left_of_the_dialog(window, saved, qtbot, monkeypatch):
     monkeypatch.setattr(CamerasDialog, "exec", lambda self: True)
     for _ in range(3):
         window.action("cameras").trigger()
