@@ -40,7 +40,5 @@ class Worst:
         worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
         inverted = figures.inverted[worst]
         locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
-        states = [
-            "locked" if lock else "inverted" if invert else "" for invert, lock in zip(inverted, locked, strict=True)
-        ]
+        states = np.where(locked, "locked", np.where(inverted, "inverted", "")).tolist()
         return cls(worst, values[worst], figures.scaled_jacobian[worst], states)
