@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
@@ -27,11 +27,11 @@ from hexmend_app.theme.style import (
     WORSE,
     icon,
     note,
-    on_theme_change,
     set_help,
     tabular,
     tint,
 )
+from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.wording import counted, figure
 
@@ -92,9 +92,9 @@ class HexPanel(QWidget):
         )
         self._fly.clicked.connect(self.fly_requested)
         self._values = {name: self._number() for name in METRICS}
-        self._corners = [tuple(self._number() for _ in range(3)) for _ in range(8)]
-        self._neighbours = QLabel()
-        _hold_links(self._neighbours, self.chosen.emit)
+        self._corners = [(LinkLabel(), self._number(), self._number()) for _ in range(8)]
+        self._neighbours = LinkLabel()
+        self._neighbours.followed.connect(self.chosen)
         set_help(self._neighbours, "Neighbours", "The hexes across the six faces; click one to select it.")
         self._node: NodeDetails | None = None
         self._about_node = QLabel()
@@ -115,20 +115,13 @@ class HexPanel(QWidget):
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
         for corner, (node, _, _) in enumerate(self._corners):
             node.setAccessibleName(f"Node at corner {corner}")
-            _hold_links(node, self.node_chosen.emit)
+            _align_digits(node)
+            node.followed.connect(self.node_chosen)
         self._lay_out(page)
-        on_theme_change(self, self._paint_links)
-
-    def _paint_links(self) -> None:
-        for label in (self._neighbours, *(node for node, _, _ in self._corners)):
-            text = label.text()
-            label.clear()  # Qt colours links when the text is set, and ignores an unchanged text
-            label.setText(text)
 
     def _number(self) -> QLabel:
         label = QLabel()
-        label.setFont(tabular(label.font()))
-        label.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        _align_digits(label)
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         return label
 
@@ -199,7 +192,6 @@ class HexPanel(QWidget):
             tint(label, WORSE if METRICS[name].unacceptable(np.array(value)) else TEXT)
         worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
-            # A zero-width space before the link: Shift+Tab cannot leave a link at the very beginning of a label.
             node.setText(f'&#8203;<a href="{details.nodes[k]}">{details.nodes[k]:,}</a>')
             kind.setText("fixed" if details.fixed[k] else "free")
             tint(kind, MUTED)
@@ -239,10 +231,7 @@ class HexPanel(QWidget):
         self._pin.setEnabled(details.kind != "unused" and not busy)
 
 
-def _hold_links(label: QLabel, follow: Callable[[int], object]) -> None:
-    """Let a label show links to numbers, for mouse and keys, and call `follow` with the number of an activated link."""
-    label.setTextFormat(Qt.TextFormat.RichText)
-    label.setTextInteractionFlags(
-        Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
-    )
-    label.linkActivated.connect(lambda link: follow(int(link)))
+def _align_digits(label: QLabel) -> None:
+    """Right-align a label, with digits of equal width."""
+    label.setFont(tabular(label.font()))
+    label.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)

@@ -22,8 +22,9 @@ from hexmend_app.features.node_step.figures import NodeFigures
 from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import displayed_status, rows
 from hexmend_app.theme.palette import OTHERWISE, SEARCH, TAKEN, TRIED, UPHILL
-from hexmend_app.theme.style import MUTED, WORSE, note, on_theme_change, set_help, tabular, tint
+from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
 from hexmend_app.widgets.legend import legend_entry
+from hexmend_app.widgets.link_label import LinkLabel
 
 _BUTTONS = {
     "next": ("Next node", "Move the next node of the sweep and show its step (F11)."),
@@ -71,14 +72,10 @@ class NodePanel(QWidget):
         self._message.setMargin(16)
         self.plot = NodePlot()
         self.figures = NodeFigures()
-        self._nodes = QLabel()
-        self._nodes.setTextFormat(Qt.TextFormat.RichText)
-        self._nodes.setTextInteractionFlags(
-            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
-        )
+        self._nodes = LinkLabel()
         self._nodes.setWordWrap(True)
         self._nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._nodes.linkActivated.connect(lambda link: self.node_chosen.emit(int(link)))
+        self._nodes.followed.connect(self.node_chosen)
         set_help(self._nodes, "Free nodes", "Nodes of the selected hex that methods may move; click one to select it.")
         self._patch = QCheckBox("Isolate patch")
         set_help(self._patch, "Isolate patch", "Show only the hexes of the node; Esc shows all hexes again.")
@@ -94,14 +91,8 @@ class NodePanel(QWidget):
         tint(self._progress, MUTED)
         self._legend = self._make_legend()
         self._lay_out()
-        on_theme_change(self, self._paint_links)
         self.set_sweep("")
         self.show_message("")
-
-    def _paint_links(self) -> None:
-        text = self._nodes.text()
-        self._nodes.clear()  # Qt colours links when the text is set, and ignores an unchanged text
-        self._nodes.setText(text)
 
     def _make_legend(self) -> QWidget:
         row = QWidget()
@@ -188,8 +179,7 @@ class NodePanel(QWidget):
         if nodes is None:
             return
         links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
-        # A zero-width space before the links: Shift+Tab cannot leave a link at the very beginning of a label.
-        self._nodes.setText(f"&#8203;Free nodes: {' '.join(links) or 'none'}")
+        self._nodes.setText(f"Free nodes: {' '.join(links) or 'none'}")
 
     def set_sweep(self, reason: str, done: int = 0, total: int = 0) -> None:
         """Show the progress of the sweep; a `reason` against a sweep disables its buttons and is their tooltip."""

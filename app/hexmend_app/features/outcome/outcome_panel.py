@@ -19,7 +19,8 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, on_theme_change, set_help, tint
+from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
+from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted
 
@@ -177,13 +178,9 @@ class _Elements(QWidget):
         called = called or f"the {title.lower()} hexes"
         self._name = title
         self._elements: list[int] = []
-        self._numbers = QLabel()
+        self._numbers = LinkLabel()
         self._numbers.setWordWrap(True)
-        self._numbers.setTextFormat(Qt.TextFormat.RichText)
-        self._numbers.setTextInteractionFlags(
-            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
-        )
-        self._numbers.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
+        self._numbers.followed.connect(self.chosen)
         set_help(self._numbers, f"{title} hexes", f"Hexes {which}; a click goes there.")
         self.button = QPushButton(icon("eye-outline"), "Show them")
         self.button.clicked.connect(lambda: self.show_requested.emit(self._elements))
@@ -196,21 +193,15 @@ class _Elements(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self._numbers, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
-        on_theme_change(self, self._write)
 
     def show_elements(self, elements: np.ndarray) -> None:
         """Show these; without a signal."""
         self._elements = elements.tolist()
-        self._write()
-        self.setVisible(bool(self._elements))
-
-    def _write(self) -> None:
-        # Nothing, and yet before the link: from one at the very beginning Shift+Tab does not get away.
         links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._elements[:_NAMED])
         more = len(self._elements) - _NAMED
         rest = f" and {counted(more, 'other')}" if more > 0 else ""
-        self._numbers.clear()  # Qt colours links as the text is set, and not again for the same text
         self._numbers.setText(f"{self._name}: {links}{rest}")
+        self.setVisible(bool(self._elements))
 
 
 def _help_of_choice(one: Suggestion) -> str:
