@@ -27,7 +27,7 @@ def main(folder: Path) -> None:
         node = int(mesh.free.nonzero()[0][2010])
         window.session.selection.choose(int(mesh.topology.node_corners[node][0] // 8), node)
         wait_until(lambda: window.canvas.viewport.chosen.node_step is not None)
-        click(window, "Patch alone")
+        click(window, "Isolate patch")
         wait_until_drawn(window)
         camera = window.canvas.viewport.camera
         camera.Azimuth(-40)

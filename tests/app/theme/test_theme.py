@@ -15,7 +15,7 @@ from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.features.cut.cut_panel import ClipPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
-from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
+from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
 from hexmend_app.features.histogram.panel import QualityHistogram
 from hexmend_app.features.open.welcome import Welcome
@@ -112,8 +112,8 @@ def worst():
 
 
 def one_element():
-    panel = ElementPanel()
-    panel.show_element(describe_hex(MESH, WORST))
+    panel = HexPanel()
+    panel.show_hex(describe_hex(MESH, WORST))
     panel.show_node(describe_node(MESH, int(MESH.hexes[WORST, 0])))
     return panel
 

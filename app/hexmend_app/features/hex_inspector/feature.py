@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from hexmend.boundary import NodeClass
 from hexmend.quality import describe_hex, describe_node
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
+from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.state.session.user_events import FileExported
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
 
-#: What nodes of the boundary may do where it slides.
-_SLIDES = {
+#: Descriptions of the classes of boundary nodes, which limit how a node slides.
+_BOUNDARY_CLASSES = {
     NodeClass.CORNER: "a corner",
     NodeClass.CURVE: "on a curve",
     NodeClass.PATCH: "on a patch",
     WHISKER: "on a whisker",
 }
 
-#: Panels that show what is chosen too, or do something with it: a click does not put another before them.
-_FOLLOWING = ("node", "tags")
+#: Panels that show or use the selection as well: while one of them is in front, a click in the view leaves it there.
+_SELECTION_PANELS = ("node", "tags")
 
 
 class FeatureInspect(Feature):
@@ -49,7 +49,7 @@ class FeatureInspect(Feature):
         self.worst_list.save_requested.connect(self.ask)
         self.worst_list.metric_chosen.connect(selection.rank_by)
         selection.rank_by(self.worst_list.chosen_metric)
-        panel = self.panel = ElementPanel()
+        panel = self.panel = HexPanel()
         panel.chosen.connect(selection.visit)
         panel.fly_requested.connect(lambda: selection.visit(selection.hex))
         panel.corners_toggled.connect(host.refresh_soon)
@@ -88,7 +88,7 @@ class FeatureInspect(Feature):
         return (
             Action(
                 id="visit",
-                text="&Fly to the hex",
+                text="&Zoom to hex",
                 menu="Hex",
                 keys="Shift+F",
                 help="Move the camera to the selected hex.",
@@ -98,11 +98,11 @@ class FeatureInspect(Feature):
             ),
             Action(
                 id="pin",
-                text="&Pin the node",
+                text="&Pin node",
                 menu="Hex",
                 keys="Shift+P",
                 icon="pin-outline",
-                help="Pin the selected node so that no method moves it, or release it; undo reverts this.",
+                help="Pin the selected node so that no method moves it, or unpin it; undo reverts this.",
                 handle=lambda on: session.commands.pin(self._selection.node, on),
                 enabled=lambda: session.editable and self._can_be_pinned(),
                 checked=self._is_pinned,
@@ -110,7 +110,7 @@ class FeatureInspect(Feature):
             ),
             Action(
                 id="free_isolated",
-                text="&Move only what is isolated",
+                text="Pin &all but the isolated hexes",
                 menu="Hex",
                 icon="pin-off-outline",
                 help="Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this.",
@@ -119,7 +119,7 @@ class FeatureInspect(Feature):
             ),
             Action(
                 id="back",
-                text="Step &back",
+                text="&End isolation or clear selection",
                 menu="Hex",
                 part=3,
                 keys="Esc",
@@ -180,30 +180,30 @@ class FeatureInspect(Feature):
         """Update the selection and the list of the worst hexes."""
         if not self._document.is_open:
             return
-        now, chosen = self._document.now, self._selection
+        now, selection = self._document.now, self._selection
         if self._seen.changed("figures", now):
             self.worst_list.set_figures(now.mesh, now.figures)
-        self.worst_list.set_selected(chosen.hex)
+        self.worst_list.set_selected(selection.hex)
         corners, editable = self.panel.corners_in_view, self.session.editable
         classes = self.session.boundary_classifier.classes
-        if self._seen.changed("chosen", now, chosen.hex, chosen.node, corners, editable, self.canvas, classes):
-            self._show_element()
+        if self._seen.changed("selection", now, selection.hex, selection.node, corners, editable, self.canvas, classes):
+            self._show_selection()
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
         self.refresh()
 
-    def _show_element(self) -> None:
-        chosen, mesh = self._selection, self._document.now.mesh
-        if chosen.hex is None:
-            self.panel.show_element(None)
+    def _show_selection(self) -> None:
+        selection, mesh = self._selection, self._document.now.mesh
+        if selection.hex is None:
+            self.panel.show_hex(None)
         else:
-            tags = [name for name, members in mesh.hex_sets.items() if (members == chosen.hex).any()]
-            self.panel.show_element(describe_hex(mesh, chosen.hex), tags)
-        at = None if chosen.node is None else describe_node(mesh, chosen.node)
-        self.panel.show_node(at, not self.session.editable, self._slides(chosen.node))
+            tags = [name for name, members in mesh.hex_sets.items() if (members == selection.hex).any()]
+            self.panel.show_hex(describe_hex(mesh, selection.hex), tags)
+        node = None if selection.node is None else describe_node(mesh, selection.node)
+        self.panel.show_node(node, not self.session.editable, self._boundary_class(selection.node))
         if self.canvas is not None:
-            self.canvas.select(chosen.hex, self.panel.corners_in_view, at)
+            self.canvas.select(selection.hex, self.panel.corners_in_view, node)
 
     def _can_be_pinned(self) -> bool:
         node = self._selection.node
@@ -213,28 +213,28 @@ class FeatureInspect(Feature):
         node, mesh = self._selection.node, self._document.now.mesh if self._document.is_open else None
         return node is not None and mesh is not None and mesh.pinned is not None and bool(mesh.pinned[node])
 
-    def _slides(self, node: int | None) -> str:
-        """Describe how a boundary node may slide, "" while unknown."""
+    def _boundary_class(self, node: int | None) -> str:
+        """Describe the class of a boundary node; "" for other nodes and while the classes are unknown."""
         classes = self.session.boundary_classifier.of(self._document.now.mesh)
-        return "" if node is None or classes is None else _SLIDES.get(int(classes.kinds[node]), "")
+        return "" if node is None or classes is None else _BOUNDARY_CLASSES.get(int(classes.kinds[node]), "")
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))
-        if hit is not None and not any(self.host.in_front(id) for id in _FOLLOWING):
+        if hit is not None and not any(self.host.in_front(id) for id in _SELECTION_PANELS):
             self.host.offer_panel("hex")
 
     def _go_to_worst(self, h: int) -> None:
         if self.worst_list.isolates:
             self._view.isolate((h,))
         self._selection.visit(h)
-        self.worst_list.set_selected(h)  # or the next step through the list would begin where the last one did
+        self.worst_list.set_selected(h)  # before the refresh: the next step through the list begins at this hex
 
     def _free_isolated(self) -> None:
         isolation = self._view.look.isolation
         self.session.commands.free_only(isolation.hexes, isolation.rings)
 
     def _back(self) -> None:
-        """End the isolation first, then clear the selection."""
+        """End the isolation, or clear the selection if nothing is isolated."""
         if self._view.look.isolation is not None:
             self._view.end_isolation()
         else:
@@ -243,15 +243,15 @@ class FeatureInspect(Feature):
     # Files
 
     def ask(self) -> None:
-        """Ask where the list of the worst goes and write it."""
+        """Ask for a file and write the list of the worst hexes to it."""
         path = ask_list(self.host.dialog_parent, self.host.stem)
         if path:
             self.save(path)
 
     def save(self, path: str | Path) -> bool:
         """Write the list of the worst hexes as CSV; return True if it was written."""
-        worst = Path(path), self._document.now, self.worst_list.chosen_metric
-        event = FileExported("worst hexes", write_worst, worst)
+        arguments = Path(path), self._document.now, self.worst_list.chosen_metric
+        event = FileExported("worst hexes", write_worst, arguments)
         return self.host.try_and_report(
             "The list was not saved",
             lambda: self.session.commands.export(event),

@@ -1,4 +1,4 @@
-"""The list of the worst as a file."""
+"""Export of the worst hexes as CSV."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend_app.state.mesh.worst_hexes import Worst
 
 
 def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
-    """Write the worst hexes of a mesh as CSV: element, metric, scaled Jacobian, state.
+    """Write the worst hexes of a mesh as CSV: number, metric, scaled Jacobian, state.
 
     Parameters
     ----------
@@ -26,12 +26,12 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
     Raises
     ------
     FileError
-        For another suffix, or where the file cannot be written; the one that was there stays.
+        If the suffix is not .csv or the file cannot be written; an existing file is left unchanged.
     """
     suffix_for(Path(path), "a list", (".csv",))
-    found, out = Worst.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
+    worst, out = Worst.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["hex", metric, "scaled-jacobian", "state"])
-    columns = found.elements.tolist(), found.values.tolist(), found.jacobians.tolist(), found.states
+    columns = worst.elements.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states
     writer.writerows(zip(*columns, strict=True))
     write_text(Path(path), out.getvalue())

@@ -1,4 +1,4 @@
-"""The list of the worst elements."""
+"""Panel with the list of the worst hexes."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
-from hexmend_app.features.hex_inspector.worst_model import ELEMENT, JACOBIAN, STATE, VALUE, WorstModel
+from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import Worst
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.widgets.metric_texts import described, metrics_offered
@@ -31,7 +31,7 @@ from hexmend_app.widgets.wording import counted
 
 @dataclass(frozen=True)
 class WorstListSettings:
-    """By which metric the worst hexes are listed, and whether the one that is gone to is isolated."""
+    """The metric of the list, and whether a selected hex is isolated."""
 
     metric: str
     isolates: bool
@@ -41,16 +41,16 @@ class WorstListSettings:
 
 
 class WorstList(QWidget):
-    """Lists the worst elements, the worst first, and walks through them.
+    """Lists the worst hexes by a metric, worst first, and steps through them.
 
     Signals
     -------
     chosen(int)
-        The user wants to see this element.
+        The user selected this hex.
     metric_chosen(str)
-        The list is ranked by another metric.
+        The user chose another metric.
     save_requested
-        The user wants the list as a file.
+        The user asked to save the list.
     """
 
     chosen = Signal(int)
@@ -68,21 +68,16 @@ class WorstList(QWidget):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         set_help(
-            self._metric,
-            "Worst by",
-            "The figure that the list is ordered by, and nothing else; of equal hexes, the lower scaled Jacobian "
-            "comes first.",
+            self._metric, "Worst by", "Metric that sorts the list; hexes of equal value are sorted by scaled Jacobian."
         )
         self._metric.currentIndexChanged.connect(self._refresh)
         self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
-        self._alone = QCheckBox("Isolate")
-        self._alone.setChecked(True)
-        set_help(
-            self._alone, "Isolate", "Show nothing but the chosen hex and its neighbours; Esc brings back the rest."
-        )
-        self._previous = self._button("chevron-up", "Previous", "The hex before it in the list (Shift+N).")
-        self._next = self._button("chevron-down", "Next", "The next hex of the list, from the worst on (N).")
-        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, a line a hex.")
+        self._isolate = QCheckBox("Isolate")
+        self._isolate.setChecked(True)
+        set_help(self._isolate, "Isolate", "Show only the selected hex and its neighbours; Esc shows all hexes again.")
+        self._previous = self._button("chevron-up", "Previous", "Go to the previous hex in the list (Shift+N).")
+        self._next = self._button("chevron-down", "Next", "Go to the next hex in the list (N).")
+        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, one line per hex.")
         self._previous.clicked.connect(self.previous)
         self._next.clicked.connect(self.next)
         self._save.clicked.connect(self.save_requested)
@@ -93,8 +88,8 @@ class WorstList(QWidget):
         self._lay_out()
         self._refresh()
 
-    def _button(self, picture: str, name: str, help: str) -> QPushButton:
-        button = QPushButton(icon(picture), "")  # no words: the dock is narrow
+    def _button(self, icon_name: str, name: str, help: str) -> QPushButton:
+        button = QPushButton(icon(icon_name), "")  # no text: the dock is narrow
         set_help(button, name, help)
         return button
 
@@ -102,9 +97,9 @@ class WorstList(QWidget):
         table = QTableView()
         table.setModel(self._model)
         shape_table(table, "Worst hexes", STATE)
-        for column, widest in ((ELEMENT, "000,000,000"), (VALUE, "Scaled Jacobian"), (JACOBIAN, "Scaled Jacobian")):
+        for column, widest in ((HEX, "000,000,000"), (VALUE, "Scaled Jacobian"), (JACOBIAN, "Scaled Jacobian")):
             table.setColumnWidth(column, table.fontMetrics().horizontalAdvance(widest) + 14)
-        # Not when a row becomes the current one: the first does so as the list gets the focus.
+        # Not currentChanged: the first row becomes current when the table gets the focus.
         table.selectionModel().selectionChanged.connect(self._on_selected)
         table.activated.connect(self._on_row)  # Enter, or a double-click
         return table
@@ -113,11 +108,11 @@ class WorstList(QWidget):
         head = QHBoxLayout()
         label = QLabel("Worst by")
         label.setBuddy(self._metric)
-        for part in (label, self._metric):
-            head.addWidget(part)
+        for widget in (label, self._metric):
+            head.addWidget(widget)
         head.addStretch()
-        for part in (self._alone, self._previous, self._next, self._save):
-            head.addWidget(part)
+        for widget in (self._isolate, self._previous, self._next, self._save):
+            head.addWidget(widget)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
@@ -130,65 +125,69 @@ class WorstList(QWidget):
         return WorstListSettings(self.chosen_metric, self.isolates)
 
     def restore(self, settings: WorstListSettings) -> None:
-        """Set all of it."""
+        """Apply settings."""
         self._metric.setCurrentIndex(self._metric.findData(settings.metric))
-        self._alone.setChecked(settings.isolates)
+        self._isolate.setChecked(settings.isolates)
 
-    # What is listed
+    # Contents
 
     def set_figures(self, mesh: Mesh, figures: ElementQuality) -> None:
-        """Take the mesh as it is now; the list is made only while it can be seen."""
+        """Show the worst hexes of a mesh; while the list is hidden, it is filled later, when needed."""
         self._mesh, self._figures = mesh, figures
         self._stale = not self.isVisible()
         if not self._stale:
             self._refresh()
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Make the list that was put off."""
+        """Fill the list if the mesh has changed while it was hidden."""
         super().showEvent(event)
-        self._bring_up_to_date()
+        self._refresh_if_stale()
 
-    def set_selected(self, element: int | None) -> None:
-        """Mark an element's row, if it is listed; without a signal."""
-        self._selected = element
-        self._mark()
+    def set_selected(self, hex: int | None) -> None:
+        """Select the row of a hex if it is listed, without emitting a signal."""
+        self._selected = hex
+        self._select_row()
 
     @property
     def isolates(self) -> bool:
         """True if a hex selected in the list is isolated with its neighbours."""
-        return self._alone.isChecked()
+        return self._isolate.isChecked()
 
     @property
     def elements(self) -> np.ndarray:
-        """The elements listed, the worst first."""
-        self._bring_up_to_date()
+        """Numbers of the listed hexes, worst first: (k,) int64."""
+        self._refresh_if_stale()
         return self._model.elements
 
     def next(self) -> None:
-        """Choose the next worse element of the list: the first where none of it is chosen."""
-        self._walk(1)
+        """Select the next hex of the list, or the first if the selected hex is not listed."""
+        self._step(1)
 
     def previous(self) -> None:
-        """Choose the one before."""
-        self._walk(-1)
+        """Select the previous hex of the list, or the last if the selected hex is not listed."""
+        self._step(-1)
 
     @property
     def chosen_metric(self) -> str:
         """Metric by which the list is sorted."""
         return self._metric.currentData()
 
-    def _bring_up_to_date(self) -> None:
+    def _refresh_if_stale(self) -> None:
         if self._stale:
             self._stale = False
             self._refresh()
 
-    def _walk(self, by: int) -> None:
-        elements = self.elements
-        if not len(elements):
+    def _selected_row(self) -> int | None:
+        rows = np.flatnonzero(self._model.elements == self._selected) if self._selected is not None else ()
+        return int(rows[0]) if len(rows) else None
+
+    def _step(self, by: int) -> None:
+        hexes = self.elements
+        if not len(hexes):
             return
-        at = np.flatnonzero(elements == self._selected) if self._selected is not None else []
-        row = (int(at[0]) + by) % len(elements) if len(at) else (0 if by > 0 else len(elements) - 1)
-        self.chosen.emit(int(elements[row]))
+        row = self._selected_row()
+        row = (0 if by > 0 else -1) if row is None else (row + by) % len(hexes)
+        self.chosen.emit(int(hexes[row]))
 
     def _refresh(self) -> None:
         mesh, figures = self._mesh, self._figures
@@ -198,27 +197,26 @@ class WorstList(QWidget):
             self._text.setText("No mesh is open.")
             return
         metric = METRICS[self.chosen_metric]
-        found = Worst.of(mesh, figures, metric.name)
+        worst = Worst.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(found.elements, found.values, found.jacobians, found.states)
-        shown = "" if found.elements.size == mesh.n_hexes else f"The {found.elements.size:,} worst of "
-        order = "" if metric.name == "scaled-jacobian" else "; equal ones by scaled Jacobian"
-        self._text.setText(f"{shown}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
-        self._mark()
+        self._model.fill(worst.elements, worst.values, worst.jacobians, worst.states)
+        listed = "" if worst.elements.size == mesh.n_hexes else f"The {worst.elements.size:,} worst of "
+        order = "" if metric.name == "scaled-jacobian" else "; ties sorted by scaled Jacobian"
+        self._text.setText(f"{listed}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
+        self._select_row()
 
-    def _mark(self) -> None:
-        choice = self._table.selectionModel()
-        at = np.flatnonzero(self._model.elements == self._selected) if self._selected is not None else []
-        choice.blockSignals(True)
-        if len(at):
-            index = self._model.index(int(at[0]), 0)
-            flags = QItemSelectionModel.SelectionFlag
-            choice.setCurrentIndex(index, flags.ClearAndSelect | flags.Rows)
-            self._table.scrollTo(index)
+    def _select_row(self) -> None:
+        selection, row = self._table.selectionModel(), self._selected_row()
+        selection.blockSignals(True)
+        if row is None:
+            selection.clear()
         else:
-            choice.clear()
-        choice.blockSignals(False)
+            index = self._model.index(row, 0)
+            flags = QItemSelectionModel.SelectionFlag
+            selection.setCurrentIndex(index, flags.ClearAndSelect | flags.Rows)
+            self._table.scrollTo(index)
+        selection.blockSignals(False)
         self._table.viewport().update()
 
     def _on_selected(self, selected: QItemSelection) -> None:

@@ -1,4 +1,4 @@
-"""The rows of the list of the worst elements."""
+"""Table model of the list of the worst hexes."""
 
 from __future__ import annotations
 
@@ -12,24 +12,25 @@ from hexmend_app.theme.style import INVERTED_TEXT, MUTED
 from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Hex", "", "Scaled Jacobian", "State")
-#: The columns.
-ELEMENT, VALUE, JACOBIAN, STATE = range(4)
+#: Columns of the table.
+HEX, VALUE, JACOBIAN, STATE = range(4)
 _RIGHT = int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
 _LEFT = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
 
 class WorstModel(QAbstractTableModel):
-    """The rows: elements with a figure each.
+    """Table model with one row per hex.
 
     Attributes
     ----------
     elements : (k,) int64
+        Numbers of the hexes.
     values, jacobians : (k,) float64
-        Of the figure that they are listed by, and scaled Jacobians.
+        Values of the metric that sorts the list, and scaled Jacobians.
     states : list of str
-        "locked", "inverted" or "" for each.
+        "locked", "inverted" or "" for each hex.
     title : str
-        What the figure is called.
+        Title of the metric.
     """
 
     def __init__(self, parent: QObject | None = None):
@@ -40,12 +41,12 @@ class WorstModel(QAbstractTableModel):
         self.title = ""
 
     def fill(self, elements: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
-        """Take other rows."""
+        """Replace the rows."""
         same = len(elements) == len(self.elements)
         if not same:
             self.beginResetModel()
         self.elements, self.values, self.jacobians, self.states = elements, values, jacobians, states
-        if same:  # the view keeps where it is scrolled to
+        if same:  # no reset: the table keeps its scroll position
             self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
         else:
             self.endResetModel()
@@ -59,7 +60,7 @@ class WorstModel(QAbstractTableModel):
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         row, column = index.row(), index.column()
         if role == Qt.ItemDataRole.DisplayRole:
-            if column == ELEMENT:
+            if column == HEX:
                 return f"{self.elements[row]:,}"
             if column == STATE:
                 return self.states[row]

@@ -1,4 +1,4 @@
-"""Looking at what a method does to one node: the lines between node, method, sweep and what shows the step."""
+"""Node debugger: explains the step of the selected node, and runs a sweep node by node."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.appearance import Isolation
 
-#: Milliseconds after which it is said that an answer takes its time.
-_PATIENCE = 200
+#: Milliseconds until the panel reports that the step is being computed.
+_COMPUTING_DELAY = 200
 
 
 class FeatureNode(Feature):
-    """Asks for the step of the chosen node, shows it, and goes through sweeps.
+    """Shows the step of the selected node, and runs sweeps node by node.
 
-    A step is worked out and drawn only while the panel is in front.
+    A step is computed and drawn only while the panel is in front.
     """
 
     order = 43
@@ -30,29 +30,31 @@ class FeatureNode(Feature):
         super().__init__(host)
         session = self.session
         self._document, self._selection = session.document, session.selection
-        self._explainer, self._stepping, self._view = session.node_step_task, session.node_sweep, session.view
-        self._asked: tuple | None = None
+        self._task, self._node_sweep, self._view = session.node_step_task, session.node_sweep, session.view
+        self._request: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
         panel = self.panel = NodePanel()
-        self._patience = QTimer(panel, singleShot=True, interval=_PATIENCE)
-        self._patience.timeout.connect(self._say_it_takes_time)
-        session.node_step_task.answered.connect(self._patience.stop)
+        self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
+        self._computing_timer.timeout.connect(
+            lambda: self._draw_message("Computing… A global method takes several seconds on a large mesh.")
+        )
+        session.node_step_task.answered.connect(self._computing_timer.stop)
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
-        panel.patch_toggled.connect(self._on_patch)
-        panel.requested.connect(self._go)
+        panel.patch_toggled.connect(self._on_patch_toggled)
+        panel.requested.connect(self._advance)
 
     def actions(self) -> Sequence[Action]:
-        """Explain a node, and step through a sweep."""
+        """Return the actions that explain a node and run a sweep node by node."""
         return (
             Action(
                 id="explain_node",
-                text="&Explain a node's step",
+                text="&Explain node step",
                 menu="Hex",
                 part=2,
                 keys="D",
-                help="Show what the chosen method does to the chosen node, or to one of the worst hex, and why.",
-                handle=self._explain_one,
+                help="Explain the step of the selected method at the selected node, or at a node of the worst hex.",
+                handle=self._explain_node,
                 in_view=True,
             ),
             *(
@@ -63,31 +65,19 @@ class FeatureNode(Feature):
                     part=3,
                     keys=keys,
                     help=help,
-                    handle=lambda label=topic: self._go(label),
+                    handle=lambda amount=amount: self._advance(amount),
                     enabled=lambda: not self._reason_for_no_sweep(),
                 )
-                for id, topic, text, keys, help in (
+                for id, amount, text, keys, help in (
                     (
                         "next_node",
                         "next",
-                        "Next &node of a sweep",
+                        "Next &node of sweep",
                         "F11",
-                        "Let a local method move one node, and look at its step.",
+                        "Move the next node of a local method's sweep.",
                     ),
-                    (
-                        "ten_nodes",
-                        "ten",
-                        "Ten nodes of a s&weep",
-                        "Shift+F11",
-                        "Let a local method move ten nodes.",
-                    ),
-                    (
-                        "finish_sweep",
-                        "finish",
-                        "&Finish the sweep",
-                        "Ctrl+F11",
-                        "Let a local method move all nodes that are left.",
-                    ),
+                    ("ten_nodes", "ten", "Ten nodes of s&weep", "Shift+F11", "Move the next ten nodes of the sweep."),
+                    ("finish_sweep", "finish", "&Finish sweep", "Ctrl+F11", "Move all remaining nodes of the sweep."),
                 )
             ),
         )
@@ -97,7 +87,7 @@ class FeatureNode(Feature):
         return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
 
     def panels(self) -> Sequence[Panel]:
-        """The node's step."""
+        """Return the panel of the node's step."""
         return (
             Panel(
                 id="node",
@@ -105,16 +95,16 @@ class FeatureNode(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=40,
-                help="What the chosen method does to the chosen node, and why.",
+                help="Step of the selected method at the selected node.",
             ),
         )
 
-    # What is shown
+    # Display
 
     def refresh(self) -> None:
-        """Show the step of what is chosen as it is now."""
-        sweep = self._stepping.sweep
-        self.panel.set_stepping(self._reason_for_no_sweep(), *((sweep.done, sweep.nodes.size) if sweep else ()))
+        """Show the step of the selected node, or the reason why it has none."""
+        sweep = self._node_sweep.sweep
+        self.panel.set_sweep(self._reason_for_no_sweep(), *((sweep.done, sweep.nodes.size) if sweep else ()))
         if self._view.look.isolation != self._isolation:
             self._isolation = None
             self.panel.set_patch(False)
@@ -124,51 +114,45 @@ class FeatureNode(Feature):
         self._list_nodes()
         smoother, node = self.session.run_setup.smoother, self._selection.node
         reason = reason_for_no_step(self.session, smoother)
-        made = self._stepping.made_by(smoother)
+        last_step = self._node_sweep.made_by(smoother)
         if reason:
-            self._say(reason)
-        elif made is not None and made.node == node:
-            self._show(made, made=True)
+            self._cancel_request()
+            self._draw_message(reason)
+        elif last_step is not None and last_step.node == node:
+            self._show(last_step, done=True)
         elif sweep is not None and sweep.smoother == smoother:
-            self._show(sweep.preview(node), made=False)
+            self._show(sweep.preview(node), done=False)
         else:
-            self._ask(self._document.now.mesh, smoother, node)
+            self._request_step(self._document.now.mesh, smoother, node)
 
-    def _ask(self, *question: object) -> None:
-        if question != self._asked:
-            self._asked = question
-            self._explainer.ask(*question)
-            self._patience.start()
-        elif self._explainer.error is not None:
-            self._draw_message(f"This could not be worked out: {self._explainer.error}.")
-        elif self._explainer.step is not None:
-            self._show(self._explainer.step, made=False)
+    def _request_step(self, *request: object) -> None:
+        """Compute a step in the background, or show it if it has been computed."""
+        if request != self._request:
+            self._request = request
+            self._task.ask(*request)
+            self._computing_timer.start()
+        elif self._task.error is not None:
+            self._draw_message(f"The step could not be computed: {self._task.error}.")
+        elif self._task.step is not None:
+            self._show(self._task.step, done=False)
 
-    def _say_it_takes_time(self) -> None:
-        self._draw_message("Working it out… A global method takes some seconds for it on a large mesh.")
+    def _cancel_request(self) -> None:
+        self._request = None
+        self._task.forget()
+        self._computing_timer.stop()
 
-    def _say(self, sentence: str) -> None:
-        """Show no step, and why."""
-        self._await_nothing()
-        self._draw_message(sentence)
-
-    def _draw_message(self, sentence: str) -> None:
+    def _draw_message(self, message: str) -> None:
         node = self._selection.node
-        self.panel.show_message(sentence, "" if node is None else f"Node {node:,}")
+        self.panel.show_message(message, "" if node is None else f"Node {node:,}")
         self._draw(None)
 
-    def _show(self, step: NodeStep, made: bool) -> None:
-        if self._stepping.sweep is not None or made:
-            self._await_nothing()
-        self.panel.show_step(step, METHODS[step.method].title, made)
+    def _show(self, step: NodeStep, done: bool) -> None:
+        if self._node_sweep.sweep is not None or done:
+            self._cancel_request()
+        self.panel.show_step(step, METHODS[step.method].title, done)
         self._draw(step)
         if self.panel.patch_alone and self._isolation != _isolation(step):
             self._isolate(step)
-
-    def _await_nothing(self) -> None:
-        self._asked = None
-        self._explainer.forget()
-        self._patience.stop()
 
     def _draw(self, step: NodeStep | None) -> None:
         if step is not self._shown:
@@ -177,60 +161,60 @@ class FeatureNode(Feature):
                 self.canvas.show_node_step(step)
 
     def _list_nodes(self) -> None:
-        chosen = self._selection
-        if chosen.hex is None or not self._document.is_open:
+        selection = self._selection
+        if selection.hex is None or not self._document.is_open:
             self.panel.set_nodes(None)
         else:
             mesh = self._document.now.mesh
-            nodes = mesh.hexes[chosen.hex]
-            self.panel.set_nodes(nodes[mesh.free[nodes]].tolist(), chosen.node)
+            nodes = mesh.hexes[selection.hex]
+            self.panel.set_nodes(nodes[mesh.free[nodes]].tolist(), selection.node)
 
-    # One node
+    # Node
 
-    def _explain_one(self) -> None:
-        """Come to the front with a node that has a step: that which is chosen, or the worst of the worst element."""
+    def _explain_node(self) -> None:
+        """Show the panel with the selected node if it is free, else with the worst free node of the worst hex."""
         self.host.show_panel("node")
-        chosen, free = self._selection, self._document.now.mesh.free
-        if chosen.node is not None and free[chosen.node]:
-            chosen.visit(chosen.hex)
+        selection, free = self._selection, self._document.now.mesh.free
+        if selection.node is not None and free[selection.node]:
+            selection.visit(selection.hex)
             return
-        hexes = self._selection.worst_hexes() if chosen.hex is None else np.array([chosen.hex])
-        found = worst_free_node(self._document.now, hexes)
-        if found is not None:
-            chosen.choose(*found)
-            chosen.visit(found[0])
+        hexes = self._selection.worst_hexes() if selection.hex is None else np.array([selection.hex])
+        hex_and_node = worst_free_node(self._document.now, hexes)
+        if hex_and_node is not None:
+            selection.choose(*hex_and_node)
+            selection.visit(hex_and_node[0])
 
-    def _on_patch(self, on: bool) -> None:
+    def _on_patch_toggled(self, on: bool) -> None:
         if not on:
             self._view.end_isolation()
         elif self._shown is not None:
             self._isolate(self._shown)
 
     def _take_patch(self, on: bool) -> None:
-        """Restore from a session whether the isolated hexes are the node's patch."""
+        """Restore from a session file whether the isolated hexes are the node's patch."""
         self._isolation = self._view.look.isolation if on else None
         self.panel.set_patch(on)
 
     def _isolate(self, step: NodeStep) -> None:
         self._isolation = _isolation(step)
-        self._view.change(isolation=self._isolation, quality_range=None, peel=0)  # which would hide some of it
+        self._view.change(isolation=self._isolation, quality_range=None, peel=0)  # these could hide hexes of the patch
         self._selection.visit(*step.hexes.tolist())
 
-    # A sweep
+    # Sweep
 
-    def _go(self, subject: str) -> None:
-        """Visit the next node of the sweep, ten of them, or all that are left."""
+    def _advance(self, amount: str) -> None:
+        """Move the "next" node of the sweep, the next "ten", or "finish" it; then select the last node moved."""
         self.host.show_panel("node")
         if self._reason_for_no_sweep():
             return
         smoother = self.session.run_setup.smoother
-        if subject == "finish":
-            self._stepping.finish(smoother)
+        if amount == "finish":
+            self._node_sweep.finish(smoother)
         else:
-            self._stepping.advance(smoother, 10 if subject == "ten" else 1)
-        step, now = self._stepping.last, self._document.now
-        chosen = self._selection.hex
-        h = chosen if chosen in step.hexes else int(step.hexes[now.figures.scaled_jacobian[step.hexes].argmin()])
+            self._node_sweep.advance(smoother, 10 if amount == "ten" else 1)
+        step, jacobian, h = self._node_sweep.last, self._document.now.figures.scaled_jacobian, self._selection.hex
+        if h not in step.hexes:
+            h = int(step.hexes[jacobian[step.hexes].argmin()])
         self._selection.choose(h, step.node)
 
     def _reason_for_no_sweep(self) -> str:

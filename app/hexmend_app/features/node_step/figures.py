@@ -1,4 +1,4 @@
-"""Figures one below the other, each with what it means."""
+"""Table of the figures of a node's step, each with an explanation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ROW = (
 
 
 class NodeFigures(QTextBrowser):
-    """Writes what there is to say of a node's step."""
+    """Shows the figures of a node's step."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -29,14 +29,14 @@ class NodeFigures(QTextBrowser):
         self.viewport().setAutoFillBackground(False)
         self.document().setDocumentMargin(3)
         set_help(self, "Figures of the step", "")
-        on_theme_change(self, self._write)
+        on_theme_change(self, self._render)
 
     def show_rows(self, rows: Sequence[Row]) -> None:
-        """Write other figures, from the top."""
+        """Replace the figures and scroll to the top."""
         self._rows = rows
-        self._write()
+        self._render()
 
-    def _write(self) -> None:
+    def _render(self) -> None:
         size = smaller(self.font()).pointSizeF()
         self.setHtml(
             "".join(

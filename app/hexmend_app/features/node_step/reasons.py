@@ -1,4 +1,4 @@
-"""Why a node has no step to look at, and why there is no sweep to go through; and which node to look at first."""
+"""Reasons why no step or sweep is available, and the node that is explained by default."""
 
 from __future__ import annotations
 
@@ -11,62 +11,75 @@ from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
 
 _HINT = (
-    "Click a hex in the view and choose one of its free nodes, or press D for one at the worst hex. Here you "
-    "will see what the chosen method does to it, and why; F11 goes through a sweep node by node."
+    "Click a hex in the view and select one of its free nodes, or press D for a node of the worst hex, to see how the "
+    "selected method moves it, and why. F11 runs a sweep node by node."
 )
-_WRONG = "Correct the marked value of the method's parameters first."
-_REACH = "Peel, cut (C) or dig (Ctrl and a click) to reach hexes inside, or choose none and press D."
+_INVALID = "Correct the marked parameter of the method first."
+_INSIDE = "Peel, cut (C) or dig (Ctrl+click) to reach the hexes inside, or clear the selection and press D."
 
 
 def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
-    """Why there is no step of the chosen node to show, in a sentence; "" where there is one.
+    """Return the reason why the step of the selected node cannot be shown; "" if it can.
 
     Parameters
     ----------
     session : Session
     smoother : Smoother, optional
-        The method at hand; None while one of its values is wrong.
+        The selected method; None while one of its parameters is invalid.
     """
-    chosen, smoothing = session.selection, session.run
+    selection, run = session.selection, session.run
     if not session.document.is_open:
-        return "Open a mesh to see what a method does to its nodes."
-    if smoothing.busy and smoothing.phase is not Phase.PAUSED:
-        return "A run is under way. Pause it (F5) to look at a node's step."
+        return "Open a mesh to see how a method moves its nodes."
+    if run.busy and run.phase is not Phase.PAUSED:
+        return "A run is in progress. Pause it (F5) to see the step of a node."
     if smoother is None:
-        return _WRONG
-    if chosen.hex is None:
+        return _INVALID
+    if selection.hex is None:
         return _HINT
-    mesh = session.document.now.mesh
-    some_free = bool(mesh.free[mesh.hexes[chosen.hex]].any())
-    choose = "Choose a free one, below." if some_free else f"Its hex has no free node. {_REACH}"
-    if chosen.node is None:
-        return "Choose one of the hex's free nodes, below." if some_free else choose
-    if not mesh.fixed[chosen.node]:
+    mesh, node = session.document.now.mesh, selection.node
+    has_free = bool(mesh.free[mesh.hexes[selection.hex]].any())
+    remedy = "Select a free node below." if has_free else f"The hex has no free nodes. {_INSIDE}"
+    if node is None:
+        return remedy
+    if not mesh.fixed[node]:
         return ""
-    if smoother.slides and mesh.topology.boundary[chosen.node]:
-        return f"Node {chosen.node:,} lies on the boundary, which slides: steps are shown of nodes inside. {choose}"
-    where = "lies on the boundary" if mesh.topology.boundary[chosen.node] else "is pinned"
-    return f"Node {chosen.node:,} {where}: no method moves it. {choose}"
+    boundary = bool(mesh.topology.boundary[node])
+    if smoother.slides and boundary:
+        return f"Node {node:,} is on the sliding boundary: only steps of interior nodes are shown. {remedy}"
+    return f"Node {node:,} is {'on the boundary' if boundary else 'pinned'}: no method moves it. {remedy}"
 
 
 def reason_for_no_sweep(session: Session, smoother: Smoother | None) -> str:
-    """Why there is no sweep to go through node by node, in a sentence; "" where there is one."""
+    """Return the reason why a sweep cannot be run node by node; "" if it can. See `reason_for_no_step`."""
     if not session.document.is_open:
         return "Open a mesh first."
     if session.run.busy:
-        return "A run is under way: end it first. While it is paused, steps can be looked at."
+        return "A run is in progress: stop it first. While it is paused, steps can be shown but not made."
     if not session.editable:
-        return "Another mesh is being read."
+        return "Another mesh is being opened."
     if smoother is None:
-        return _WRONG
+        return _INVALID
     if not isinstance(smoother, LocalDescent):
-        local = ", ".join(one.title for one in METHODS.values() if issubclass(one, LocalDescent))
-        return f"Only a local method goes from node to node: choose one of these: {local}."
-    return "" if session.document.now.mesh.free.any() else "Every node of the mesh is fixed."
+        local = ", ".join(method.title for method in METHODS.values() if issubclass(method, LocalDescent))
+        return f"Only local methods move one node at a time. Select one of: {local}."
+    return "" if session.document.now.mesh.free.any() else "All nodes of the mesh are fixed."
 
 
 def worst_free_node(state: State, hexes: np.ndarray) -> tuple[int, int] | None:
-    """The first of some hexes (k,) that has a free node, and that of its free nodes with the worst hexes around it."""
+    """Find the free node to explain by default.
+
+    Parameters
+    ----------
+    state : State
+    hexes : (k,) int
+        Hexes to search, in this order.
+
+    Returns
+    -------
+    (hex, node) or None
+        The first hex with a free node, and its free node with the lowest sum of scaled Jacobians of the adjacent
+        hexes; None if no node is free.
+    """
     mesh, jacobian = state.mesh, state.figures.scaled_jacobian
     with_free = hexes[mesh.free[mesh.hexes[hexes]].any(axis=1)]
     if not with_free.size:

@@ -1,4 +1,4 @@
-"""Explaining the end of a run: the lines between its result, the panel that explains it, and what follows from it."""
+"""Outcome of a run: reason of the end, remaining bad hexes, and suggestions."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
 
-_RUNNING = "A run is under way. When it ends, you will see here why it stopped and what to try next."
+_RUNNING = "A run is in progress. When it ends, the reason and suggestions are shown here."
 
 
 class FeatureOutcome(Feature):
-    """Explains the run that is gone through, shows what it left inverted, and chooses what is suggested."""
+    """Explains the end of the run in the timeline, shows its bad hexes, and applies suggestions."""
 
     order = 55
 
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        #: Of a run without an iteration, which has no record: the one before it, its name, and what there is to say.
-        self._idle: tuple[RunRecord | None, str, Advice] | None = None
+        #: The last run if it made no iteration and so has no record: the record before it, its name, its explanation.
+        self._empty_run: tuple[RunRecord | None, str, Advice] | None = None
         self._shown: Advice | None = None
         panel = self.panel = OutcomePanel()
         panel.chosen.connect(session.selection.visit)
-        panel.show_requested.connect(self._show_elements)
-        panel.visit_requested.connect(self._visit_elements)
-        panel.suggestion_chosen.connect(lambda at: self._choose(self._shown.suggestions[at]))
+        panel.show_requested.connect(self._isolate)
+        panel.visit_requested.connect(self._isolate_and_visit)
+        panel.suggestion_chosen.connect(lambda index: self._apply(self._shown.suggestions[index]))
         session.run.ended.connect(lambda _: self._on_ended())
-        session.document.mesh_replaced.connect(self._on_another)
+        session.document.mesh_replaced.connect(self._on_mesh_replaced)
 
     def actions(self) -> Sequence[Action]:
-        """Ask why."""
+        """Return the action that shows the panel."""
         return (
             Action(
                 id="why",
@@ -49,7 +49,7 @@ class FeatureOutcome(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The explanation."""
+        """Return the panel that explains a run."""
         return (
             Panel(
                 id="outcome",
@@ -57,72 +57,72 @@ class FeatureOutcome(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=50,
-                help="Why the run stopped, and what to try next.",
+                help="Why the run stopped and what to try next.",
             ),
         )
 
     def refresh(self) -> None:
-        """Explain the run that is gone through."""
-        name, advice = self._explained()
+        """Explain the run of the timeline."""
+        name, advice = self._explanation()
         if advice is not None and advice is not self._shown:
             self.panel.show_advice(f"Why {name} stopped", advice)
         elif advice is None and self.session.run.busy:
-            self.panel.show_none(_RUNNING)
+            self.panel.show_hint(_RUNNING)
         elif advice is None:
-            self.panel.show_none()
+            self.panel.show_hint()
         self._shown = advice
-        self.panel.say_where(self._where())
+        self.panel.set_view_note(self._view_note())
         self.panel.set_busy(not self.session.editable)
 
     def _on_ended(self) -> None:
         record, advice = self.session.run.record, self.session.run.advice
         if record not in self.session.history.records:
-            self._idle = (self.session.timeline.record, record.name, advice)
+            self._empty_run = (self.session.timeline.record, record.name, advice)
 
-    def _on_another(self) -> None:
-        self._idle = None
+    def _on_mesh_replaced(self) -> None:
+        self._empty_run = None
 
-    def _explained(self) -> tuple[str, Advice | None]:
-        """The run that is gone through: its name, and what there is to say of its end."""
+    def _explanation(self) -> tuple[str, Advice | None]:
+        """Return name and explanation of the run of the timeline, or of a later run without iterations."""
         record = self.session.timeline.record
-        if self._idle is not None and (self.session.run.busy or record is not self._idle[0]):
-            self._idle = None
-        if self._idle is not None:
-            return self._idle[1:]
+        if self._empty_run is not None and (self.session.run.busy or record is not self._empty_run[0]):
+            self._empty_run = None
+        if self._empty_run is not None:
+            return self._empty_run[1:]
         return ("", None) if record is None else (record.name, record.advice)
 
-    def _where(self) -> str:
-        """Return the text for the mesh in the view if it is not the result of the explained run."""
+    def _view_note(self) -> str:
+        """Describe the mesh in the view if it is not the result of the explained run, else return ""."""
         timeline = self.session.timeline
         record, moment = timeline.record, timeline.moment
-        if self._idle is not None or record is None or record.result is None:
+        if self._empty_run is not None or record is None or record.result is None:
             return ""
         if moment is None:
-            return "The mesh shown is none of this run's."
+            return "The view shows a mesh that is not from this run."
         if moment.record is record and moment.number == record.result:
             return ""
         if not moment.number:
-            return "The mesh is shown as it was before the run."
-        return f"The mesh is shown as it was at {moment.name}."
+            return "The view shows the mesh before the run."
+        return f"The view shows the mesh at {moment.name}."
 
-    def _show_elements(self, hexes: list[int]) -> None:
+    def _isolate(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)
         if len(hexes) == 1:
             self.session.selection.visit(hexes[0])
 
-    def _visit_elements(self, hexes: list[int]) -> None:
+    def _isolate_and_visit(self, hexes: list[int]) -> None:
         self.session.view.isolate(hexes)
         self.session.selection.visit(*hexes)
 
-    def _choose(self, suggestion: Suggestion) -> None:
-        """Go to where the suggestion begins, and choose its method; whatever it costs to run it is left to the user."""
+    def _apply(self, suggestion: Suggestion) -> None:
+        """Show the mesh from which a suggestion starts, and select its method without running it."""
         timeline = self.session.timeline
         record = timeline.record
-        if self._idle is None:
+        if self._empty_run is None:
             number = 0 if suggestion.undo else record.result
             if timeline.moment is None or (timeline.moment.record, timeline.moment.number) != (record, number):
                 timeline.go(record, number)
         if suggestion.unpin.size:
             self.session.commands.pin(suggestion.unpin, False)
         stage = Stage(suggestion.smoother, suggestion.stop)
-        self.session.run_setup.choose(stage, f"Chosen: {suggestion.title}. Run starts it.")
+        self.session.run_setup.choose(stage, f"Selected: {suggestion.title}. Press Run to start.")

@@ -1,4 +1,4 @@
-"""Why a run stopped, what it left, and what to try next."""
+"""Panel of a run's outcome: reason of the end, remaining bad hexes, and suggestions."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend.advice import Advice, Suggestion
-from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, on_theme_change, set_help, tint
+from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
+from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted
 
-_HINT = "No run has ended yet. Here you will see why it stopped, which hexes are still inverted, and what to try next."
-#: Elements that are named; of more, the rest is counted.
-_NAMED = 24
+_HINT = "No run has ended yet. After a run, this panel shows why it stopped, the remaining bad hexes and suggestions."
+#: Maximum number of hexes that are listed by number; the others are counted.
+_MAX_LISTED = 24
 
 
 class OutcomePanel(QWidget):
@@ -34,13 +35,13 @@ class OutcomePanel(QWidget):
     Signals
     -------
     suggestion_chosen(int)
-        The user wants to try this suggestion, counted from 0.
+        The user selected this suggestion, counted from 0.
     show_requested(list)
-        The user wants to see these elements, and nothing else.
+        The user asked to isolate these hexes.
     visit_requested(list)
-        The same, and the camera goes where all of them are seen.
+        The user asked to isolate these hexes and zoom to them.
     chosen(int)
-        The user wants to see this element.
+        The user selected this hex.
     """
 
     suggestion_chosen = Signal(int)
@@ -54,35 +55,32 @@ class OutcomePanel(QWidget):
         self._hint = note(_HINT)
         self._hint.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._hint.setMargin(24)
-        self._title, self._reason, self._left, self._worse = QLabel(), *(self._text() for _ in range(3))
+        self._title, self._reason, self._state, self._regressions = QLabel(), *(self._text() for _ in range(3))
         font = QFont(self._title.font())
         font.setBold(True)
         self._title.setFont(font)
-        self._locked = _Elements("Locked", "whose fixed nodes alone hold them in inversion")
-        self._loose = _Elements("Inverted", "that are inverted, and not locked")
+        self._locked = _HexList("Locked", "kept inverted by fixed nodes alone")
+        self._unlocked = _HexList("Inverted", "that are inverted but not locked")
         self._surface = self._text()
-        self._limiting = _Elements(
-            "Limiting",
-            "whose corners let the least scaled Jacobian rise no further, whatever moves, in one place or in several",
-        )
-        self._locked_below = _Elements(
+        self._limiting = _HexList("Limiting", "whose corners keep the least scaled Jacobian from rising further")
+        self._locked_below = _HexList(
             "Locked lower",
-            "with a corner of fixed nodes alone that is lower than any that can be moved",
+            "with a corner of fixed nodes that is lower than all corners that can move",
             "the hexes that are locked lower",
         )
-        for elements in (self._locked, self._loose, self._limiting, self._locked_below):
-            elements.chosen.connect(self.chosen)
-        for elements in (self._locked, self._loose, self._locked_below):
-            elements.show_requested.connect(self.show_requested)
-        self._limiting.show_requested.connect(self.visit_requested)
-        self._next = QLabel("What to try next")
-        self._next.setFont(font)
-        self._nothing = note()
-        self._where = note("", AMBER)
-        self._where.hide()
-        self._rows = QGridLayout()
-        self._rows.setColumnStretch(0, 1)
-        self._rows.setVerticalSpacing(6)
+        self._hex_lists = (self._locked, self._unlocked, self._limiting, self._locked_below)
+        for hex_list in self._hex_lists:
+            hex_list.chosen.connect(self.chosen)
+            request = self.visit_requested if hex_list is self._limiting else self.show_requested
+            hex_list.show_requested.connect(request)
+        self._suggestions_title = QLabel("Suggestions")
+        self._suggestions_title.setFont(font)
+        self._no_suggestion = note()
+        self._view_note = note("", AMBER)
+        self._view_note.hide()
+        self._suggestions = QGridLayout()
+        self._suggestions.setColumnStretch(0, 1)
+        self._suggestions.setVerticalSpacing(6)
         self._buttons: list[QPushButton] = []
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._hint)
@@ -95,129 +93,116 @@ class OutcomePanel(QWidget):
         return label
 
     def _page(self) -> QWidget:
-        inside = QWidget()
-        column = QVBoxLayout(inside)
+        page = QWidget()
+        column = QVBoxLayout(page)
         column.setContentsMargins(8, 6, 8, 6)
         column.setSpacing(6)
-        heads = (self._title, self._where, self._reason, self._left, self._worse)
-        elements = (self._locked, self._loose, self._limiting, self._locked_below)
-        parts = (*heads, *elements, self._surface, self._next, self._nothing)
-        for part in parts:
-            column.addWidget(part)
-        column.addLayout(self._rows)
+        summary = (self._title, self._view_note, self._reason, self._state, self._regressions)
+        for widget in (*summary, *self._hex_lists, self._surface, self._suggestions_title, self._no_suggestion):
+            column.addWidget(widget)
+        column.addLayout(self._suggestions)
         column.addStretch()
-        return scrolled(inside)
+        return scrolled(page)
 
-    def show_none(self, hint: str = _HINT) -> None:
-        """Say that nothing is known yet, and why."""
+    def show_hint(self, hint: str = _HINT) -> None:
+        """Show a hint instead of an outcome."""
         self._hint.setText(hint)
         self._stack.setCurrentIndex(0)
 
-    def say_where(self, sentence: str) -> None:
-        """Say that what the view shows is not what the run left, and what it is instead; "" where it is just that."""
-        self._where.setText(sentence)
-        self._where.setVisible(bool(sentence))
+    def set_view_note(self, text: str) -> None:
+        """Show a note on the mesh in the view; "" if it is the result of the run."""
+        self._view_note.setText(text)
+        self._view_note.setVisible(bool(text))
 
     def show_advice(self, title: str, advice: Advice) -> None:
         """Explain the end of a run."""
         self._title.setText(title)
         self._reason.setText(advice.reason)
-        self._left.setText(advice.state)
-        tint(self._left, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
-        self._worse.setText(advice.regressions)
-        self._worse.setVisible(bool(advice.regressions))
-        tint(self._worse, WORSE)
-        self._locked.show_elements(advice.locked)
-        self._loose.show_elements(advice.unlocked)
-        self._limiting.show_elements(advice.limiting)
-        self._locked_below.show_elements(advice.locked_below)
+        self._state.setText(advice.state)
+        tint(self._state, INVERTED_TEXT if advice.locked.size or advice.unlocked.size else TEXT)
+        self._regressions.setText(advice.regressions)
+        self._regressions.setVisible(bool(advice.regressions))
+        tint(self._regressions, WORSE)
+        self._locked.show_hexes(advice.locked)
+        self._unlocked.show_hexes(advice.unlocked)
+        self._limiting.show_hexes(advice.limiting)
+        self._locked_below.show_hexes(advice.locked_below)
         self._surface.setText(advice.surface)
         self._surface.setVisible(bool(advice.surface))
-        self._nothing.setText(advice.no_suggestion)
+        self._no_suggestion.setText(advice.no_suggestion)
         self._show_suggestions(advice.suggestions)
         self._stack.setCurrentIndex(1)
 
     def set_busy(self, busy: bool) -> None:
-        """Say whether a run is under way or a mesh is being read, in which nothing else can be chosen."""
+        """Disable the suggestions during a run and while a mesh is being opened."""
         self._busy = busy
         for button in self._buttons:
             button.setEnabled(not busy)
 
     def _show_suggestions(self, suggestions: Sequence[Suggestion]) -> None:
-        while (item := self._rows.takeAt(0)) is not None:
+        while (item := self._suggestions.takeAt(0)) is not None:
             item.widget().hide()
             item.widget().deleteLater()
         self._buttons = []
-        self._next.setVisible(bool(suggestions or self._nothing.text()))
-        self._nothing.setVisible(not suggestions and bool(self._nothing.text()))
+        self._suggestions_title.setVisible(bool(suggestions or self._no_suggestion.text()))
+        self._no_suggestion.setVisible(not suggestions and bool(self._no_suggestion.text()))
         before: QWidget = self._locked_below.button
-        for at, one in enumerate(suggestions):
+        for index, suggestion in enumerate(suggestions):
             text = self._text()
             text.setTextFormat(Qt.TextFormat.RichText)
-            text.setText(f"<b>{escape(one.title)}.</b> {escape(one.text)}")
-            button = QPushButton("Choose")
-            set_help(button, f"Choose: {one.title}", _help_of_choice(one))
-            button.clicked.connect(lambda _=False, at=at: self.suggestion_chosen.emit(at))
-            self._rows.addWidget(text, at, 0)
-            self._rows.addWidget(button, at, 1, Qt.AlignmentFlag.AlignTop)
-            self.setTabOrder(before, button)  # Qt puts what is made later at the end of the whole window
+            text.setText(f"<b>{escape(suggestion.title)}.</b> {escape(suggestion.text)}")
+            button = QPushButton("Select")
+            set_help(button, f"Select: {suggestion.title}", _selection_help(suggestion))
+            button.clicked.connect(lambda _=False, index=index: self.suggestion_chosen.emit(index))
+            self._suggestions.addWidget(text, index, 0)
+            self._suggestions.addWidget(button, index, 1, Qt.AlignmentFlag.AlignTop)
+            self.setTabOrder(before, button)  # Qt adds new widgets at the end of the window's tab order
             self._buttons.append(button)
             before = button
         self.set_busy(self._busy)
 
 
-class _Elements(QWidget):
-    """Some elements by their numbers, and a button that shows them; hidden while there are none."""
+class _HexList(QWidget):
+    """Links to hexes, and a button that isolates them; hidden while the list is empty."""
 
     chosen = Signal(int)
     show_requested = Signal(list)
 
-    def __init__(self, title: str, which: str, called: str = "", parent: QWidget | None = None):
+    def __init__(self, title: str, description: str, name: str = "", parent: QWidget | None = None):
         super().__init__(parent)
-        called = called or f"the {title.lower()} hexes"
-        self._name = title
-        self._elements: list[int] = []
-        self._numbers = QLabel()
-        self._numbers.setWordWrap(True)
-        self._numbers.setTextFormat(Qt.TextFormat.RichText)
-        self._numbers.setTextInteractionFlags(
-            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
-        )
-        self._numbers.linkActivated.connect(lambda link: self.chosen.emit(int(link)))
-        set_help(self._numbers, f"{title} hexes", f"Hexes {which}; a click goes there.")
-        self.button = QPushButton(icon("eye-outline"), "Show them")
-        self.button.clicked.connect(lambda: self.show_requested.emit(self._elements))
+        self._title = title
+        self._hexes: list[int] = []
+        self._links = LinkLabel()
+        self._links.setWordWrap(True)
+        self._links.followed.connect(self.chosen)
+        set_help(self._links, f"{title} hexes", f"Hexes {description}; click one to select it.")
+        self.button = QPushButton(icon("eye-outline"), "Show")
+        self.button.clicked.connect(lambda: self.show_requested.emit(self._hexes))
         set_help(
             self.button,
-            f"Show {called}",
-            f"Show nothing but the hexes {which}, and their neighbours; Esc brings back the rest.",
+            f"Show {name or f'the {title.lower()} hexes'}",
+            f"Show only the hexes {description}, and their neighbours; Esc shows all hexes again.",
         )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self._numbers, 1)
+        row.addWidget(self._links, 1)
         row.addWidget(self.button, 0, Qt.AlignmentFlag.AlignTop)
-        on_theme_change(self, self._write)
 
-    def show_elements(self, elements: np.ndarray) -> None:
-        """Show these; without a signal."""
-        self._elements = elements.tolist()
-        self._write()
-        self.setVisible(bool(self._elements))
-
-    def _write(self) -> None:
-        # Nothing, and yet before the link: from one at the very beginning Shift+Tab does not get away.
-        links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._elements[:_NAMED])
-        more = len(self._elements) - _NAMED
-        rest = f" and {counted(more, 'other')}" if more > 0 else ""
-        self._numbers.clear()  # Qt colours links as the text is set, and not again for the same text
-        self._numbers.setText(f"{self._name}: {links}{rest}")
+    def show_hexes(self, hexes: np.ndarray) -> None:
+        """List hexes (k,) by number."""
+        self._hexes = hexes.tolist()
+        links = ", ".join(f'<a href="{h}">{h:,}</a>' for h in self._hexes[:_MAX_LISTED])
+        more = len(self._hexes) - _MAX_LISTED
+        others = f" and {counted(more, 'other')}" if more > 0 else ""
+        self._links.setText(f"{self._title}: {links}{others}")
+        self.setVisible(bool(self._hexes))
 
 
-def _help_of_choice(one: Suggestion) -> str:
-    first = []
-    if one.undo:
-        first.append("goes back to before the run")
-    if one.unpin.size:
-        first.append(f"unpins {counted(int(one.unpin.size), 'node')}")
-    first.append("sets method and values in the panel, and runs nothing: Run (F5) does")
-    return f"{', '.join(first).capitalize()}."
+def _selection_help(suggestion: Suggestion) -> str:
+    effects = []
+    if suggestion.undo:
+        effects.append("go back to the mesh before the run")
+    if suggestion.unpin.size:
+        effects.append(f"unpin {counted(int(suggestion.unpin.size), 'node')}")
+    effects.append("set the method and its parameters")
+    return f"{', '.join(effects).capitalize()}. Run (F5) starts it."

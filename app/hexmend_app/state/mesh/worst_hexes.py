@@ -10,21 +10,22 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked_hexes, rank_worst
 from hexmend_app.state.mesh.metric_cache import metric_values
 
-#: Elements in the list at most: nobody reads more, and they are found anew at every iteration.
-MOST = 1000
+#: Maximum number of hexes in the list, which is built again at every iteration.
+MAX_LISTED = 1000
 
 
 @dataclass(frozen=True, eq=False)
 class Worst:
-    """The worst hexes by a metric, the worst first.
+    """The worst hexes by a metric, worst first.
 
     Parameters
     ----------
     elements : (k,) int64
+        Numbers of the hexes.
     values, jacobians : (k,) float64
-        Of the metric, and the scaled Jacobian.
+        Values of the metric, and scaled Jacobians.
     states : list of str
-        "inverted", "locked" where fixed nodes alone hold it so, or "".
+        "locked" if fixed nodes alone keep the hex inverted, "inverted" for other inverted hexes, else "".
     """
 
     elements: np.ndarray
@@ -34,10 +35,10 @@ class Worst:
 
     @classmethod
     def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> Worst:
-        """Find them."""
-        known = metric_values(metric, mesh.points, mesh.hexes, figures)
-        chosen = rank_worst(known, figures, min(MOST, known.size), METRICS[metric].better or 1)
-        inverted = figures.inverted[chosen]
-        locked = locked_hexes(mesh.points, mesh.hexes[chosen], mesh.fixed, inverted)
-        states = ["locked" if h else "inverted" if i else "" for i, h in zip(inverted, locked, strict=True)]
-        return cls(chosen, known[chosen], figures.scaled_jacobian[chosen], states)
+        """Find the worst hexes of a mesh by the metric with this name in `METRICS`."""
+        values = metric_values(metric, mesh.points, mesh.hexes, figures)
+        worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
+        inverted = figures.inverted[worst]
+        locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)
+        states = np.where(locked, "locked", np.where(inverted, "inverted", "")).tolist()
+        return cls(worst, values[worst], figures.scaled_jacobian[worst], states)

@@ -1,4 +1,4 @@
-"""Finding and looking at elements in the window, with mouse and keys."""
+"""Selection of hexes and nodes in the window, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ def centre(window):
 
 
 def click_view(window, modifier=Qt.KeyboardModifier.NoModifier, pos=None):
-    """Click in the view, and let the window show what came of it."""
+    """Click in the view and refresh the window."""
     QTest.mouseClick(window.canvas.interactor, LEFT, modifier, pos=centre(window) if pos is None else pos)
     window.refresh()
 
 
-def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtbot):
+def test_a_click_in_the_view_selects_a_hex_and_a_drag_does_not(window, qtbot):
     window.show_panel("worst")
     click_view(window)
     chosen = window.session.selection.hex
     assert chosen is not None
     neighbours = window.session.document.now.mesh.topology.face_neighbours[chosen]
-    assert (neighbours < 0).any()  # what is seen lies at the surface
+    assert (neighbours < 0).any()  # the visible hexes are at the surface
     assert window.in_front("hex")
     click_view(window, pos=QPoint(3, 3))
     assert window.session.selection.hex is None
@@ -47,7 +47,7 @@ def test_a_click_in_the_view_looks_at_an_element_and_a_drag_does_not(window, qtb
     assert window.session.selection.hex is None
 
 
-def test_a_click_in_the_view_leaves_it_its_room(window):
+def test_a_click_in_the_view_does_not_open_the_drawer(window):
     size = window.canvas.size()
     click_view(window)
     assert window.session.selection.hex is not None
@@ -58,7 +58,7 @@ def test_a_click_in_the_view_leaves_it_its_room(window):
 
 
 @pytest.mark.slow
-def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
+def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot):
     camera = window.canvas.viewport.camera
     before = np.array(camera.GetFocalPoint())
     key(window, Qt.Key.Key_N)
@@ -78,7 +78,7 @@ def test_keys_walk_through_the_worst_and_the_camera_flies_there(window, qtbot):
     assert window.session.selection.hex is None
 
 
-def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
+def test_the_worst_hex_is_isolated_and_its_neighbours_are_ghosts(window):
     key(window, Qt.Key.Key_N)
     drawn, worst = window.canvas.viewport, window.session.selection.hex
     assert set(drawn.body.faces.hexes) == {worst}
@@ -87,7 +87,7 @@ def test_the_worst_alone_is_drawn_and_its_neighbours_are_ghosts(window):
 
 
 @pytest.mark.slow
-def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
+def test_a_hex_stays_selected_during_a_run(window, qtbot):
     key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
     choose(window, window.session.run_setup.method, StoppingCriteria(tolerance=1e-2))
@@ -100,7 +100,7 @@ def test_an_element_stays_looked_at_while_a_smoother_runs(window, qtbot):
     assert window.features["hex_inspector"].worst_list.elements[0] == window.session.document.now.figures.q.argmin()
 
 
-def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
+def test_the_list_of_the_worst_is_saved_or_an_error_is_shown(window, tmp_path):
     assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
     lines = (tmp_path / "worst.csv").read_text().splitlines()
     assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.elements)
@@ -109,7 +109,7 @@ def test_the_list_of_the_worst_is_saved_or_the_reason_given(window, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
+def test_a_pinned_node_does_not_move_and_undo_unpins_it(window, qtbot):
     mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])
     h = int(np.flatnonzero((mesh.hexes == inner).any(axis=1))[0])
@@ -137,7 +137,7 @@ def test_a_pinned_node_stays_and_undo_lets_it_go(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, qtbot, tmp_path):
+def test_a_boundary_node_pinned_by_key_does_not_slide(window, qtbot, tmp_path):
     io.write(tmp_path / "slid.vtu", slid(grid(4), 0.3, seed=3))
     open_and_wait(qtbot, window, tmp_path / "slid.vtu")
     mesh = window.session.document.now.mesh
@@ -170,7 +170,7 @@ def test_a_node_of_the_boundary_is_pinned_by_its_key_and_does_not_slide(window, 
     assert not pin.isChecked()
 
 
-def test_what_a_node_of_the_boundary_may_do_is_said(window, qtbot):
+def test_the_class_of_a_boundary_node_is_shown(window, qtbot):
     mesh = window.session.document.now.mesh
     window.show_panel("show")
     window.refresh()
@@ -178,11 +178,11 @@ def test_what_a_node_of_the_boundary_may_do_is_said(window, qtbot):
     node = int(np.flatnonzero(window.session.boundary_classifier.classes.kinds == NodeClass.CORNER)[0])
     window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
     window.refresh()
-    said = [label.text() for label in window.features["hex_inspector"].panel.findChildren(QLabel)]
-    assert any(f"Node {node:,}: boundary, a corner, " in text for text in said)
+    labels = window.features["hex_inspector"].panel.findChildren(QLabel)
+    assert any(f"Node {node:,}: boundary, a corner, " in label.text() for label in labels)
 
 
-def test_every_command_is_found_by_name(window, qtbot):
+def test_commands_are_found_by_name_in_the_palette(window, qtbot):
     key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     palette = window.findChild(CommandPalette)
     qtbot.waitExposed(palette)
@@ -193,7 +193,7 @@ def test_every_command_is_found_by_name(window, qtbot):
 
 
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])
-def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix):
+def test_the_histogram_is_saved_as_picture_or_as_counts(window, tmp_path, suffix):
     path = tmp_path / f"histogram{suffix}"
     assert window.features["histogram"].save(path)
     starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".csv": b"q from,q to,at the start,now"}
@@ -204,7 +204,7 @@ def test_the_histogram_is_saved_as_figure_or_as_counts(window, tmp_path, suffix)
         assert int(rows[0][3]) == window.session.document.now.summary.inverted
 
 
-def test_what_is_saved_is_what_is_drawn(window, tmp_path):
+def test_the_saved_histogram_equals_the_drawn_one(window, tmp_path):
     histogram, now = window.features["histogram"].panel, window.session.document.now
     histogram.metric_chosen.emit("condition")
     window.refresh()
@@ -221,7 +221,7 @@ def test_what_is_saved_is_what_is_drawn(window, tmp_path):
     assert head == ["condition from", "condition to"] + [
         f"% of hexes up to: {name}" for name in ("at the start", "now", "as it was, before")
     ]
-    assert len(rows) == 21  # the last beyond the end of the axis
+    assert len(rows) == 21  # the last bin is beyond the end of the axis
     assert rows[-1][1:] == ["inf", "100", "100", "100"]
     assert float(inverted[3]) == pytest.approx(100 * now.summary.inverted / 4000, rel=1e-5)
     shares = [float(row[3]) for row in rows]
@@ -239,7 +239,7 @@ def test_what_is_saved_is_what_is_drawn(window, tmp_path):
     assert (tmp_path / "linear.svg").read_text() != drawing
 
 
-def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
+def test_an_error_is_shown_if_a_histogram_cannot_be_saved(window, tmp_path):
     assert not window.features["histogram"].save(tmp_path / "histogram.txt")
     kind, title, text = window.messages.messages()[-1]
     assert (kind, title) == ("error", "The histogram was not saved")
@@ -247,7 +247,7 @@ def test_a_histogram_that_cannot_be_saved_says_why(window, tmp_path):
     assert list(tmp_path.glob("histogram*")) == []
 
 
-def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
+def test_ctrl_click_hides_a_hex_and_backspace_shows_it(window, qtbot):
     click_view(window)
     first = window.session.selection.hex
     click_view(window, Qt.KeyboardModifier.ControlModifier)
@@ -265,7 +265,7 @@ def test_a_click_with_ctrl_digs_and_a_key_brings_back(window, qtbot):
     assert not window.session.view.look.dug
 
 
-def test_the_chosen_element_is_isolated_by_key(window):
+def test_the_selected_hex_is_isolated_by_key(window):
     click_view(window)
     key(window, Qt.Key.Key_I)
     assert window.session.view.look.isolation.hexes == (window.session.selection.hex,)

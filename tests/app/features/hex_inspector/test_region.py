@@ -1,9 +1,9 @@
-"""Moving nothing but a region: what is isolated, and the rings around it."""
+"""Pinning all nodes outside the isolated hexes and the rings around them."""
 
 import numpy as np
 
 
-def test_only_what_is_isolated_is_free_until_undo(window):
+def test_only_the_isolated_region_is_free_until_undo(window):
     session = window.session
     mesh = session.document.now.mesh
     session.view.isolate([40], 1)

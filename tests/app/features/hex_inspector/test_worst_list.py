@@ -1,4 +1,4 @@
-"""The list of the worst elements."""
+"""List of the worst hexes."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QTableView
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList
-from hexmend_app.state.mesh.worst_hexes import MOST
+from hexmend_app.state.mesh.worst_hexes import MAX_LISTED
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(11), 0.7, 4)
@@ -36,11 +36,11 @@ def row_at(widget, row):
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_the_list_is_bounded_and_in_the_order_of_its_metric(worst_list, name):
+def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData(name))
     elements, better = worst_list.elements, METRICS[name].better or 1
-    assert len(elements) == min(MOST, MESH.n_hexes) < MESH.n_hexes
+    assert len(elements) == min(MAX_LISTED, MESH.n_hexes) < MESH.n_hexes
     keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
     keys[np.isnan(keys)] = -np.inf
     listed = keys[elements]
@@ -50,41 +50,41 @@ def test_the_list_is_bounded_and_in_the_order_of_its_metric(worst_list, name):
     assert (np.diff(FIGURES.scaled_jacobian[elements])[equal] >= 0).all()
 
 
-def test_an_inverted_element_of_good_quality_comes_after_worse_ones(worst_list):
+def test_an_inverted_hex_with_good_q_is_listed_after_worse_hexes(worst_list):
     elements = worst_list.elements
     q, inverted = FIGURES.q[elements], FIGURES.inverted[elements]
     assert inverted.any()
     assert q[inverted].max() > q[~inverted].min()
 
 
-def test_the_list_says_how_equal_elements_are_ordered(worst_list):
-    def said():
+def test_the_list_states_the_order_of_ties(worst_list):
+    def text():
         return " ".join(label.text() for label in worst_list.findChildren(QLabel))
 
-    assert "equal ones by scaled Jacobian" in said()
+    assert "ties sorted by scaled Jacobian" in text()
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData("scaled-jacobian"))
-    assert "equal ones" not in said()
+    assert "ties" not in text()
 
 
-def test_a_click_on_a_row_chooses_its_element(worst_list, qtbot):
+def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
     viewport, place = row_at(worst_list, 2)
     with qtbot.waitSignal(worst_list.chosen) as chosen:
         QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
     assert chosen.args == [worst_list.elements[2]]
 
 
-def test_next_and_previous_walk_from_what_is_selected_and_round_the_ends(worst_list):
-    heard = []
-    worst_list.chosen.connect(heard.append)
+def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list):
+    selected = []
+    worst_list.chosen.connect(selected.append)
     worst_list.chosen.connect(worst_list.set_selected)
     for text in ("Next", "Next", "Previous", "Previous"):
         QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)
     elements = worst_list.elements.tolist()
-    assert heard == [elements[0], elements[1], elements[0], elements[-1]]
+    assert selected == [elements[0], elements[1], elements[0], elements[-1]]
 
 
-def test_the_selected_row_follows_its_element_when_the_mesh_moves(worst_list):
+def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
     element = int(worst_list.elements[5])
     worst_list.set_selected(element)
     better = scrambled(grid(11), 0.5, 4)
@@ -94,16 +94,16 @@ def test_the_selected_row_follows_its_element_when_the_mesh_moves(worst_list):
     assert (listed[row] == element) if element in listed else row == -1
 
 
-def test_what_cannot_be_seen_is_made_when_it_is_shown(qtbot):
+def test_a_hidden_list_is_filled_when_it_is_shown(qtbot):
     widget = WorstList()
     qtbot.addWidget(widget)
     widget.set_figures(MESH, FIGURES)
     assert widget.findChild(QTableView).model().rowCount() == 0
     widget.show()
-    assert widget.findChild(QTableView).model().rowCount() == min(MOST, MESH.n_hexes)
+    assert widget.findChild(QTableView).model().rowCount() == min(MAX_LISTED, MESH.n_hexes)
 
 
-def test_the_list_as_a_table_reads_back(worst_list, tmp_path):
+def test_the_saved_list_reads_back(worst_list, tmp_path):
     write_worst(tmp_path / "worst.csv", MESH, worst_list.chosen_metric)
     lines = (tmp_path / "worst.csv").read_text().splitlines()
     assert lines[0] == "hex,q,scaled-jacobian,state"
@@ -114,30 +114,30 @@ def test_the_list_as_a_table_reads_back(worst_list, tmp_path):
     assert state == "inverted"
 
 
-def test_without_a_mesh_nothing_can_be_pressed(qtbot):
+def test_without_a_mesh_all_buttons_are_disabled(qtbot):
     widget = WorstList()
     qtbot.addWidget(widget)
     assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
-    widget.next()  # harmless
+    widget.next()  # must not fail
     assert not len(widget.elements)
 
 
-def test_enter_and_a_double_click_choose_the_row_again(worst_list):
+def test_enter_and_a_double_click_select_the_row_again(worst_list):
     viewport, place = row_at(worst_list, 1)
     QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    heard = []
-    worst_list.chosen.connect(heard.append)
+    selected = []
+    worst_list.chosen.connect(selected.append)
     element = worst_list.elements[1]
     QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
-    assert heard == [element]
+    assert selected == [element]
     QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    assert heard == [element, element]
+    assert selected == [element, element]
 
 
-def test_the_focus_alone_chooses_nothing(worst_list, qtbot):
+def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):
     with qtbot.waitActive(worst_list):
         worst_list.activateWindow()
-    heard = []
-    worst_list.chosen.connect(heard.append)
+    selected = []
+    worst_list.chosen.connect(selected.append)
     worst_list.findChild(QTableView).setFocus(Qt.FocusReason.TabFocusReason)
-    assert heard == []
+    assert selected == []

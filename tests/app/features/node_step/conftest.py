@@ -1,4 +1,4 @@
-"""A window in which a node's step is looked at."""
+"""Window that shows the step of a node."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import pytest
 from PySide6.QtCore import Qt
 
 from tests.app.driving import choose_by_keys, key
-from tests.app.features.node_step.looking import wait_for_step
+from tests.app.features.node_step.step_display import wait_for_step
 
 
 @pytest.fixture
-def at_work(window, qtbot):
-    """The window with a local method, and a node of the worst element chosen by key."""
+def node_window(window, qtbot):
+    """Return the window with a local method, and a node of the worst hex selected by key."""
     choose_by_keys(window, "local-sd")
     key(window, Qt.Key.Key_D)
     wait_for_step(window, qtbot, "local-sd")

@@ -1,4 +1,4 @@
-"""Which node is explained, and that it is brought before the camera."""
+"""Choice of the node that is explained; the camera moves to it."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def host(qtbot):
 
 
 @pytest.mark.parametrize("chosen", ["nothing", "a hex", "a free node"])
-def test_whatever_is_chosen_the_camera_goes_to_what_is_explained(host, chosen):
+def test_the_camera_moves_to_the_explained_node(host, chosen):
     selection, mesh = host.session.selection, host.session.document.now.mesh
     free = int(np.flatnonzero(mesh.free)[0])
     around = int((mesh.hexes == free).any(axis=1).argmax())

@@ -1,4 +1,4 @@
-"""The node debugger in the window, with mouse and keys: a node's step explained."""
+"""Node debugger in the window, by mouse and keys: the step of a node."""
 
 from __future__ import annotations
 
@@ -19,7 +19,16 @@ from hexmend_app.theme import theme_choice
 from hexmend_app.theme.palette import SEARCH, UPHILL
 from hexmend_app.theme.theme_choice import ThemeChoice
 from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, phase, pixels, press, tick
-from tests.app.features.node_step.looking import button, grabbed, patch_alone, said, seen, shown, texts, wait_for_step
+from tests.app.features.node_step.step_display import (
+    button,
+    count_pixels,
+    grab,
+    patch_box,
+    shown_step,
+    texts,
+    wait_for_step,
+    wait_for_text,
+)
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -27,8 +36,8 @@ pytestmark = pytest.mark.slow
 # One node
 
 
-def test_a_key_explains_a_free_node_of_the_worst_element(at_work):
-    window, step = at_work, shown(at_work)
+def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
+    window, step = node_window, shown_step(node_window)
     mesh = window.session.document.now.mesh
     assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]
     assert window.session.selection.node in mesh.hexes[window.session.selection.hex]
@@ -42,9 +51,9 @@ def test_a_key_explains_a_free_node_of_the_worst_element(at_work):
     assert window.session.document.now is window.session.document.start  # nothing has moved
 
 
-def test_the_trials_are_numbered_in_the_plot(at_work):
-    step = shown(at_work)
-    drawn = at_work.features["node_step"].panel.plot.shown_trials()
+def test_the_trials_are_numbered_in_the_plot(node_window):
+    step = shown_step(node_window)
+    drawn = node_window.features["node_step"].panel.plot.shown_trials()
     assert drawn
     for number, alpha, height in drawn:
         trial = step.trials[number - 1]
@@ -54,8 +63,8 @@ def test_the_trials_are_numbered_in_the_plot(at_work):
     assert drawn[-1][0] == len(step.trials)  # the accepted one is never left out
 
 
-def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once(at_work, qtbot):
-    window = at_work
+def test_links_select_nodes_and_a_change_of_method_updates_the_step(node_window, qtbot):
+    window = node_window
     label = named(window.features["node_step"].panel, QLabel, "Free nodes")
     mesh, before = window.session.document.now.mesh, window.session.selection.node
     other = next(int(i) for i in mesh.hexes[window.session.selection.hex] if mesh.free[i] and i != before)
@@ -74,45 +83,45 @@ def test_another_node_is_chosen_by_its_link_and_another_method_explained_at_once
     assert "Shift" in texts(window)
     window.features["smooth"].panel.stage.parameters.set_values({"p": 3.0})
     window.features["smooth"].panel.stage.parameters.changed.emit()
-    qtbot.waitUntil(lambda: shown(window).norm.p == 3, timeout=PATIENCE)
-    assert shown(window).energy != step.energy
+    qtbot.waitUntil(lambda: shown_step(window).norm.p == 3, timeout=PATIENCE)
+    assert shown_step(window).energy != step.energy
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", list(METHODS))
-def test_every_method_is_explained(at_work, qtbot, name):
-    choose_by_keys(at_work, name)
-    wait_for_step(at_work, qtbot, "getme" if name == "general" else name)
-    assert at_work.features["node_step"].panel.plot.isVisible() == bool(len(shown(at_work).curve))
-    words = texts(at_work)
+def test_every_method_is_explained(node_window, qtbot, name):
+    choose_by_keys(node_window, name)
+    wait_for_step(node_window, qtbot, "getme" if name == "general" else name)
+    assert node_window.features["node_step"].panel.plot.isVisible() == bool(len(shown_step(node_window).curve))
+    words = texts(node_window)
     assert "Energy" in words
     assert ("Armijo" in words) == (name.split("-")[-1] in ("sd", "nr", "mnr"))
-    assert ("Goes to" in words) == (name in ("laplacian", "smart-laplacian", "getme", "general"))
+    assert ("Target" in words) == (name in ("laplacian", "smart-laplacian", "getme", "general"))
 
 
-def test_a_node_that_is_fixed_has_no_step_and_says_why(window, qtbot):
+def test_a_fixed_node_has_no_step_and_the_reason_is_shown(window, qtbot):
     choose_by_keys(window, "local-sd")
     window.show_panel("node")
-    said(window, qtbot, "Click a hex in the view")
+    wait_for_text(window, qtbot, "Click a hex in the view")
     QTest.mouseClick(window.canvas.interactor, LEFT, pos=window.canvas.interactor.rect().center())
     assert window.session.selection.hex is not None
     assert window.in_front("node")  # a click does not bring another panel to the front
-    said(window, qtbot, "lies on the boundary: no method moves it")
+    wait_for_text(window, qtbot, "is on the boundary: no method moves it")
     choose(window, "local-sd", boundary="slide")
-    said(window, qtbot, "lies on the boundary, which slides: steps are shown of nodes inside")
+    wait_for_text(window, qtbot, "is on the sliding boundary: only steps of interior nodes are shown")
     choose(window, "local-sd")
-    assert shown(window) is None
+    assert shown_step(window) is None
     mesh = window.session.document.now.mesh
     inner = int(np.flatnonzero(mesh.free)[50])
     window.session.selection.choose(int(mesh.topology.node_corners[inner][0] // 8), inner)
     wait_for_step(window, qtbot, "local-sd", inner)
     window.session.commands.pin(inner, True)
-    said(window, qtbot, "is pinned: no method moves it")
-    assert shown(window) is None
+    wait_for_text(window, qtbot, "is pinned: no method moves it")
+    assert shown_step(window) is None
 
 
-def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
-    window = at_work
+def test_an_invalid_parameter_is_reported(node_window, qtbot):
+    window = node_window
     if not window.features["smooth"].panel.stage.parameters.isVisible():
         press(named(window.features["smooth"].panel, QAbstractButton, "Parameters"))
     editor = window.features["smooth"].panel.stage.parameters.editor("p")
@@ -121,20 +130,20 @@ def test_a_wrong_value_of_a_parameter_is_said(at_work, qtbot):
     line = target.lineEdit() if hasattr(target, "lineEdit") else target
     line.selectAll()
     QTest.keyClicks(line, "0.1")
-    said(window, qtbot, "Correct the marked value")
-    assert shown(window) is None
+    wait_for_text(window, qtbot, "Correct the marked parameter")
+    assert shown_step(window) is None
     assert not button(window, "Next node").isEnabled()
     assert not window.window_actions["next_node"].isEnabled()
 
 
 @pytest.mark.slow
-def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_made(at_work, qtbot):
-    window = at_work
+def test_no_step_is_shown_during_a_run_and_none_is_made_while_it_is_paused(node_window, qtbot):
+    window = node_window
     with qtbot.waitSignal(window.session.run.phase_changed, timeout=PATIENCE):
         click(window, "Run")
     window.refresh()
     if window.session.run.phase in (Phase.RUNNING, Phase.PREPARING):
-        assert "A run is under way" in texts(window)
+        assert "A run is in progress" in texts(window)
     qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
     choose_by_keys(window, "local-sd")
     click(window, "Step")
@@ -150,60 +159,60 @@ def test_while_a_run_goes_on_there_is_no_step_and_while_it_is_paused_none_is_mad
     qtbot.waitUntil(button(window, "Next node").isEnabled, timeout=PATIENCE)
 
 
-def test_nothing_is_worked_out_while_another_panel_is_in_front(at_work, qtbot):
-    window = at_work
+def test_nothing_is_computed_while_another_panel_is_in_front(node_window, qtbot):
+    window = node_window
     window.show_panel("convergence")
-    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
     choose_by_keys(window, "getme")
     assert not window.session.node_step_task.busy
     window.show_panel("node")
     wait_for_step(window, qtbot, "getme")
 
 
-# What is seen
+# Display
 
 
 @pytest.mark.slow
-def test_the_patch_is_isolated_and_the_marks_are_seen_under_any_cut_and_in_pictures(at_work, qtbot, tmp_path):
-    window = at_work
-    box = patch_alone(window)
+def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pictures(node_window, qtbot, tmp_path):
+    window = node_window
+    box = patch_box(window)
     tick(box)
-    step = shown(window)
+    step = shown_step(window)
     assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
     qtbot.waitUntil(lambda: not window.canvas.travel.active, timeout=PATIENCE)
 
-    assert min(seen(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
+    assert min(count_pixels(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))
     window.session.view.set_handles(False)
     window.refresh()
     assert window.canvas.viewport.shown == 0
-    assert seen(pixels(window), UPHILL) > 20
+    assert count_pixels(pixels(window), UPHILL) > 20
     assert window.features["save"].picture(tmp_path / "step.png", (800, 600))
-    assert seen(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
-    window.messages.clear()  # Esc is for a message first
+    assert count_pixels(np.asarray(Image.open(tmp_path / "step.png").convert("RGB")).astype(int), UPHILL) > 20
+    window.messages.clear()  # Esc closes messages first
     qtbot.waitUntil(lambda: window.window_actions["back"].isEnabled(), timeout=PATIENCE)
     key(window, Qt.Key.Key_Escape)
     assert window.session.view.look.isolation is None
     assert not box.isChecked()
     window.session.selection.choose(None)
-    qtbot.waitUntil(lambda: shown(window) is None, timeout=PATIENCE)
-    assert seen(pixels(window), UPHILL) == 0
+    qtbot.waitUntil(lambda: shown_step(window) is None, timeout=PATIENCE)
+    assert count_pixels(pixels(window), UPHILL) == 0
 
 
-def test_the_marks_and_the_plot_follow_the_theme(at_work, qtbot):
+def test_the_marks_and_the_plot_follow_the_theme(node_window, qtbot):
     try:
-        assert seen(pixels(at_work), UPHILL, dark=True) < 20
-        assert seen(grabbed(at_work.features["node_step"].panel.plot), SEARCH, dark=True) < 20
+        assert count_pixels(pixels(node_window), UPHILL, dark=True) < 20
+        assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) < 20
         theme_choice.choose(ThemeChoice.DARK)
-        at_work.refresh()
-        assert seen(pixels(at_work), UPHILL, dark=True) > 20
-        assert seen(grabbed(at_work.features["node_step"].panel.plot), SEARCH, dark=True) > 20
+        node_window.refresh()
+        assert count_pixels(pixels(node_window), UPHILL, dark=True) > 20
+        assert count_pixels(grab(node_window.features["node_step"].panel.plot), SEARCH, dark=True) > 20
     finally:
         theme_choice.choose(ThemeChoice.LIGHT)
 
 
-def test_closing_while_a_step_is_worked_out_leaves_no_thread(fresh_window, qtbot):
+def test_closing_while_a_step_is_computed_leaves_no_thread(fresh_window, qtbot):
     window = fresh_window
     choose_by_keys(window, "global-nr")
     key(window, Qt.Key.Key_D)
@@ -213,8 +222,8 @@ def test_closing_while_a_step_is_worked_out_leaves_no_thread(fresh_window, qtbot
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_nothing_is_cut_off(at_work, qtbot, size):
-    window = at_work
+def test_no_text_is_cut_off(node_window, qtbot, size):
+    window = node_window
     key(window, Qt.Key.Key_F11)
     window.resize(*size)
     panel = window.features["node_step"].panel
@@ -222,7 +231,7 @@ def test_nothing_is_cut_off(at_work, qtbot, size):
     qtbot.waitUntil(lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x())
     assert window.width() == size[0]
     labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
-    for part in [*panel.findChildren(QPushButton), patch_alone(window), *labels]:
+    for part in [*panel.findChildren(QPushButton), patch_box(window), *labels]:
         assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(part, QPushButton)
         assert panel.rect().contains(part.mapTo(panel, part.rect().bottomRight())), part.text()
     assert panel.figures.document().idealWidth() <= panel.figures.viewport().width()

@@ -1,4 +1,4 @@
-"""What is said and drawn of a node's step, without a window."""
+"""Texts and plot of a node's step, without a window."""
 
 import dataclasses
 
@@ -13,7 +13,7 @@ from hexmend.node_step import StepStatus, Trial, explain
 from hexmend.smoothers import METHODS
 from hexmend_app.features.node_step.panel import NodePanel
 from hexmend_app.features.node_step.step_plot import NodePlot, extent
-from hexmend_app.features.node_step.step_texts import rows, verdict
+from hexmend_app.features.node_step.step_texts import displayed_status, rows
 from hexmend_app.theme.style import TEXT, WORSE
 from tests.app.driving import named
 from tests.core.grids import grid, scrambled
@@ -27,48 +27,48 @@ def step_of(name, **values):
 
 
 def row(step, name):
-    return next(one for one in rows(step) if one.name == name)
+    return next(row for row in rows(step) if row.name == name)
 
 
-def test_a_move_of_a_rounding_error_is_none():
+def test_a_move_within_rounding_counts_as_none():
     step = step_of("local-sd")
-    assert verdict(step) is StepStatus.MOVED
+    assert displayed_status(step) is StepStatus.MOVED
     nudged = dataclasses.replace(step, after=step.before + 1e-17)
-    assert verdict(nudged) is StepStatus.AT_TARGET
-    assert verdict(dataclasses.replace(nudged, status=StepStatus.REJECTED)) is StepStatus.REJECTED
+    assert displayed_status(nudged) is StepStatus.AT_TARGET
+    assert displayed_status(dataclasses.replace(nudged, status=StepStatus.REJECTED)) is StepStatus.REJECTED
 
 
-def test_an_eigenvalue_below_zero_is_called_a_saddle():
+def test_a_negative_eigenvalue_is_called_a_saddle():
     step = step_of("local-nr")
     assert "bowl" in row(step, "Eigenvalues").meaning
     assert row(step, "Eigenvalues").colour is TEXT
     saddle = dataclasses.replace(step, hessian=np.diag([-2.0, 1.0, 3.0]), fallback=True)
-    assert "1 of them below 0" in row(saddle, "Eigenvalues").meaning
+    assert "1 negative: the energy has a saddle" in row(saddle, "Eigenvalues").meaning
     assert row(saddle, "Eigenvalues").value == "−2  1  3"
     assert row(saddle, "Eigenvalues").colour is WORSE
-    assert "lead uphill" in row(saddle, "Direction").meaning
+    assert "would lead uphill" in row(saddle, "Direction").meaning
     valley = dataclasses.replace(step, hessian=np.diag([1.0, 1.0, 300.0]))
     assert "narrow valley" in row(valley, "Eigenvalues").meaning
 
 
-def test_what_is_infinite_is_said_and_not_drawn(shown):
+def test_infinite_energy_is_shown_as_text_and_not_plotted(shown):
     nothing = np.full(3, np.nan)
     step = dataclasses.replace(
         step_of("local-sd"), energy=np.inf, energy_after=np.inf, gradient=nothing, hessian=np.full((3, 3), np.nan),
         curve=np.empty((0, 2)), trials=(), alpha=0.0, status=StepStatus.INFINITE,
     )  # fmt: skip
     assert row(step, "Energy").value.startswith("∞")
-    assert not [one for one in rows(step) if one.name == "Eigenvalues"]
+    assert "Eigenvalues" not in [row.name for row in rows(step)]
     panel = shown(NodePanel(), 500, 260)
-    panel.show_step(step, "Local steepest descent", made=False)
+    panel.show_step(step, "Local steepest descent", done=False)
     assert not panel.plot.isVisible()
-    assert "infinite" in named(panel, QLabel, "What becomes of it").text()
+    assert "infinite" in named(panel, QLabel, "Outcome of the step").text()
 
 
-def test_the_energy_of_a_method_that_does_not_look_at_it_may_rise():
+def test_the_energy_may_rise_with_a_method_that_does_not_evaluate_it():
     step = step_of("laplacian")
     up = dataclasses.replace(step, energy_after=step.energy + 1)
-    assert "does not look at it" in row(up, "Energy").meaning
+    assert "does not evaluate it" in row(up, "Energy").meaning
     assert "rises" not in row(dataclasses.replace(step, energy_after=step.energy - 0.1), "Energy").meaning
     rounded = dataclasses.replace(step, energy_after=np.nextafter(step.energy, np.inf))
     assert "rises" not in row(rounded, "Energy").meaning
@@ -76,7 +76,7 @@ def test_the_energy_of_a_method_that_does_not_look_at_it_may_rise():
 
 
 @pytest.mark.parametrize("name", ["local-sd", "local-nr", "global-sd", "laplacian", "getme"])
-def test_start_and_end_are_in_the_plot(shown, name):
+def test_start_and_end_are_in_the_range_of_the_plot(shown, name):
     step = step_of(name)
     low, high = extent(step)
     change = step.energy_after - step.energy
@@ -85,7 +85,7 @@ def test_start_and_end_are_in_the_plot(shown, name):
     assert np.isfinite([low, high]).all()
 
 
-def test_trials_beyond_the_plot_stand_at_its_upper_edge(shown):
+def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
     step = step_of("local-sd", first_step=50.0)
     assert step.backtracks > 5
     trials = (*(Trial(alpha, np.inf, bound) for alpha, _, bound in step.trials[:-1]), step.trials[-1])
@@ -95,7 +95,7 @@ def test_trials_beyond_the_plot_stand_at_its_upper_edge(shown):
     low, high = extent(step)
     drawn = plot.shown_trials()
     assert [number for number, _, _ in drawn] == list(range(len(trials) + 1 - len(drawn), len(trials) + 1))
-    assert len(drawn) > 3  # of 50 times the step, most are beyond the right edge
+    assert len(drawn) > 3  # most trials, from 50 times the step on, are beyond the right edge
     for number, alpha, height in drawn:
         assert alpha == trials[number - 1].alpha
         assert low < height < high
@@ -105,7 +105,7 @@ def test_trials_beyond_the_plot_stand_at_its_upper_edge(shown):
     assert plot.numbers == []
 
 
-def test_large_changes_leave_their_power_of_ten_to_the_label(shown):
+def test_the_power_of_ten_of_large_changes_is_in_the_label(shown):
     step = step_of("local-sd")
     curve = step.curve.copy()
     curve[:, 1] = step.energy + 1e6 * (curve[:, 1] - step.energy)
@@ -116,18 +116,18 @@ def test_large_changes_leave_their_power_of_ten_to_the_label(shown):
     assert 0.1 <= max(abs(v) for v in axis.range) * axis.scale < 20
 
 
-def test_a_sweep_is_offered_or_the_reason_given(shown):
+def test_the_buttons_of_the_sweep_are_enabled_or_show_the_reason(shown):
     panel = shown(NodePanel(), 500, 260)
-    heard = []
-    panel.requested.connect(heard.append)
+    requests = []
+    panel.requested.connect(requests.append)
     buttons = panel.findChildren(QPushButton)
-    panel.set_stepping("Because.")
+    panel.set_sweep("Because.")
     for button in buttons:
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
         assert "Because." in button.toolTip()
-    assert heard == []
-    panel.set_stepping("", 3, 10)
+    assert requests == []
+    panel.set_sweep("", 3, 10)
     for button in buttons:
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)
-    assert heard == ["next", "ten", "finish"]
+    assert requests == ["next", "ten", "finish"]
     assert named(panel, QLabel, "Progress of the sweep").text() == "3 of 10 nodes"

@@ -1,4 +1,4 @@
-"""A sweep of a local method gone through node by node in the window, with mouse and keys."""
+"""Sweep of a local method, run node by node in the window, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from hexmend.node_step import StepStatus
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import choose_by_keys, click, key, phase, press
-from tests.app.features.node_step.looking import button, shown, texts, wait_for_step
+from tests.app.features.node_step.step_display import button, shown_step, texts, wait_for_step
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 
 
-def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot):
-    window = at_work
+def test_undo_reverts_a_sweep_as_one_change(node_window, qtbot):
+    window = node_window
     start = window.session.document.now
     press(button(window, "Next node"))
     step = wait_for_step(window, qtbot, "local-sd")
@@ -43,8 +43,8 @@ def test_a_sweep_node_by_node_is_one_change_that_undo_takes_back(at_work, qtbot)
     assert window.session.document.undo_title == "sweep of local-sd, 12 nodes"
 
 
-def test_a_finished_sweep_is_the_methods_iteration(at_work, qtbot):
-    window = at_work
+def test_a_finished_sweep_equals_one_iteration_of_the_method(node_window, qtbot):
+    window = node_window
     mesh = window.session.document.now.mesh
     expected = next(itertools.islice(METHODS["local-sd"]().steps(mesh), 1, None)).points
     key(window, Qt.Key.Key_F11, Qt.KeyboardModifier.ShiftModifier)
@@ -53,47 +53,47 @@ def test_a_finished_sweep_is_the_methods_iteration(at_work, qtbot):
     assert window.session.node_sweep.sweep is None
     free = int(mesh.free.sum())
     assert window.session.document.undo_title == f"sweep of local-sd, {free:,} nodes"
-    qtbot.waitUntil(lambda: shown(window).node == window.session.selection.node, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: shown_step(window).node == window.session.selection.node, timeout=PATIENCE)
     assert "Moved." in texts(window)
 
 
-def test_a_node_looked_at_in_a_sweep_is_explained_as_the_sweep_would_treat_it(at_work, qtbot):
-    window = at_work
+def test_during_a_sweep_the_step_shown_is_the_preview_of_the_sweep(node_window, qtbot):
+    window = node_window
     key(window, Qt.Key.Key_F11)
     sweep = window.session.node_sweep.sweep
-    coming = int(sweep.nodes[5])
-    window.session.selection.choose(int(window.session.document.now.mesh.topology.node_corners[coming][0] // 8), coming)
-    step = wait_for_step(window, qtbot, "local-sd", coming)
+    node = int(sweep.nodes[5])
+    window.session.selection.choose(int(window.session.document.now.mesh.topology.node_corners[node][0] // 8), node)
+    step = wait_for_step(window, qtbot, "local-sd", node)
     assert "Will be moved" in texts(window)
     assert window.session.node_sweep.sweep is sweep
-    np.testing.assert_array_equal(step.after, sweep.preview(coming).after)
+    np.testing.assert_array_equal(step.after, sweep.preview(node).after)
 
 
-@pytest.mark.parametrize("what", ["run", "method", "tag", "save", "reset"])
-def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, tmp_path, what):
-    window = at_work
+@pytest.mark.parametrize("change", ["run", "method", "tag", "save", "reset"])
+def test_any_other_change_of_the_mesh_ends_the_sweep_first(node_window, qtbot, tmp_path, change):
+    window = node_window
     start = window.session.document.now
     key(window, Qt.Key.Key_F11)
     key(window, Qt.Key.Key_F11)
     stepped = window.session.document.now
-    if what == "run":
+    if change == "run":
         choose_by_keys(window, "laplacian")
         click(window, "Step")
         qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
         click(window, "Stop")
         qtbot.waitUntil(phase(window, Phase.FINISHED), timeout=PATIENCE)
         window.session.commands.undo()
-    elif what == "method":
+    elif change == "method":
         choose_by_keys(window, "local-nr")
         wait_for_step(window, qtbot, "local-nr")
         key(window, Qt.Key.Key_F11)
         assert window.session.node_sweep.sweep.done == 1
         window.session.commands.undo()
-    elif what == "tag":
+    elif change == "tag":
         window.session.commands.tag("bad", [7])
         assert window.session.document.undo_title == "tag"
         window.session.commands.undo()
-    elif what == "save":
+    elif change == "save":
         assert window.features["save"].save_and_wait(tmp_path / "saved.vtu")
         assert not window.session.document.modified
     else:
@@ -105,8 +105,8 @@ def test_whatever_else_changes_the_mesh_leaves_the_sweep_first(at_work, qtbot, t
 
 
 @pytest.mark.slow
-def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qtbot):
-    window = at_work
+def test_going_back_to_an_iteration_ends_the_sweep(node_window, qtbot):
+    window = node_window
     choose_by_keys(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
@@ -122,15 +122,15 @@ def test_going_back_to_an_iteration_leaves_the_sweep_and_stays_there(at_work, qt
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
     assert window.session.document.undo_title == "sweep of local-sd, 1 node"
     now = window.session.document.now.mesh.points
-    qtbot.waitUntil(lambda: np.array_equal(shown(window).before, now[shown(window).node]), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: np.array_equal(shown_step(window).before, now[shown_step(window).node]), timeout=PATIENCE)
     wait_for_step(window, qtbot, "local-sd")
     window.session.commands.undo()
     window.session.commands.redo()
     assert window.session.document.now is stepped
 
 
-def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
-    window = at_work
+def test_only_local_methods_run_node_by_node(node_window, qtbot):
+    window = node_window
     choose_by_keys(window, "mend")
     wait_for_step(window, qtbot, "mend")
     for id in ("next_node", "ten_nodes", "finish_sweep"):
@@ -141,7 +141,7 @@ def test_only_local_methods_go_from_node_to_node(at_work, qtbot):
     assert window.session.document.now is now
 
 
-def test_a_sweep_can_be_begun_before_anything_was_explained(window, qtbot):
+def test_a_sweep_can_begin_before_a_node_is_explained(window, qtbot):
     choose_by_keys(window, "local-nr")
     key(window, Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: window.session.node_sweep.sweep is not None, timeout=PATIENCE)

@@ -129,10 +129,10 @@ def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qt
     assert window.canvas.stand.position == pytest.approx(before.position)
 
 
-def test_the_patch_of_a_node_stays_alone_and_goes_with_the_node(window, qtbot, tmp_path):
+def test_the_patch_of_a_node_stays_isolated_and_follows_the_node(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_D)
     panel = window.features["node_step"].panel
-    box = named(panel, QCheckBox, "Patch alone")
+    box = named(panel, QCheckBox, "Isolate patch")
     qtbot.waitUntil(lambda: bool(panel.figures.isVisible()), timeout=PATIENCE)
     tick(box)
     qtbot.waitUntil(lambda: window.session.view.look.isolation is not None, timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""After undo, reset and on the way through a run, the explanation says that it is of something else."""
+"""After undo, reset and a move in the timeline, a note says that the mesh in the view is not the result of the run."""
 
 import pytest
 from PySide6.QtWidgets import QLabel
@@ -19,36 +19,36 @@ def host(qtbot):
 
 
 @pytest.fixture
-def said(host, qtbot):
-    """What the panel says once a run of eight iterations has ended."""
+def texts(host, qtbot):
+    """Return a function that gives the texts of the panel after a run of eight iterations."""
     feature = FeatureOutcome(host)
     qtbot.addWidget(feature.panel)
     with qtbot.waitSignal(host.session.run.ended, timeout=PATIENCE):
         host.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=8))
 
-    def say():
+    def visible_texts():
         feature.refresh()
         return " ".join(label.text() for label in feature.panel.findChildren(QLabel) if not label.isHidden())
 
-    return say
+    return visible_texts
 
 
-def test_what_the_run_left_is_explained_without_more(said):
-    assert "Why Local steepest descent stopped" in said()
-    assert "The mesh" not in said()
+def test_the_result_of_the_run_has_no_note(texts):
+    assert "Why Local steepest descent stopped" in texts()
+    assert "The view shows" not in texts()
 
 
-@pytest.mark.parametrize("way", ["undo", "reset"])
-def test_what_was_taken_back_is_said_to_be(host, said, way):
-    getattr(host.session.commands, way)()
-    assert "as it was before the run" in said()
-    if way == "undo":
+@pytest.mark.parametrize("command", ["undo", "reset"])
+def test_the_note_after_undo_and_reset(host, texts, command):
+    getattr(host.session.commands, command)()
+    assert "the mesh before the run" in texts()
+    if command == "undo":
         host.session.commands.redo()
     else:
         host.session.commands.undo()
-    assert "as it was before the run" not in said()
+    assert "the mesh before the run" not in texts()
 
 
-def test_an_iteration_on_the_way_is_named(host, said):
+def test_the_iteration_in_the_view_is_named(host, texts):
     host.session.timeline.go(host.session.timeline.record, 5)
-    assert "at Local steepest descent 5" in said()
+    assert "at Local steepest descent 5" in texts()

@@ -1,4 +1,4 @@
-"""What is shown of one element."""
+"""Panel of the selected hex."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
 
 from hexmend.quality import describe_hex, measure
-from hexmend_app.features.hex_inspector.hex_panel import ElementPanel
+from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(5), 0.9, 4)
@@ -17,7 +17,7 @@ WORST = int(measure(MESH.points, MESH.hexes).scaled_jacobian.argmin())
 
 @pytest.fixture
 def panel(qtbot):
-    widget = ElementPanel()
+    widget = HexPanel()
     qtbot.addWidget(widget)
     widget.resize(520, 260)
     widget.show()
@@ -28,19 +28,19 @@ def texts(panel):
     return [label.text() for label in panel.findChildren(QLabel) if label.isVisible()]
 
 
-def test_without_an_element_it_says_how_to_choose_one(panel):
-    panel.show_element(None)
+def test_without_a_hex_the_panel_shows_a_hint(panel):
+    panel.show_hex(None)
     assert any("Click a hex" in text for text in texts(panel))
 
 
-def test_an_element_is_shown_with_figures_nodes_and_neighbours(panel):
-    one = describe_hex(MESH, WORST)
-    panel.show_element(one)
+def test_a_hex_is_shown_with_metrics_nodes_and_neighbours(panel):
+    details = describe_hex(MESH, WORST)
+    panel.show_hex(details)
     shown = texts(panel)
     assert f"Hex {WORST:,}" in shown
     assert "inverted" in shown
-    assert all(any(f">{node:,}<" in text for text in shown) for node in one.nodes)
-    assert f"{one.values['q']:.4f}" in shown
+    assert all(any(f">{node:,}<" in text for text in shown) for node in details.nodes)
+    assert f"{details.values['q']:.4f}" in shown
     assert shown.count("free") + shown.count("fixed") == 8
 
 
@@ -49,8 +49,8 @@ def neighbours(panel):
 
 
 def test_neighbours_are_links_for_keys(panel, qtbot):
-    one = describe_hex(MESH, WORST)
-    panel.show_element(one)
+    details = describe_hex(MESH, WORST)
+    panel.show_hex(details)
     with qtbot.waitActive(panel):
         panel.activateWindow()
     links = neighbours(panel)
@@ -58,31 +58,31 @@ def test_neighbours_are_links_for_keys(panel, qtbot):
     QTest.keyClick(links, Qt.Key.Key_Tab)  # to the first link
     with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
         QTest.keyClick(links, Qt.Key.Key_Return)
-    assert chosen.args[0] == next(h for h in one.neighbours if h >= 0)
+    assert chosen.args[0] == next(h for h in details.neighbours if h >= 0)
 
 
 def test_neighbours_are_links_for_the_mouse(panel, qtbot):
-    one = describe_hex(MESH, WORST)
-    panel.show_element(one)
+    details = describe_hex(MESH, WORST)
+    panel.show_hex(details)
     links = neighbours(panel)
-    first = int(min(np.flatnonzero(one.neighbours >= 0)))
+    first = int(min(np.flatnonzero(details.neighbours >= 0)))
     text = QTextDocumentFragment.fromHtml(links.text()).toPlainText()
-    number = f"{one.neighbours[first]:,}"
+    number = f"{details.neighbours[first]:,}"
     before = text[: text.index(number)]
     x = links.fontMetrics().horizontalAdvance(before) + links.fontMetrics().horizontalAdvance(number) // 2
     with qtbot.waitSignal(panel.chosen, timeout=1000) as chosen:
         QTest.mouseClick(links, Qt.MouseButton.LeftButton, pos=QPoint(x, links.fontMetrics().height() // 2))
-    assert chosen.args[0] == one.neighbours[first]
+    assert chosen.args[0] == details.neighbours[first]
 
 
 def test_a_low_and_wide_panel_needs_no_scrolling(panel):
-    panel.show_element(describe_hex(MESH, WORST))
+    panel.show_hex(describe_hex(MESH, WORST))
     assert panel.heightForWidth(1000) <= 230
     assert panel.minimumSizeHint().width() <= 340
 
 
-def test_its_buttons_tell_what_the_user_wants(panel, qtbot):
-    panel.show_element(describe_hex(MESH, WORST))
+def test_buttons_emit_signals(panel, qtbot):
+    panel.show_hex(describe_hex(MESH, WORST))
     with qtbot.waitSignal(panel.fly_requested):
         QTest.mouseClick(panel.findChild(QPushButton), Qt.MouseButton.LeftButton)
     with qtbot.waitSignal(panel.corners_toggled):

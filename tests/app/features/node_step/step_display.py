@@ -1,4 +1,4 @@
-"""What a window shows of a node's step."""
+"""Access to the display of a node's step in a window."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tests.app.driving import named
 from tests.patience import PATIENCE
 
 
-def shown(window):
+def shown_step(window):
     return window.canvas.viewport.extras.selection.node_step
 
 
@@ -20,32 +20,32 @@ def wait_for_step(window, qtbot, method, node=None):
     window.refresh()
     qtbot.waitUntil(
         lambda: (
-            shown(window) is not None
-            and shown(window).method == method
-            and shown(window).node == (window.session.selection.node if node is None else node)
+            shown_step(window) is not None
+            and shown_step(window).method == method
+            and shown_step(window).node == (window.session.selection.node if node is None else node)
         ),
         timeout=PATIENCE,
     )
     window.refresh()
-    return shown(window)
+    return shown_step(window)
 
 
 def button(window, text):
     return next(b for b in window.features["node_step"].panel.findChildren(QPushButton) if b.text() == text)
 
 
-def patch_alone(window):
-    return named(window.features["node_step"].panel, QCheckBox, "Patch alone")
+def patch_box(window):
+    return named(window.features["node_step"].panel, QCheckBox, "Isolate patch")
 
 
-def seen(image, role, dark=False):
-    """How many pixels of a picture, (h, w, 3), have the colour of a role."""
+def count_pixels(image, role, dark=False):
+    """Count the pixels of a picture, (h, w, 3), that have the colour of a role."""
     colour = [int(role.of(dark)[k : k + 2], 16) for k in (1, 3, 5)]
     return int((np.abs(image[..., :3].astype(int) - colour).max(axis=2) < 12).sum())
 
 
-def grabbed(widget):
-    """What a widget shows, (h, w, 4), red first."""
+def grab(widget):
+    """Return the picture of a widget as RGBA, (h, w, 4) uint8."""
     image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGBA8888)
     return np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)
 
@@ -53,9 +53,9 @@ def grabbed(widget):
 def texts(window):
     window.refresh()
     panel = window.features["node_step"].panel
-    labels = " ".join(unescape(one.text()) for one in panel.findChildren(QLabel) if one.isVisible())
+    labels = " ".join(unescape(label.text()) for label in panel.findChildren(QLabel) if label.isVisible())
     return labels + (panel.figures.toPlainText().replace("\xa0", " ") if panel.figures.isVisible() else "")
 
 
-def said(window, qtbot, words):
-    qtbot.waitUntil(lambda: words in texts(window), timeout=PATIENCE)
+def wait_for_text(window, qtbot, text):
+    qtbot.waitUntil(lambda: text in texts(window), timeout=PATIENCE)

@@ -1,0 +1,37 @@
+"""Label with links to hexes or nodes."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QWidget
+
+from hexmend_app.theme.style import on_theme_change
+
+
+class LinkLabel(QLabel):
+    """Rich text with links to numbers, which are followed by mouse or keys.
+
+    A text that begins with a link needs a zero-width space before it: Shift+Tab cannot leave a link at the very
+    beginning of a label.
+
+    Signals
+    -------
+    followed(int)
+        The user followed the link to this number.
+    """
+
+    followed = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.RichText)
+        self.setTextInteractionFlags(
+            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
+        )
+        self.linkActivated.connect(lambda link: self.followed.emit(int(link)))
+        on_theme_change(self, lambda: self.setText(self.text()))
+
+    def setText(self, text: str) -> None:
+        """Set the text, with the colour that links have in the theme."""
+        self.clear()  # Qt colours links when the text is set, and ignores an unchanged text
+        super().setText(text)
