@@ -45,10 +45,10 @@ def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, na
 @pytest.mark.slow
 def test_begun_anew_after_a_run_it_goes_on_from_what_the_run_made(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
-    session.script.begin_anew()
+    session.script.restart()
     run(qtbot, session, stage("laplacian"))
     same_again(session, tmp_path)
-    session.script.begin_anew()
+    session.script.restart()
     session.commands.undo()
     run(qtbot, session, stage("getme"))
     same_again(session, tmp_path)
@@ -60,7 +60,7 @@ def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtb
         run(qtbot, session, stage(method))
         session.commands.undo()
     session.commands.redo()
-    session.script.begin_anew()
+    session.script.restart()
     session.commands.tag("a", [4])
     assert session.script.text.count("hx.smooth(") == 0  # nobody has the mesh that the run began with
     assert "save it under this name first" in session.script.text
