@@ -108,7 +108,7 @@ class SessionContents:
         """Return the source that reads a snapshot's points, or None."""
         for at, snapshot in enumerate(() if self._data is None else self._data.snapshots):
             if snapshot.points is points:
-                return f"{self._session_name(self._path)}.kept[{at}].points"
+                return f"{self._session_name(self._path)}.snapshots[{at}].points"
         return None
 
     def comparison(self, results: tuple[MethodResult, ...]) -> str | None:
