@@ -28,7 +28,7 @@ _LIMITS = {
 class FeatureRecipe(Feature):
     """Edits, loads, saves and runs a recipe, and marks the active stage."""
 
-    setup = 27
+    order = 27
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -90,7 +90,7 @@ class FeatureRecipe(Feature):
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 tab="Run",
-                setup=11,
+                order=11,
                 help="Methods that run in sequence, as one run.",
             ),
         )
