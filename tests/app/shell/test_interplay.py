@@ -59,11 +59,11 @@ def test_a_hex_is_tagged_only_under_a_name_and_only_if_there_is_one(window):
     name.setCurrentText("")
     window.canvas.interactor.setFocus()
     key(window, Qt.Key.Key_T)
-    assert "write one" in window.messages.messages()[-1][1]
+    assert "Enter a tag name" in window.messages.messages()[-1][1]
     name.setCurrentText("bad")
     window.session.selection.choose(None)
     key(window, Qt.Key.Key_T)
-    assert "No hex is chosen" in window.messages.messages()[-1][1]
+    assert "No hex selected" in window.messages.messages()[-1][1]
     assert not window.session.document.now.mesh.hex_sets
     window.session.selection.choose(7)
     key(window, Qt.Key.Key_T)

@@ -1,4 +1,4 @@
-"""Recipes in the window: the lines between the stages, the panel that lists them, files, and the run."""
+"""Recipes in the window: edited, loaded, saved and run."""
 
 from __future__ import annotations
 
@@ -21,27 +21,27 @@ _LIMITS = {
     "max_iterations": "at most {} iterations",
     "tolerance": "tolerance {}",
     "max_seconds": "at most {} s",
-    "keep_last": "the last iterate kept",
+    "keep_last": "keep the last iterate",
 }
 
 
 class FeatureRecipe(Feature):
-    """Puts a recipe together, loads and saves it, runs it, and marks which of its stages is at work."""
+    """Edits, loads, saves and runs a recipe, and marks the active stage."""
 
     order = 27
 
     def __init__(self, host: Host):
         super().__init__(host)
-        chain, order = self.session.recipe_draft, self.session.run_setup
-        self._chain, self._smoothing = chain, self.session.run
+        draft, setup = self.session.recipe_draft, self.session.run_setup
+        self._draft, self._smoothing = draft, self.session.run
         self._seen = ChangeTracker()
         panel = self.panel = RecipePanel()
-        panel.add_requested.connect(lambda: order.use(self._add))
-        panel.replace_requested.connect(lambda at: order.use(lambda stage: chain.replace(at, stage)))
-        panel.shown_requested.connect(self._show_above)
+        panel.add_requested.connect(lambda: setup.use(self._add))
+        panel.replace_requested.connect(lambda at: setup.use(lambda stage: draft.replace(at, stage)))
+        panel.edit_requested.connect(self._edit)
         panel.move_requested.connect(self._move)
-        panel.remove_requested.connect(chain.remove)
-        panel.renamed.connect(chain.rename)
+        panel.remove_requested.connect(draft.remove)
+        panel.renamed.connect(draft.rename)
         panel.run_requested.connect(self.run)
         panel.load_requested.connect(self.ask_load)
         panel.save_requested.connect(self.ask_save)
@@ -49,41 +49,40 @@ class FeatureRecipe(Feature):
         panel.set_shipped([(read_recipe(path).title, path) for path in recipes()])
 
     def actions(self) -> Sequence[Action]:
-        """Run, load, save."""
-        some = self._some
+        """Return the actions that run, load and save the recipe."""
         return (
             Action(
                 id="recipe_run",
-                text="R&un the recipe",
+                text="R&un recipe",
                 menu="Smooth",
                 part=2,
                 keys="Ctrl+Shift+F5",
-                help="Run the stages of the recipe one after another, as one run.",
+                help="Run the stages of the recipe in sequence, as one run.",
                 handle=self.run,
-                enabled=lambda: some() and self.session.editable,
+                enabled=lambda: bool(self._draft.stages) and self.session.editable,
             ),
             Action(
                 id="recipe_load",
-                text="&Load a recipe…",
+                text="&Load recipe…",
                 menu="Smooth",
                 part=2,
-                help="Load methods to be run one after another.",
+                help="Load a recipe: methods that run in sequence.",
                 handle=self.ask_load,
                 enabled=lambda: self.session.editable,
             ),
             Action(
                 id="recipe_save",
-                text="Sa&ve the recipe…",
+                text="Sa&ve recipe…",
                 menu="Smooth",
                 part=2,
-                help="Save the stages as TOML.",
+                help="Save the recipe as a TOML file.",
                 handle=self.ask_save,
-                enabled=some,
+                enabled=lambda: bool(self._draft.stages),
             ),
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The stages."""
+        """Return the panel with the stages."""
         return (
             Panel(
                 id="recipe",
@@ -92,100 +91,97 @@ class FeatureRecipe(Feature):
                 place=PanelPlace.TOOLS,
                 tab="Run",
                 order=11,
-                help="Methods that are run one after another, as one run.",
+                help="Methods that run in sequence, as one run.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show the stages, and which of them is at work."""
-        chain, smoothing = self._chain, self._smoothing
-        if self._seen.changed("stages", chain.stages, chain.title):
-            usual = Recipe.of(*chain.stages).title if chain.stages else ""
-            self.panel.set_stages([_text(stage) for stage in chain.stages], chain.title, usual)
+        """Show the stages and mark the active one."""
+        draft, smoothing = self._draft, self._smoothing
+        if self._seen.changed("stages", draft.stages, draft.title):
+            default_title = Recipe.of(*draft.stages).title if draft.stages else ""
+            self.panel.set_stages([_text(stage) for stage in draft.stages], draft.title, default_title)
         self.panel.set_editable(self.session.editable)
-        going = smoothing.busy and isinstance(smoothing.work, Recipe)
-        at = smoothing.record.rows[-1].get("stage") if going and smoothing.record.rows else None
-        if self._seen.changed("at work", at):
-            self.panel.set_at_work(at)
-        # It may have gone on and paused again since it was last shown.
-        paused_at = (smoothing.record, smoothing.record.newest) if at and smoothing.phase is Phase.PAUSED else None
-        if self._seen.changed("held", paused_at) and paused_at is not None:
-            self.session.run_setup.show_at_work(smoothing.work.stages[at - 1])
+        running = smoothing.busy and isinstance(smoothing.work, Recipe)
+        number = smoothing.record.rows[-1].get("stage") if running and smoothing.record.rows else None
+        if self._seen.changed("active stage", number):
+            self.panel.set_active(number)
+        # The iteration tells apart two pauses without a refresh between them.
+        paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
+        if self._seen.changed("paused at", paused_at) and paused_at is not None:
+            self.session.run_setup.show_at_work(smoothing.work.stages[number - 1])
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
         self.refresh()
 
-    def _some(self) -> bool:
-        return bool(self._chain.stages)
-
     def run(self) -> None:
-        """Run the recipe on the mesh as it is shown."""
-        recipe = self._chain.recipe
+        """Run the recipe on the displayed mesh."""
+        recipe = self._draft.recipe
         if recipe is not None and self.session.editable:
             self.session.commands.run_recipe(recipe)
 
     def ask_load(self) -> None:
-        """Ask which file, and go on with the recipe in it."""
+        """Ask for a file and load its recipe."""
         path = ask_recipe(self.host.dialog_parent)
         if path:
             self.load(path)
 
     def load(self, path: str | Path) -> None:
-        """Go on with the recipe of a file; where it is none, say why, and keep what there was."""
+        """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
         try:
             recipe = read_recipe(path)
         except HexmendError as error:
             self.host.messages.show_error("The recipe was not loaded", str(error))
             return
-        self._chain.take(recipe)
-        self._choose(0)
+        self._draft.take(recipe)
+        self._select(0)
 
     def ask_save(self) -> None:
-        """Ask where the recipe goes and write it."""
+        """Ask for a file and save the recipe."""
         path = ask_recipe_target(self.host.dialog_parent)
         if path:
             self.save(path)
 
     def save(self, path: str | Path) -> None:
-        """Write the recipe."""
+        """Save the recipe, or show the error."""
         try:
-            self.session.commands.export(FileExported("recipe", write_recipe, (Path(path), self._chain.recipe)))
+            self.session.commands.export(FileExported("recipe", write_recipe, (Path(path), self._draft.recipe)))
         except HexmendError as error:
             self.host.messages.show_error("The recipe was not saved", str(error))
         else:
             self.host.messages.show_info(f"Recipe saved to {path}")
 
     def _add(self, stage: Stage) -> None:
-        self._chain.add(stage)
-        self._choose(len(self._chain.stages) - 1)
+        self._draft.add(stage)
+        self._select(len(self._draft.stages) - 1)
 
     def _move(self, at: int, to: int) -> None:
-        self._chain.move(at, to)
-        self._choose(to)
+        self._draft.move(at, to)
+        self._select(to)
 
-    def _choose(self, at: int) -> None:
-        self.refresh()  # what is chosen has to be listed
-        self.panel.choose(at)
+    def _select(self, at: int) -> None:
+        self.refresh()  # the stage must be listed before it is selected
+        self.panel.select(at)
 
-    def _show_above(self, at: int) -> None:
+    def _edit(self, at: int) -> None:
         if self.session.editable:
-            self.session.run_setup.choose(self._chain.stages[at])
+            self.session.run_setup.choose(self._draft.stages[at])
 
 
 def _text(stage: Stage) -> tuple[str, str]:
-    """A stage in words, and what it does."""
-    own = [*_own(stage.smoother), *_own(stage.stop, _LIMITS)]
-    words = f"{stage.smoother.title} ({', '.join(own)})" if own else stage.smoother.title
-    return words, f"{words}: {stage.smoother.help}"
+    """Return the title of a stage with its changed values, and its help."""
+    values = [*_changed_values(stage.smoother), *_changed_values(stage.stop, _LIMITS)]
+    title = f"{stage.smoother.title} ({', '.join(values)})" if values else stage.smoother.title
+    return title, f"{title}: {stage.smoother.help}"
 
 
-def _own(part: Parametrised, words: Mapping[str, str] | None = None) -> list[str]:
-    """The values that are not the defaults, in words."""
+def _changed_values(part: Parametrised, templates: Mapping[str, str] | None = None) -> list[str]:
+    """Return the texts of values that differ from the defaults, by templates or names."""
     return [
-        (words or {}).get(one.name, f"{name_in_words(one.name)} {{}}").format(_value(value))
-        for one in declared(part)
-        if (value := getattr(part, one.name)) != one.default
+        (templates or {}).get(parameter.name, f"{name_in_words(parameter.name)} {{}}").format(_value(value))
+        for parameter in declared(part)
+        if (value := getattr(part, parameter.name)) != parameter.default
     ]
 
 

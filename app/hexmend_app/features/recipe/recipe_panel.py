@@ -1,4 +1,4 @@
-"""The recipe: methods that are run one after another, put together from what the smoothing panel shows."""
+"""Panel for a recipe, whose stages are taken from the smoothing panel."""
 
 from __future__ import annotations
 
@@ -23,32 +23,32 @@ from PySide6.QtWidgets import (
 from hexmend_app.theme.style import icon, note, set_help
 
 _EMPTY = (
-    "No stage yet. Choose a method above and add it: each stage begins where the one before it was best. "
-    "Or load a recipe."
+    "No stages. Select a method above and add it, or load a recipe. Each stage starts from the best result of the "
+    "stage before it."
 )
-#: Stages that are seen without scrolling.
-_SEEN = 4
+#: Maximum number of stages visible without scrolling.
+_VISIBLE = 4
 
 
 class RecipePanel(QWidget):
-    """Lists the stages and asks for their changes.
+    """List of the stages with buttons to edit them.
 
     Signals
     -------
     add_requested, replace_requested(int)
-        The user wants the method shown above as another stage, or in place of one.
-    shown_requested(int)
-        The user wants a stage's method and values above.
+        Add the method of the smoothing panel as a stage, or replace a stage by it.
+    edit_requested(int)
+        Show a stage in the smoothing panel.
     move_requested(int, int), remove_requested(int)
     renamed(str)
     run_requested, save_requested, load_requested
     shipped_requested(Path)
-        The user wants one of the recipes that come with Hexmend.
+        Load a recipe that comes with Hexmend.
     """
 
     add_requested = Signal()
     replace_requested = Signal(int)
-    shown_requested = Signal(int)
+    edit_requested = Signal(int)
     move_requested = Signal(int, int)
     remove_requested = Signal(int)
     renamed = Signal(str)
@@ -61,26 +61,28 @@ class RecipePanel(QWidget):
         super().__init__(parent)
         self._editable = True
         self._title = QLineEdit()
-        set_help(self._title, "Title of the recipe", "What the recipe is called in tables; saved with it.")
+        set_help(self._title, "Title of the recipe", "Name of the recipe in tables; saved with it.")
         self._title.editingFinished.connect(self._on_title)
         self._shown_title = ""
         self._list = QListWidget()
         self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        set_help(self._list, "Stages", "In the order in which they are run; Enter or a double-click shows one above.")
-        self._list.itemActivated.connect(lambda item: self.shown_requested.emit(self._list.row(item)))
+        set_help(self._list, "Stages", "Stages in running order. Press Enter or double-click to edit a stage above.")
+        self._list.itemActivated.connect(lambda item: self.edit_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
         self._empty = note(_EMPTY)
-        self._add = self._button("plus", "Add", "Add the method above, with its values and limits, as the last stage.")
-        self._replace = self._button(
-            "swap-horizontal", "", "Put the method above in place of the chosen stage.", "Replace the stage"
+        self._add = self._button(
+            "plus", "Add", "Add the method above, with its parameters and limits, as the last stage."
         )
-        self._up = self._button("chevron-up", "", "Run the chosen stage earlier.", "Move up")
-        self._down = self._button("chevron-down", "", "Run the chosen stage later.", "Move down")
-        self._remove = self._button("delete-outline", "", "Take the chosen stage out.", "Remove the stage")
-        self._run = self._button("play", "Run", "Run the stages one after another, as one run.", "Run recipe")
-        self._load = self._button("folder-open-outline", "Load", "Load a recipe from a TOML file, or one of Hexmend's.")
+        self._replace = self._button(
+            "swap-horizontal", "", "Replace the selected stage by the method above.", "Replace the stage"
+        )
+        self._up = self._button("chevron-up", "", "Move the selected stage up.", "Move up")
+        self._down = self._button("chevron-down", "", "Move the selected stage down.", "Move down")
+        self._remove = self._button("delete-outline", "", "Remove the selected stage.", "Remove the stage")
+        self._run = self._button("play", "Run", "Run the stages in sequence, as one run.", "Run recipe")
+        self._load = self._button("folder-open-outline", "Load", "Load a recipe from a file or a built-in recipe.")
         self._save = self._button(
-            "content-save-outline", "", "Save the recipe as TOML, which hexmend smooth takes.", "Save"
+            "content-save-outline", "", "Save the recipe as a TOML file, for hexmend smooth.", "Save"
         )
         self._menu = QMenu(self._load)
         self._menu.setToolTipsVisible(True)
@@ -96,8 +98,8 @@ class RecipePanel(QWidget):
         self._lay_out()
         self.set_stages(())
 
-    def _button(self, picture: str, text: str, help: str, name: str = "") -> QPushButton:
-        button = QPushButton(icon(picture), text)
+    def _button(self, icon_name: str, text: str, help: str, name: str = "") -> QPushButton:
+        button = QPushButton(icon(icon_name), text)
         if not text:
             button.setFixedWidth(34)
         set_help(button, name or text, help)
@@ -111,12 +113,12 @@ class RecipePanel(QWidget):
         head.addWidget(self._title, 1)
         edit.setSpacing(4)
         edit.addWidget(self._add, 1)
-        for part in (self._replace, self._up, self._down, self._remove):
-            edit.addWidget(part)
+        for button in (self._replace, self._up, self._down, self._remove):
+            edit.addWidget(button)
         foot.setSpacing(6)
-        for column, part in enumerate((self._run, self._load)):
-            part.setMinimumWidth(part.minimumSizeHint().width())
-            foot.addWidget(part, 0, column)
+        for column, button in enumerate((self._run, self._load)):
+            button.setMinimumWidth(button.minimumSizeHint().width())
+            foot.addWidget(button, 0, column)
             foot.setColumnStretch(column, 1)
         foot.addWidget(self._save, 0, 2)
         layout = QVBoxLayout(self)
@@ -129,54 +131,53 @@ class RecipePanel(QWidget):
         layout.addLayout(foot)
 
     def set_shipped(self, recipes: Iterable[tuple[str, Path]]) -> None:
-        """Offer recipes that come with Hexmend: titles and files."""
+        """List the titles and files of the built-in recipes in the menu."""
         self._menu.clear()
         self._menu.addAction("From a &file…").triggered.connect(lambda: self.load_requested.emit())
         self._menu.addSeparator()
         for title, path in recipes:
             action = self._menu.addAction(title.replace("&", "&&"))
-            action.setToolTip(f"{path.name}, which comes with Hexmend.")
+            action.setToolTip(f"Built-in recipe {path.name}.")
             action.triggered.connect(lambda _=False, path=path: self.shipped_requested.emit(path))
 
-    def set_stages(self, stages: Sequence[tuple[str, str]], title: str = "", usual: str = "") -> None:
-        """Show the stages, without a signal.
+    def set_stages(self, stages: Sequence[tuple[str, str]], title: str = "", default_title: str = "") -> None:
+        """Show the stages without sending a signal.
 
         Parameters
         ----------
-        stages : sequence of (words, help)
-            In words, and what else there is to know of each.
-        title, usual : str
-            The recipe's, and the one that it has where that is "".
+        stages : sequence of (text, help)
+        title, default_title : str
+            Title of the recipe, and its placeholder while the title is "".
         """
         row = self._list.currentRow()
         self._list.blockSignals(True)
         self._list.clear()
-        for at, (words, help) in enumerate(stages, start=1):
-            item = QListWidgetItem(f"{at}  {words}")
+        for number, (text, help) in enumerate(stages, start=1):
+            item = QListWidgetItem(f"{number}  {text}")
             item.setToolTip(f"<qt>{escape(help)}</qt>")
-            item.setSizeHint(QSize(1, self._list.fontMetrics().height() + 4))  # what is longer than the list ends in …
+            item.setSizeHint(QSize(1, self._list.fontMetrics().height() + 4))  # long texts are elided, not scrolled
             self._list.addItem(item)
         self._list.setCurrentRow(min(row, len(stages) - 1))
         self._list.blockSignals(False)
         height = self._list.sizeHintForRow(0) if stages else 0
-        self._list.setFixedHeight(height * min(len(stages), _SEEN) + 2 * self._list.frameWidth() + 2)
+        self._list.setFixedHeight(height * min(len(stages), _VISIBLE) + 2 * self._list.frameWidth() + 2)
         self._list.setVisible(bool(stages))
         self._empty.setVisible(not stages)
         self._shown_title = title
         self._title.setText(title)
-        self._title.setPlaceholderText(usual)
+        self._title.setPlaceholderText(default_title)
         self._title.setCursorPosition(0)
         self._enable()
 
-    def choose(self, at: int) -> None:
-        """Choose a stage; without a signal."""
+    def select(self, at: int) -> None:
+        """Select a stage without sending a signal."""
         self._list.blockSignals(True)
         self._list.setCurrentRow(at)
         self._list.blockSignals(False)
         self._enable()
 
-    def set_at_work(self, number: int | None) -> None:
-        """Mark the stage at work, counted from 1, or none."""
+    def set_active(self, number: int | None) -> None:
+        """Mark the active stage, counted from 1, or none."""
         for at in range(self._list.count()):
             item = self._list.item(at)
             font = item.font()
@@ -184,7 +185,7 @@ class RecipePanel(QWidget):
             item.setFont(font)
 
     def set_editable(self, editable: bool) -> None:
-        """Say whether stages can be changed and run: not while a run is under way."""
+        """Enable or disable editing and running the stages."""
         self._editable = editable
         self._enable()
 
@@ -198,10 +199,10 @@ class RecipePanel(QWidget):
 
     def _enable(self) -> None:
         count, at = self._list.count(), self._list.currentRow()
-        for part in (self._title, self._add, self._load):
-            part.setEnabled(self._editable)
-        for part in (self._replace, self._remove):
-            part.setEnabled(self._editable and at >= 0)
+        for widget in (self._title, self._add, self._load):
+            widget.setEnabled(self._editable)
+        for button in (self._replace, self._remove):
+            button.setEnabled(self._editable and at >= 0)
         self._up.setEnabled(self._editable and at > 0)
         self._down.setEnabled(self._editable and 0 <= at < count - 1)
         self._run.setEnabled(self._editable and count > 0)

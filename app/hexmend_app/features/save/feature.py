@@ -22,7 +22,7 @@ from hexmend_app.widgets.dialogs.questions import Answer, ask_session, ask_targe
 
 
 class FeatureSave(Feature):
-    """Writes the mesh and pictures of it, and asks before unsaved changes are lost."""
+    """Saves the mesh and pictures, and asks before unsaved changes are lost."""
 
     order = 11
 
@@ -35,7 +35,7 @@ class FeatureSave(Feature):
         saver.failed.connect(self._on_failed)
 
     def actions(self) -> Sequence[Action]:
-        """Save, and the picture."""
+        """Return the actions that save the mesh and a picture."""
         return (
             Action(
                 id="save",
@@ -44,7 +44,7 @@ class FeatureSave(Feature):
                 part=1,
                 keys="Ctrl+S",
                 icon="content-save-outline",
-                help="Save the mesh as it is now.",
+                help="Save the displayed mesh to a file.",
                 tool="Save",
                 handle=self.ask_mesh,
                 enabled=lambda: self.session.run.phase is not Phase.RUNNING,
@@ -56,7 +56,7 @@ class FeatureSave(Feature):
                 part=1,
                 keys="Ctrl+P",
                 icon="camera-outline",
-                help="Save a picture of the view at any size.",
+                help="Save a picture of the view in any size.",
                 tool="Picture",
                 handle=self.ask_picture,
                 enabled=lambda: self.canvas is not None,
@@ -76,13 +76,13 @@ class FeatureSave(Feature):
         answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
         if answer is Answer.SAVE:
             session.run.stop()
-            over = "The run stops after this iteration."
-            return self.host.wait_until(over, lambda: not session.run.busy) and self._ask_before_leaving()
+            stopping = "The run stops after this iteration."
+            return self.host.wait_until(stopping, lambda: not session.run.busy) and self._ask_before_leaving()
         return answer is Answer.DISCARD
 
     def _wait_for_saving(self) -> bool:
         saver = self.session.saver
-        text = f"{saver.path.name} is being saved. Leaving now may lose the file."
+        text = f"{saver.path.name} is being saved. If you leave now, the file may be incomplete."
         return self.host.wait_until(text, lambda: not saver.busy, "Leave now")
 
     def ask_mesh(self) -> None:
@@ -93,8 +93,8 @@ class FeatureSave(Feature):
 
     def _ask_before_leaving(self) -> bool:
         """Ask for a path and save the mesh, or the session if a session is open; return True if it was saved."""
-        opened = self.session.document.path
-        ask = ask_session if opened is not None and opened.suffix.lower() == SUFFIX else ask_target
+        source = self.session.document.path
+        ask = ask_session if source is not None and source.suffix.lower() == SUFFIX else ask_target
         path = ask(self.host.dialog_parent, self.host.stem)
         return bool(path) and self.save_and_wait(path)
 
@@ -107,18 +107,18 @@ class FeatureSave(Feature):
         if saving.omitted:
             self.host.messages.show_warning(
                 "Some data was not saved",
-                f"A {saving.path.suffix} file cannot hold {', '.join(saving.omitted)}. Save as .vtu to keep more.",
+                f"A {saving.path.suffix} file cannot store {', '.join(saving.omitted)}. Save as .vtu to store more.",
             )
 
     def _on_failed(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         if not isinstance(saving.error, HexmendError):
             raise saving.error
-        subject = "mesh" if saving.data is None else "session"
-        self.host.messages.show_error(f"The {subject} was not saved", str(saving.error))
+        content = "mesh" if saving.data is None else "session"
+        self.host.messages.show_error(f"The {content} was not saved", str(saving.error))
 
     def ask_picture(self) -> None:
-        """Ask for the options and path of a picture, and write it."""
+        """Ask for the settings and path of a picture, and write it."""
         dialog = self.picture_dialog()
         if dialog.exec():
             self._last = dialog.scene()
@@ -127,7 +127,7 @@ class FeatureSave(Feature):
         dialog.deleteLater()
 
     def picture_dialog(self) -> PictureDialog:
-        """Return the dialog for a picture of the view, with the page, lines, bar and axes used last."""
+        """Return the dialog for a picture of the view, with the page, lines, colour bar and axes used last."""
         canvas, last = self.canvas, self._last
         size = canvas.size() * self.host.dialog_parent.devicePixelRatioF()
         page = Page(pixels=(size.width(), size.height())) if last is None else last.page
@@ -137,7 +137,9 @@ class FeatureSave(Feature):
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
         dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
-        dialog.scene_kept.connect(lambda *kept: self.session.user_event.emit(FileExported("scene", write_scene, kept)))
+        dialog.scene_saved.connect(
+            lambda *saved: self.session.user_event.emit(FileExported("scene", write_scene, saved))
+        )
         return dialog
 
     def picture(self, path: str | Path, size: tuple[int, int], transparent: bool = False) -> bool:
@@ -146,16 +148,16 @@ class FeatureSave(Feature):
         return self.write_picture(Path(path), self.canvas.scene(page, self.session.saved_cameras.all))
 
     def _recipe(self) -> Recipe | None:
-        """Return the recipe that ran on the shown mesh, or None."""
+        """Return the recipe of the last run on the mesh, or None if the mesh is as it was opened."""
         session = self.session
         work = session.run.work
         if work is None or session.document.now is session.document.start:
             return None
-        begun = session.run_setup.begun
-        return work if isinstance(work, Recipe) else Recipe.of(begun if begun is not None else work)
+        stage = session.run_setup.begun
+        return work if isinstance(work, Recipe) else Recipe.of(stage if stage is not None else work)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:
-        """Write a scene of the view; return True if it was written."""
+        """Write a picture of a scene; return True if it was written."""
         width, height = scene.page.size
         written = self.host.try_and_report(
             "The picture was not saved",
@@ -163,23 +165,23 @@ class FeatureSave(Feature):
             f"Picture of {width} × {height} pixels saved to {path}",
         )
         if written:
-            self.session.user_event.emit(self._report(path, scene))
+            self.session.user_event.emit(self._export_event(path, scene))
         return written
 
     def _metadata(self, path: Path, scene: Scene) -> dict[str, str]:
         """Return the metadata of a picture: the scene, its meshes, and the recipe of the first mesh."""
         document = self.session.document
         opened = document.start.mesh
-        meshes = [PicturedMesh.of(opened, one.mesh, document.path, path) for one in self._shown]
+        meshes = [PicturedMesh.of(opened, state.mesh, document.path, path) for state in self._shown]
         return with_metadata(scene, meshes, self._recipe())
 
     @property
     def _shown(self) -> list[State]:
-        """States shown by the views, the current mesh first."""
+        """States shown in the views, the current mesh first."""
         return [self.session.document.now, *(one.state for one in self.session.side_views.all)]
 
-    def _report(self, path: Path, scene: Scene) -> FileExported:
-        """Return the event that records the call to draw the same picture."""
+    def _export_event(self, path: Path, scene: Scene) -> FileExported:
+        """Return the event with the call that draws the picture."""
         from hexmend_app.scene.page.still_picture import write_picture
 
         document, recipe = self.session.document, self._recipe()

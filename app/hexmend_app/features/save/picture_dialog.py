@@ -1,4 +1,4 @@
-"""Dialog for the options and path of a picture, with a preview."""
+"""Dialog for the settings and path of a picture, with a preview."""
 
 from __future__ import annotations
 
@@ -36,46 +36,45 @@ if TYPE_CHECKING:
 
 _KINDS = "PNG picture (*.png);;PDF (*.pdf);;SVG (*.svg);;TIFF picture (*.tif)"
 
-#: Title of a group, the table of the scene, and its keys.
+#: Title of a group, its table of the scene, and the keys of the table.
 _GROUPS = (
-    ("Paper", "page", ("background", "margin", "crop", "shading", "supersampling")),
+    ("Page", "page", ("background", "margin", "crop", "shading", "supersampling")),
     ("Lines", "lines", ("edges",)),
-    ("Letters", "page", ("captions", "figures", "font_size", "columns")),
+    ("Text", "page", ("captions", "figures", "font_size", "columns")),
     ("Colour bar", "bar", ("place", "ticks", "title")),
     ("Axes", "axes", ("show", "place")),
 )
 
-
-#: How much of the screen the dialog takes, for its preview.
+#: Initial size of the dialog relative to the screen.
 _SHARE = 0.7
 
-#: Keys that mean something for several panels alone.
-_OF_SEVERAL = ("captions", "figures", "columns")
+#: Keys that are shown only for several views.
+_SEVERAL_VIEWS = ("captions", "figures", "columns")
 
 
 class PictureDialog(SaveDialog):
-    """Edits a scene, with a preview, and the path that it goes to.
+    """Dialog to edit the scene of a picture, with a preview, and its path.
 
     Signals
     -------
-    scene_kept(Path, Scene)
+    scene_saved(Path, Scene)
         The scene was saved to a separate file.
 
     Parameters
     ----------
     scene : Scene
-        What is seen, from where it is seen.
+        Scene of the view.
     draw : callable
-        Draws a scene of what is seen.
+        Returns the renderer of a scene.
     view : QSize
-        Of the 3D view, in device pixels.
+        Size of the 3D view in device pixels.
     name : str
-        The file name proposed.
+        Proposed file name.
     views : sequence of str
-        What the captions of several views call them.
+        Names of the views; empty for one view.
     """
 
-    scene_kept = Signal(object, object)
+    scene_saved = Signal(object, object)
 
     def __init__(
         self,
@@ -87,23 +86,21 @@ class PictureDialog(SaveDialog):
         parent: QWidget | None = None,
     ):
         super().__init__("the picture", name, _KINDS, parent)
-        self._seen = self._base = scene
+        self._view_scene = self._base = scene
         self.preview = Preview(draw)
-        self._about = QLabel()
+        self._page_size = QLabel()
         self.size_form = SizeForm(view, scene.page)
         self.camera = QComboBox()
-        set_help(
-            self.camera, "Camera", "View of the mesh: as in the window, or the whole mesh from a standard direction."
-        )
+        set_help(self.camera, "Camera", "Camera of the window, a saved camera, or a standard view of the whole mesh.")
         self.captions = [QLineEdit(panel.caption) for panel in scene.panels_of(max(1, len(views)))]
         several = len(self.captions) > 1
         self.forms = [
-            (table, KeyForm(getattr(scene, table), [name for name in names if several or name not in _OF_SEVERAL]))
+            (table, KeyForm(getattr(scene, table), [name for name in names if several or name not in _SEVERAL_VIEWS]))
             for _, table, names in _GROUPS
         ]
-        self._wrong = False  # an input is invalid
+        self._invalid = False  # an input is invalid
         self._lay_out()
-        self._offer_cameras()
+        self._list_cameras()
         self.preview.drawn.connect(self._on_drawn)
         self.size_form.changed.connect(self._on_changed)
         self.camera.activated.connect(self._on_changed)
@@ -116,8 +113,8 @@ class PictureDialog(SaveDialog):
     def _lay_out(self) -> None:
         settings = QWidget()
         column = QVBoxLayout(settings)
-        texts = QWidget()
-        rows = QFormLayout(texts)
+        captions = QWidget()
+        rows = QFormLayout(captions)
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
             title = f"Caption {number}" if len(self.captions) > 1 else "Caption"
@@ -128,31 +125,31 @@ class PictureDialog(SaveDialog):
         for title, group in groups:
             column.addWidget(QLabel(f"<b>{title}</b>"))
             column.addWidget(group)
-            if title == "Letters":
-                column.addWidget(texts)
+            if title == "Text":
+                column.addWidget(captions)
         column.addStretch()
         labels = [label for label in settings.findChildren(QLabel) if label.buddy() is not None]
         for label in labels:  # align the fields of all groups
-            label.setMinimumWidth(max(one.sizeHint().width() for one in labels))
+            label.setMinimumWidth(max(other.sizeHint().width() for other in labels))
         left = QVBoxLayout()
         left.addWidget(self.preview, 1)
-        left.addWidget(self._about)
-        both = QHBoxLayout()
-        both.addLayout(left, 1)
+        left.addWidget(self._page_size)
+        columns = QHBoxLayout()
+        columns.addLayout(left, 1)
         area = scrolled(settings)
         area.setMinimumWidth(settings.sizeHint().width() + 28)
-        both.addWidget(area)
-        load, keep = QPushButton("Load scene…"), QPushButton("Save scene…")
+        columns.addWidget(area)
+        load, save = QPushButton("Load scene…"), QPushButton("Save scene…")
         set_help(load, "Load scene…", "Load these settings from a scene file.")
-        set_help(keep, "Save scene…", "Save these settings as a scene file, for hexmend render --scene.")
-        load.clicked.connect(self._ask_scene)
-        keep.clicked.connect(self._ask_target)
-        self.lay_out_below(both, load, keep)
-        space = self.screen().availableSize() * _SHARE
-        self.resize(space.expandedTo(QSize(1000, 640)))
+        set_help(save, "Save scene…", "Save these settings as a scene file, for hexmend render --scene.")
+        load.clicked.connect(self._ask_load_scene)
+        save.clicked.connect(self._ask_save_scene)
+        self.lay_out_below(columns, load, save)
+        size = self.screen().availableSize() * _SHARE
+        self.resize(size.expandedTo(QSize(1000, 640)))
 
     def scene(self) -> Scene:
-        """The scene as it is chosen.
+        """Return the scene set in the dialog.
 
         Raises
         ------
@@ -168,82 +165,82 @@ class PictureDialog(SaveDialog):
             panels = panels or (PicturePanel(),)
             panels = tuple(replace(panel, caption=text) for panel, text in zip(panels, captions, strict=True))
         camera = self.camera.currentData()
-        return replace(self._base, panels=panels, camera=camera or self._seen.camera, **tables)
+        return replace(self._base, panels=panels, camera=camera or self._view_scene.camera, **tables)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show another scene of what is seen, with its cameras too; its panels are as the views are."""
-        cameras = merged(self._seen.cameras, scene.cameras)
-        self._base = replace(scene, panels=self._seen.panels, cameras=cameras)
+        """Show the settings and cameras of another scene; the panels of the view are preserved."""
+        cameras = merged(self._view_scene.cameras, scene.cameras)
+        self._base = replace(scene, panels=self._view_scene.panels, cameras=cameras)
         self.size_form.show_page(scene.page)
         for name, form in self.forms:
             form.show_table(getattr(scene, name))
-        self._offer_cameras()
+        self._list_cameras()
         self._on_changed()
 
     def check(self) -> None:
-        """Raise `FileError` or `ParameterError` where what is chosen cannot be written to the path."""
+        """Raise `FileError` or `ParameterError` if the picture cannot be written to the path."""
         from hexmend_app.scene.page.page_renderer import format_of
 
         format_of(self.target.path())
         self.scene()
 
     def load(self, path: str) -> None:
-        """Take a scene from a file, or say why not."""
+        """Load a scene from a file, or show the problem."""
         try:
             self.show_scene(read_scene(path))
         except FileError as error:
             self.refuse(str(error))
 
-    def keep(self, path: str) -> None:
-        """Write the scene to a file, or say why not."""
+    def save_scene(self, path: str) -> None:
+        """Write the scene to a file, or show the problem."""
         try:
             scene = self.scene()
             write_scene(path, scene)
         except (FileError, ParameterError) as error:
             self.refuse(str(error))
         else:
-            self.scene_kept.emit(Path(path), scene)
+            self.scene_saved.emit(Path(path), scene)
 
-    def _offer_cameras(self) -> None:
-        """List the cameras: that of the view, those of the scene by name, and the directions."""
+    def _list_cameras(self) -> None:
+        """List the cameras: the camera of the view, the named cameras of the scene, and the standard views."""
         self.camera.clear()
-        self.camera.addItem("As the view", None)
-        if self._base.camera not in (Camera(), self._seen.camera):
-            self.camera.addItem("Of the scene", self._base.camera)
+        self.camera.addItem("Current view", None)
+        if self._base.camera not in (Camera(), self._view_scene.camera):
+            self.camera.addItem("Scene file", self._base.camera)
             self.camera.setCurrentIndex(1)
         for name, camera in self._base.cameras.items():
             self.camera.addItem(name, camera)
-        up = self._seen.camera.up
+        up = self._view_scene.camera.up
         for name in DIRECTIONS:
             title = "From a corner" if name == "iso" else f"From {name.upper().replace('-', '−')}"
-            self.camera.addItem(title, Camera(name, up=up, parallel=self._seen.camera.parallel))
+            self.camera.addItem(title, Camera(name, up=up, parallel=self._view_scene.camera.parallel))
 
     def _on_changed(self) -> None:
         try:
             scene = self.scene()
         except ParameterError as error:
-            self._wrong = True
+            self._invalid = True
             self.refuse(str(error))
             return
-        if self._wrong:
-            self._wrong = False
+        if self._invalid:
+            self._invalid = False
             self.refuse("")
         page = scene.page
-        wide, high = (side * 25.4 / page.resolution for side in page.size)
-        self._about.setText(
-            f"{wide:.4g} × {high:.4g} mm at {page.resolution:.0f} dpi: {page.size[0]:,} × {page.size[1]:,} pixels"
-            + (", less what is cropped" if page.crop else "")
+        width, height = (side * 25.4 / page.resolution for side in page.size)
+        self._page_size.setText(
+            f"{width:.4g} × {height:.4g} mm at {page.resolution:.0f} dpi: {page.size[0]:,} × {page.size[1]:,} pixels"
+            + (", before cropping" if page.crop else "")
         )
         self.preview.show_scene(scene)
 
     def _on_drawn(self, problem: str) -> None:
-        if not self._wrong:
+        if not self._invalid:
             self.refuse(problem)
 
-    def _ask_scene(self) -> None:
+    def _ask_load_scene(self) -> None:
         if path := ask_scene(self):
             self.load(path)
 
-    def _ask_target(self) -> None:
+    def _ask_save_scene(self) -> None:
         if path := ask_scene_target(self):
-            self.keep(path)
+            self.save_scene(path)

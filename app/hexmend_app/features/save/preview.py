@@ -1,4 +1,4 @@
-"""A small picture of what is about to be saved."""
+"""Preview of a picture."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ from hexmend_app.theme.style import set_help
 if TYPE_CHECKING:
     from hexmend_app.scene.page.page_renderer import PageRenderer
 
-#: Milliseconds after the last change until it is drawn anew.
+#: Milliseconds between the last change and drawing.
 _PAUSE = 150
 
-#: Side in pixels of the squares that stand for transparent paper.
+#: Side in pixels of the squares that show a transparent background.
 _SQUARE = 8
 
 
 class Preview(QWidget):
-    """Draws a scene small and without shading, a moment after it has changed.
+    """Small picture of a scene without shading, redrawn shortly after each change.
 
     Parameters
     ----------
     draw : callable
-        Draws a scene on a page.
+        Returns the renderer of a scene.
 
     Signals
     -------
     drawn(str)
-        What cannot be drawn and why, or "".
+        Emitted after drawing, with the problem or "".
     """
 
     drawn = Signal(str)
@@ -48,22 +48,22 @@ class Preview(QWidget):
         self.picture = QPixmap()
         self.setMinimumSize(360, 280)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        set_help(self, "Preview", "The picture as it will be, small and without shading.")
+        set_help(self, "Preview", "Small preview of the picture, without shading.")
         self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
         self._soon.timeout.connect(self._redraw)
 
     def show_scene(self, scene: Scene) -> None:
-        """Draw a scene soon."""
+        """Draw a scene after a short delay."""
         self._scene = scene
         self._soon.start()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Draw as large as there is room."""
+        """Redraw in the new size."""
         super().resizeEvent(event)
         self._soon.start()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Show the picture in the middle, transparent paper as squares."""
+        """Paint the picture centred, with squares below a transparent background."""
         painter = QPainter(self)
         size = self.picture.size() / self.devicePixelRatioF()
         left, top = (self.width() - size.width()) // 2, (self.height() - size.height()) // 2
@@ -82,8 +82,8 @@ class Preview(QWidget):
     def _redraw(self) -> None:
         ratio = self.devicePixelRatioF()
         try:
-            small = smaller(self._scene, (self.width() - 4) * ratio, (self.height() - 4) * ratio)
-            image = self._draw(small).image().convert("RGBA")
+            scene = preview_scene(self._scene, (self.width() - 4) * ratio, (self.height() - 4) * ratio)
+            image = self._draw(scene).image().convert("RGBA")
         except HexmendError as error:
             self.drawn.emit(str(error))
             return
@@ -94,19 +94,19 @@ class Preview(QWidget):
         self.drawn.emit("")
 
 
-def smaller(scene: Scene, width: float, height: float) -> Scene:
-    """The same page in fewer pixels, drawn fast: letters and lines are as large on it as on the whole.
+def preview_scene(scene: Scene, width: float, height: float) -> Scene:
+    """Return the scene with fewer pixels and fast settings; text and lines keep their size relative to the page.
 
     Parameters
     ----------
     scene : Scene
     width, height : float
-        Pixels that there are.
+        Available size in pixels.
     """
     page = scene.page
-    share = min(1.0, width / page.size[0], height / page.size[1])
-    dpi = page.resolution * share
-    size = tuple(max(16, round(side * share)) for side in page.size)
+    scale = min(1.0, width / page.size[0], height / page.size[1])
+    dpi = page.resolution * scale
+    size = tuple(max(16, round(side * scale)) for side in page.size)
     edges = scene.lines.edges
     pen = edges if edges == 0 else page.pen(scene.lines) / page.resolution * PT_PER_INCH
     fast = {"shading": False, "supersampling": 1, "font_size": page.letters}

@@ -10,34 +10,35 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayou
 from hexmend_app.picture import Page
 from hexmend_app.theme.style import set_help
 
-#: Title, pixels or millimetres.
+#: Title, size in pixels, size in millimetres; one of the sizes is None.
 _PRESETS = (
-    ("A column, 85 × 60 mm", None, (85.0, 60.0)),
-    ("A page's width, 170 × 106 mm", None, (170.0, 106.0)),
+    ("Single column, 85 × 60 mm", None, (85.0, 60.0)),
+    ("Full width, 170 × 106 mm", None, (170.0, 106.0)),
     ("Full HD, 1920 × 1080 pixels", (1920, 1080), None),
     ("4K, 3840 × 2160 pixels", (3840, 2160), None),
 )
 _MM, _PIXELS = "mm", "pixels"
 
-#: Limits of either unit, and dpi where nothing is said.
+#: Minimum, maximum and decimals for each unit.
 _RANGES = {_MM: (5.0, 3000.0, 1), _PIXELS: (16.0, 16384.0, 0)}
+#: Default resolution of a page in pixels.
 _DPI = 300.0
 
 
 class SizeForm(QWidget):
-    """Edits width, height and resolution of a page.
+    """Form for the width, height and resolution of a page.
 
     Parameters
     ----------
     view : QSize
-        Of the 3D view, in device pixels: the first of the sizes on offer.
+        Size of the 3D view in device pixels, the first preset.
     page : Page
-        Shown first.
+        Initial page.
 
     Signals
     -------
     changed
-        The user wants another size.
+        The user has changed the size.
     """
 
     changed = Signal()
@@ -46,13 +47,13 @@ class SizeForm(QWidget):
         super().__init__(parent)
         self.preset, self.unit = QComboBox(), QComboBox()
         size = view.width(), view.height()
-        self.preset.addItem(f"As the view, {size[0]} × {size[1]} pixels", (size, None))
+        self.preset.addItem(f"Current view, {size[0]} × {size[1]} pixels", (size, None))
         for title, pixels, mm in _PRESETS:
             self.preset.addItem(title, (pixels, mm))
-        self.preset.addItem("Other", None)
-        set_help(self.preset, "Usual size", "A size that is often wanted.")
+        self.preset.addItem("Custom", None)
+        set_help(self.preset, "Preset", "Common picture sizes.")
         self.unit.addItems([_MM, _PIXELS])
-        set_help(self.unit, "Unit of the size", "Millimetres on paper, or pixels.")
+        set_help(self.unit, "Unit", "Millimetres on paper, or pixels.")
         self.width_box, self.height_box, self.dpi = QDoubleSpinBox(), QDoubleSpinBox(), QDoubleSpinBox()
         set_help(self.width_box, "Width", "Width of the picture.")
         set_help(self.height_box, "Height", "Height of the picture.")
@@ -61,8 +62,8 @@ class SizeForm(QWidget):
         self.dpi.setDecimals(0)
         self.dpi.setSuffix(" dpi")
         row = QHBoxLayout()
-        for part in (self.width_box, QLabel("×"), self.height_box, self.unit):
-            row.addWidget(part)
+        for widget in (self.width_box, QLabel("×"), self.height_box, self.unit):
+            row.addWidget(widget)
         row.addStretch()
         layout = QFormLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -76,7 +77,7 @@ class SizeForm(QWidget):
             box.valueChanged.connect(self._on_typed)
 
     def show_page(self, page: Page) -> None:
-        """Show the size of a page, without a signal."""
+        """Show the size of a page without sending a signal."""
         unit = _MM if page.pixels is None and (page.width or page.height) else _PIXELS
         size = [side * 25.4 / page.resolution for side in page.size] if unit == _MM else page.size
         self._show(unit, *size)
@@ -86,12 +87,12 @@ class SizeForm(QWidget):
         self._find_preset()
 
     def page(self, base: Page) -> Page:
-        """A page of this size.
+        """Return a copy of `base` with the size in the form.
 
         Raises
         ------
         ParameterError
-            Where it has too many pixels.
+            If the page has too many pixels.
         """
         width, height = self.width_box.value(), self.height_box.value()
         if self.unit.currentText() == _MM:
@@ -125,13 +126,13 @@ class SizeForm(QWidget):
             self.changed.emit()
 
     def _on_unit(self) -> None:
-        """The same size in the other unit."""
-        share = 25.4 / self.dpi.value()
+        """Convert the size to the other unit."""
+        mm_per_pixel = 25.4 / self.dpi.value()
         width, height = self.width_box.value(), self.height_box.value()
         if self.unit.currentText() == _MM:
-            self._show(_MM, width * share, height * share)
+            self._show(_MM, width * mm_per_pixel, height * mm_per_pixel)
         else:
-            self._show(_PIXELS, round(width / share), round(height / share))
+            self._show(_PIXELS, round(width / mm_per_pixel), round(height / mm_per_pixel))
         self._find_preset()
         self.changed.emit()
 

@@ -1,4 +1,4 @@
-"""Names of comparisons and their rows in a script; a new comparison gets the lines that create it."""
+"""Names of comparisons and their rows in a script; a new comparison is added with the lines that create it."""
 
 from __future__ import annotations
 
@@ -11,32 +11,30 @@ from hexmend.smoothers import METHODS
 from hexmend.study import compare
 from hexmend.study.table_row import Row
 from hexmend_app.features.script.lines import ScriptLines, call
-from hexmend_app.features.script.source_code import made
-from hexmend_app.features.script.stored import Stored
+from hexmend_app.features.script.session_contents import SessionContents
+from hexmend_app.features.script.source_code import source_of
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import ComparisonData
 from hexmend_app.state.session.session import Session
 
-#: Outcomes of a run that hang on when it was ended, not on what it found.
+#: Outcomes that depend on the time at which a run was ended.
 _BY_CLOCK = (Outcome.STOPPED.key, Outcome.MAX_SECONDS.key)
 
 
 class Comparisons:
-    """Tells how methods were compared.
+    """Names of comparisons in the script.
 
     Parameters
     ----------
     session : Session
-    lines : Lines
-        The script.
+    lines : ScriptLines
     mesh : callable
-        What the script calls the mesh of a state.
-    stored : Stored
-        Knows what a session holds.
+        Returns the name of a state's mesh in the script.
+    contents : SessionContents
     """
 
-    def __init__(self, session: Session, lines: ScriptLines, mesh: Callable[[State], str], stored: Stored):
-        self._now, self._lines, self._mesh, self._stored = session.comparison, lines, mesh, stored
+    def __init__(self, session: Session, lines: ScriptLines, mesh: Callable[[State], str], contents: SessionContents):
+        self._comparison, self._lines, self._mesh, self._contents = session.comparison, lines, mesh, contents
         self.clear()
 
     def clear(self) -> None:
@@ -46,9 +44,9 @@ class Comparisons:
 
     def name(self) -> str:
         """Return the name of the last comparison in the script."""
-        results = self._now.results
+        results = self._comparison.results
         if self._last[0] is not results:
-            source = self._stored.comparison(results) or self._compare(self._now.to_data())
+            source = self._contents.comparison(results) or self._compare(self._comparison.to_data())
             self._last = results, f"comparison_{self._count}"
             self._count += 1
             self._lines.put("Comparison", f"{self._last[1]} = {source}")
@@ -56,25 +54,24 @@ class Comparisons:
 
     def row(self, row: Row) -> str:
         """Return the script's expression for a row of the last comparison."""
-        rows = self._now.to_data().rows
-        return f"{self.name()}.rows[{next(k for k, one in enumerate(rows) if one is row)}]"
+        rows = self._comparison.to_data().rows
+        return f"{self.name()}.rows[{next(k for k, other in enumerate(rows) if other is row)}]"
 
     def row_of(self, state: State) -> Row | None:
-        """The row of the method that has made a state; None where that is none's."""
-        return next((one.row for one in self._now.results if one.state is state), None)
+        """Return the row of the method that produced a state, or None."""
+        return next((result.row for result in self._comparison.results if result.state is state), None)
 
     def _compare(self, data: ComparisonData) -> str:
         """Return the source that repeats the comparison; interrupted methods are limited to their iterations."""
         base, stop = self._mesh(data.initial), replace(data.stop, max_seconds=0.0)
         function = self._lines.use(compare.compare)
-        methods = [made(METHODS[row.method](**row.parameters)) for row in data.rows]
+        methods = [source_of(METHODS[row.method](**row.parameters)) for row in data.rows]
         if not data.interrupted and not any(row.outcome in _BY_CLOCK for row in data.rows):
-            return call(function, [base, f"[{', '.join(methods)}]", made(stop)])
+            return call(function, [base, f"[{', '.join(methods)}]", source_of(stop)])
         rows = []
         for method, row in zip(methods, data.rows, strict=True):
-            own = replace(stop, max_iterations=row.iterations) if row.outcome in _BY_CLOCK else stop
-            rows.append(f"    *{function}({base}, [{method}], {made(own)}).rows,")
-        several = "\n".join(["(", *rows, ")"])
-        words = [base, f"{self._lines.use(summarise)}({base})", made(stop), several]
-        words += ["interrupted=True"] if data.interrupted else []
-        return call(self._lines.use(compare.Comparison), words)
+            limits = replace(stop, max_iterations=row.iterations) if row.outcome in _BY_CLOCK else stop
+            rows.append(f"    *{function}({base}, [{method}], {source_of(limits)}).rows,")
+        arguments = [base, f"{self._lines.use(summarise)}({base})", source_of(stop), "\n".join(["(", *rows, ")"])]
+        arguments += ["interrupted=True"] if data.interrupted else []
+        return call(self._lines.use(compare.Comparison), arguments)

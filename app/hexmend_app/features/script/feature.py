@@ -15,7 +15,7 @@ from hexmend_app.picture import Page, Scene
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.widgets.dialogs.questions import ask_script
 
-#: Milliseconds between two looks while a run goes on.
+#: Milliseconds between two updates during a run.
 _PERIOD = 300
 
 
@@ -33,13 +33,13 @@ class FeatureScript(Feature):
         self._soon = QSignalThrottler(parent=self.panel)
         self._soon.setTimeout(_PERIOD)
         self._soon.triggered.connect(self._show)
-        self.panel.anew_requested.connect(self.script.begin_anew)
+        self.panel.restart_requested.connect(self.script.restart)
         self.script.changed.connect(host.refresh_soon)
         self.panel.copy_requested.connect(self.copy)
         self.panel.save_requested.connect(self.ask)
 
     def actions(self) -> Sequence[Action]:
-        """Save the script."""
+        """Return the action that saves the script."""
         return (
             Action(
                 id="script",

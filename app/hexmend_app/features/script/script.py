@@ -1,4 +1,4 @@
-"""The script of a window: a line for every action that changes the mesh or writes a file, and what is seen."""
+"""Script of a window: an entry for each action that changes the mesh or writes a file, and the current view."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from hexmend.study.table_row import Row
 from hexmend_app.features.script.lines import ScriptLines, call
 from hexmend_app.features.script.names import Names, read_from
 from hexmend_app.features.script.runs import RunLines
-from hexmend_app.features.script.seen import ViewLines
-from hexmend_app.features.script.source_code import called, made
+from hexmend_app.features.script.source_code import mesh_call, source_of
+from hexmend_app.features.script.view_lines import ViewLines
 from hexmend_app.picture import Scene
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import RunRecord
@@ -39,19 +39,19 @@ from hexmend_app.state.session.user_events import (
 
 
 class Script(QObject):
-    """Tells what has been done in the words of the Python library.
+    """Record of the user's actions as calls of the Python library.
 
     Attributes
     ----------
     entries : list of str
-        What was done, each a comment and Python source.
+        Actions, each a comment and Python source.
     scene : callable
-        Gives the scene of what is seen, or None; who has the view sets it.
+        Returns the scene of the view, or None; set by the owner of the view.
 
     Signals
     -------
     changed
-        There is another entry.
+        The entries have changed.
     """
 
     changed = Signal()
@@ -66,7 +66,7 @@ class Script(QObject):
         session.opener.ended.connect(self._on_opened)
         session.opener.restored.connect(self._on_restored)
         session.user_event.connect(self._on_done)
-        session.node_sweep.recorded.connect(self._on_swept)
+        session.node_sweep.recorded.connect(self._on_sweep_recorded)
         session.comparison.changed.connect(self._on_compared)
         session.snapshots.changed.connect(self._names.keep)
         session.run.ended.connect(self._on_ended)
@@ -74,17 +74,17 @@ class Script(QObject):
 
     @property
     def entries(self) -> list[str]:
-        """See the class."""
+        """Actions, each a comment and Python source."""
         return self._lines.entries
 
     @property
     def text(self) -> str:
-        """All of it, to be run by `python FILE`, with what is seen now at its end."""
-        seen = self._seen
-        return self._lines.text(seen.source if seen is not None else "")
+        """The whole script, which `python FILE` runs, with the current view at its end."""
+        view = self._view_lines
+        return self._lines.text(view.source if view is not None else "")
 
     @property
-    def _seen(self) -> ViewLines | None:
+    def _view_lines(self) -> ViewLines | None:
         if not self._document.is_open or (scene := self.scene()) is None:
             return None
         now = self._document.now
@@ -94,13 +94,13 @@ class Script(QObject):
             name = f"{sweep.done} of {sweep.nodes.size} nodes of a sweep"
         return ViewLines(scene, f"{name}, {known}" if known else name)
 
-    def begin_anew(self) -> None:
-        """Forget what was done; what comes next goes on from the mesh as it is then."""
+    def restart(self) -> None:
+        """Clear the script; it continues from the current mesh."""
         self._names.clear()
         self._lines.clear()
 
     def write(self, path: str | Path) -> None:
-        """Save it as a file; `FileError` where it cannot be written."""
+        """Write the script to a file; raise `FileError` if that fails."""
         with atomic_write(path) as temporary:
             Path(temporary).write_text(self.text, encoding="utf-8", errors="backslashreplace")
 
@@ -113,13 +113,13 @@ class Script(QObject):
             self._names.add(f"Open {path.name}", state, read_from(path))
 
     def _on_restored(self, restored: RestoredPicture) -> None:
-        """Know from where the meshes are that a picture shows beside the first."""
-        for one in restored.others:
-            if one.state is not None:
-                self._names.read(one.path, one.state)
+        """Register the files of the other meshes in a restored picture."""
+        for other in restored.others:
+            if other.state is not None:
+                self._names.read(other.path, other.state)
 
     def _on_session(self, data: SessionData, path: Path | None) -> None:
-        """Know where a session's file has its states; one that a window has left will not be there again."""
+        """Register the contents of a session file; `path` is None for a recovered session, whose file is temporary."""
         if path is not None:
             self._names.restored(data, path)
         self._names.mesh(self._document.now)
@@ -130,29 +130,29 @@ class Script(QObject):
             case MeshEdited(after=after, before=before):
                 if after not in names:
                     self._lines.use(event.change)
-                    names.add(event.title, after, called(names.mesh(before), event.change, event.values))
+                    names.add(event.title, after, mesh_call(names.mesh(before), event.change, event.values))
             case NodesMoved(after=after, before=before):
                 if after not in names:
-                    places, mesh = names.mesh(event.places), names.mesh(before)
-                    names.add(event.title, after, f"{mesh}.with_points({places}.points)")
+                    source, mesh = names.mesh(event.places), names.mesh(before)
+                    names.add(event.title, after, f"{mesh}.with_points({source}.points)")
             case UndoOrRedo():
-                put(f"{'undo' if event.undone else 'redo'} {event.title}: on with {names.mesh(event.now)}")
+                put(f"{'undo' if event.undone else 'redo'} {event.title}: continue with {names.mesh(event.now)}")
             case MeshSaved(data=SessionData()):
                 names.session_saved(event.path, event.data)
                 put(f"the session was saved as {event.path}")
             case MeshSaved():
                 source = f"hx.write({str(event.path.absolute())!r}, {names.mesh(event.now)})"
-                self._lines.overwritten(event.path)
+                self._lines.mark_overwritten(event.path)
                 put("save", source)
                 names.written(event.path, event.now)
             case TableExported():
-                words = [self._source_of(event.path), f"{names.comparisons.name()}.record()"]
+                arguments = [self._source_of(event.path), f"{names.comparisons.name()}.record()"]
                 if event.names or event.title is not None:
-                    words += [repr(dict(event.names or {})), repr(event.title)]
-                put("table", call(self._lines.use(write_comparison), words))
+                    arguments += [repr(dict(event.names or {})), repr(event.title)]
+                put("table", call(self._lines.use(write_comparison), arguments))
             case FileExported():
-                arguments = [self._source_of(one) for one in event.values]
-                arguments += [f"{name}={self._source_of(one)}" for name, one in event.options.items()]
+                arguments = [self._source_of(value) for value in event.values]
+                arguments += [f"{name}={self._source_of(value)}" for name, value in event.options.items()]
                 put(event.title, call(self._lines.use(event.function), arguments))
 
     def _source_of(self, value: Any) -> str:
@@ -161,7 +161,7 @@ class Script(QObject):
             case State():
                 return self._names.mesh(value)
             case Mesh():
-                return self._names.places(value)
+                return self._names.mesh_at(value)
             case IterationsExported():
                 return self._names.run(value.record, value.numbers)
             case RunRecord():
@@ -173,7 +173,7 @@ class Script(QObject):
             case tuple():
                 return f"({', '.join(map(self._source_of, value))}{',' * (len(value) == 1)})"
             case dict():
-                entries = (f"{self._source_of(key)}: {self._source_of(one)}" for key, one in value.items())
+                entries = (f"{self._source_of(key)}: {self._source_of(item)}" for key, item in value.items())
                 return f"{{{', '.join(entries)}}}"
         return self._lines.source(value)
 
@@ -201,14 +201,14 @@ class Script(QObject):
             base = self._names.mesh(record.start)
             loop, name = run_lines.until(base, record.result), self._names.new(record.end)
             source = f"{loop}\n{name} = {base}.with_points(it.points)"
-            self._lines.put(f"{record.title}, which failed later: {error}", source)
+            self._lines.put(f"{record.title}, until it failed: {error}", source)
 
-    def _on_swept(self, swept: SweepResult) -> None:
-        base = self._names.mesh(swept.before)
-        lines = [f"sweep = {self._lines.use(Sweep)}({base}, {made(swept.smoother)})"]
-        if swept.steps:
-            lines += [f"for _ in range({swept.steps}):", "    next(sweep)"]
-        lines += ["sweep.finish()"] * swept.finished
-        name = self._names.new(swept.after)
+    def _on_sweep_recorded(self, sweep: SweepResult) -> None:
+        base = self._names.mesh(sweep.before)
+        lines = [f"sweep = {self._lines.use(Sweep)}({base}, {source_of(sweep.smoother)})"]
+        if sweep.steps:
+            lines += [f"for _ in range({sweep.steps}):", "    next(sweep)"]
+        lines += ["sweep.finish()"] * sweep.finished
+        name = self._names.new(sweep.after)
         lines.append(f"{name} = {base}.with_points(sweep.points)")
-        self._lines.put(f"{swept.smoother.title}, node by node", "\n".join(lines))
+        self._lines.put(f"{sweep.smoother.title}, node by node", "\n".join(lines))

@@ -8,42 +8,38 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
-from hexmend_app.features.script.seen import SEEN
+from hexmend_app.features.script.view_lines import VIEW
 from hexmend_app.theme.style import BLUE, LINE, icon, note, on_theme_change, set_help
 
-_WORDS = "Your actions as a Python script that repeats them bit for bit, and the current view."
+_HELP = "Your actions as a Python script that repeats them bit for bit, and the current view."
 
 
 class ScriptPanel(QWidget):
-    """Shows a script.
+    """Panel that shows the script.
 
     Signals
     -------
-    anew_requested
+    restart_requested
     copy_requested
     save_requested
     """
 
-    anew_requested = Signal()
+    restart_requested = Signal()
     copy_requested = Signal()
     save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._shown, self._at = "", 0
+        self._shown, self._scrolled_to = "", 0
         self._text = QPlainTextEdit(readOnly=True)
         self._text.setUndoRedoEnabled(False)
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self._text.setAccessibleName("Script")
         on_theme_change(self._text, lambda: self._text.setStyleSheet(_sheet()))
-        anew = QPushButton(icon("restart"), "Restart")
-        set_help(
-            anew,
-            "Restart the script",
-            "Clear the script; it continues from the current mesh.",
-        )
-        anew.clicked.connect(self.anew_requested)
+        restart = QPushButton(icon("restart"), "Restart")
+        set_help(restart, "Restart the script", "Clear the script; it continues from the current mesh.")
+        restart.clicked.connect(self.restart_requested)
         copy = QPushButton(icon("content-copy"), "Copy")
         set_help(copy, "Copy the script", "Copy the whole script to the clipboard.")
         copy.clicked.connect(self.copy_requested)
@@ -51,8 +47,8 @@ class ScriptPanel(QWidget):
         set_help(save, "Save the script", "Save the script as a Python file: python FILE repeats the actions.")
         save.clicked.connect(self.save_requested)
         head = QHBoxLayout()
-        head.addWidget(note(_WORDS), 1)
-        head.addWidget(anew)
+        head.addWidget(note(_HELP), 1)
+        head.addWidget(restart)
         head.addWidget(copy)
         head.addWidget(save)
         column = QVBoxLayout(self)
@@ -61,30 +57,30 @@ class ScriptPanel(QWidget):
         column.addWidget(self._text, 1)
 
     def show_text(self, text: str) -> None:
-        """Show this, with the newest entry and what is seen in sight unless somebody reads elsewhere.
+        """Show a script; scroll to its newest entry unless the user has scrolled elsewhere.
 
-        What stays as it was stays selected too.
+        A selection in unchanged text is preserved.
         """
-        bar, aside = self._text.verticalScrollBar(), self._text.horizontalScrollBar()
-        at, across = bar.value(), aside.value()
-        follows = at in (self._at, bar.maximum())
-        same = _alike(text, self._shown)
-        place = self._text.document().characterCount() - 1 - _units(self._shown[same:])
+        vertical, horizontal = self._text.verticalScrollBar(), self._text.horizontalScrollBar()
+        top, left = vertical.value(), horizontal.value()
+        follows = top in (self._scrolled_to, vertical.maximum())
+        same = _common_length(text, self._shown)
         cursor = QTextCursor(self._text.document())
-        cursor.setPosition(place)
+        cursor.setPosition(self._text.document().characterCount() - 1 - _units(self._shown[same:]))
         cursor.movePosition(QTextCursor.MoveOperation.End, QTextCursor.MoveMode.KeepAnchor)
         cursor.insertText(text[same:])
         self._shown = text
         if follows:
             rows = self._text.viewport().height() // self._text.fontMetrics().lineSpacing()
-            self._at = at = max(0, min(text.count("\n", 0, text.rfind(SEEN)) - rows // 3, bar.maximum()))
-        bar.setValue(at)
-        aside.setValue(across)
+            view_line = text.count("\n", 0, text.rfind(VIEW))
+            self._scrolled_to = top = max(0, min(view_line - rows // 3, vertical.maximum()))
+        vertical.setValue(top)
+        horizontal.setValue(left)
 
 
-def _alike(one: str, other: str) -> int:
+def _common_length(text: str, other: str) -> int:
     """Return the length of the common prefix of two texts, in whole lines."""
-    lines = zip(one.splitlines(keepends=True), other.splitlines(keepends=True), strict=False)
+    lines = zip(text.splitlines(keepends=True), other.splitlines(keepends=True), strict=False)
     return sum(len(line) for line, _ in takewhile(lambda both: both[0] == both[1], lines))
 
 

@@ -1,4 +1,4 @@
-"""Smoothing: the method that is chosen, and the run that goes on."""
+"""Smoothing: the selected method and its run."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from hexmend_app.state.run.worker import IterationFrame
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
 
-#: Actions whose keys the panel's buttons name.
+#: Actions whose keys are shown on the panel's buttons.
 _BUTTONS = ("run", "step", "stop", "reset")
 
 
 class FeatureSmooth(Feature):
-    """Starts runs, holds them, and says how far they are."""
+    """Starts, pauses and stops runs, and shows their progress."""
 
     order = 25
 
@@ -32,7 +32,7 @@ class FeatureSmooth(Feature):
         self._smoothing = smoothing
         commands.memory_short.connect(self._ask_for_memory)
         self._seen = ChangeTracker()
-        self._hit: IterationFrame | None = None  # the break-point that the run has paused at
+        self._hit: IterationFrame | None = None  # with the breakpoint at which the run is paused
         panel = self.panel = SmoothingPanel(session.run_setup)
         panel.run_requested.connect(commands.run)
         panel.step_requested.connect(commands.step)
@@ -55,17 +55,17 @@ class FeatureSmooth(Feature):
                 menu="Smooth",
                 keys="F5",
                 icon="play",
-                help="Run the chosen method, pause it, or go on.",
+                help="Run the selected method; pause or resume a run.",
                 handle=self.panel.run_or_pause,
                 enabled=ready,
             ),
             Action(
                 id="step",
-                text="One &step",
+                text="&Step",
                 menu="Smooth",
                 keys="F10",
                 icon="step-forward",
-                help="Make one iteration and hold.",
+                help="Run the number of iterations set in the panel, then pause.",
                 handle=self.panel.step,
                 enabled=ready,
             ),
@@ -75,7 +75,7 @@ class FeatureSmooth(Feature):
                 menu="Smooth",
                 keys="Shift+F5",
                 icon="stop",
-                help="End the run and keep what has been reached.",
+                help="Stop the run and keep its result.",
                 handle=self._smoothing.stop,
                 enabled=lambda: self._smoothing.busy and self._smoothing.phase is not Phase.STOPPING,
             ),
@@ -85,7 +85,7 @@ class FeatureSmooth(Feature):
                 menu="Smooth",
                 keys="Ctrl+R",
                 icon="restore",
-                help="Put all nodes back to where they were when the mesh was opened.",
+                help="Restore all node positions of the mesh as it was opened.",
                 handle=self.session.commands.reset,
                 enabled=ready,
             ),
@@ -103,7 +103,7 @@ class FeatureSmooth(Feature):
         return (steps,)
 
     def panels(self) -> Sequence[Panel]:
-        """The method and its values."""
+        """Return the panel with the method and its parameters."""
         return (
             Panel(
                 id="run",
@@ -112,23 +112,23 @@ class FeatureSmooth(Feature):
                 place=PanelPlace.TOOLS,
                 tab="Run",
                 order=10,
-                help="The method that smooths the mesh, its values and its limits.",
+                help="The smoothing method, its parameters and its stopping criteria.",
             ),
         )
 
     def refresh(self) -> None:
-        """Say how far the run is, or what the mesh that is shown came of."""
+        """Show the progress of the run, or the run that produced the displayed mesh."""
         session, phase = self.session, self._smoothing.phase
         if self._seen.changed("actions", True):
             self.panel.set_shortcuts({id: self.host.action(id).shortcut().toString() for id in _BUTTONS})
         self.panel.setEnabled(self._ready())
-        chosen, form = session.selection, self.panel.breakpoint_form
-        if self._seen.changed("chosen", chosen.hex, chosen.node):
-            form.set_chosen(chosen.hex, chosen.node)
+        selection, form = session.selection, self.panel.breakpoint_form
+        if self._seen.changed("selection", selection.hex, selection.node):
+            form.set_selected(selection.hex, selection.node)
         if session.document.is_open and self._seen.changed("mesh", session.document.start):
             breakpoints = self._smoothing.breakpoints
             form.set_mesh(session.document.now.mesh.n_hexes, session.document.now.mesh.n_nodes)
-            form.set_breakpoints(breakpoints)  # which know of the mesh already
+            form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
         if phase is not Phase.PAUSED:
             self._hit = None
         moved = session.document.is_open and session.document.now is not session.document.start
@@ -144,11 +144,11 @@ class FeatureSmooth(Feature):
         return self.session.document.is_open and not self.session.opener.busy
 
     def _status(self) -> tuple[int | None, float | None, str]:
-        """Iterations, seconds and a sentence on the run that goes on, or on the one that led to what is shown."""
+        """Return iterations, seconds and a sentence about the active run or the one that led to the displayed mesh."""
         phase, record = self._smoothing.phase, self._smoothing.record
         if phase is Phase.STOPPING:
-            begun = self._smoothing.record.newest > 0
-            when = "after this iteration" if begun else "as soon as the method is ready, before its first iteration"
+            started = self._smoothing.record.newest > 0
+            when = "after this iteration" if started else "as soon as the method is ready, before its first iteration"
             return None, None, f"Stopping: the run ends {when}."
         if phase is Phase.PREPARING:
             return None, None, "Preparing the method."
@@ -163,14 +163,14 @@ class FeatureSmooth(Feature):
         return row["iteration"], row["seconds"], reason or ended
 
     def _text_without_step(self) -> str:
-        """Return the ending of a run stopped before its first iteration, while the mesh is unchanged."""
+        """Return the message of a run that was stopped before its first iteration, while the mesh is unchanged."""
         record = self._smoothing.record
-        none = self._smoothing.phase is Phase.FINISHED and record.newest < 1
-        return record.message if none and self.session.document.now is record.start else ""
+        without_step = self._smoothing.phase is Phase.FINISHED and record.newest < 1
+        return record.message if without_step and self.session.document.now is record.start else ""
 
     def _stage(self, row: dict) -> str:
         if self._hit is not None:
-            return f"Paused at a break-point: {self._hit.hit.sentence}."
+            return f"Paused at a breakpoint: {self._hit.hit.sentence}."
         work = self._smoothing.work
         if isinstance(work, Recipe) and "stage" in row:
             return f"Stage {row['stage']} of {len(work.stages)}: {METHODS[row['method']].title}."
@@ -183,21 +183,22 @@ class FeatureSmooth(Feature):
         if phase is Phase.STOPPING:
             self.host.busy.show_work("run", "Stopping…")
         elif phase is Phase.PREPARING:
-            help = "End the run before its first iteration (Shift+F5)."
+            help = "Stop the run before its first iteration (Shift+F5)."
             self.host.busy.show_work("run", "Preparing the method…", "Stop", help, self._smoothing.stop)
         else:
-            self.host.busy.done("run")  # its animation would slow a run that shows itself anyway
+            self.host.busy.done("run")  # a busy animation would slow down a run that is visible anyway
 
-    def _ask_for_memory(self, short: Shortage, start: Callable[[], object]) -> None:
+    def _ask_for_memory(self, shortage: Shortage, start: Callable[[], object]) -> None:
         """Ask whether to start a run for which memory will probably not suffice."""
-        part = "isolate a part and move only that (Hex menu)"
-        if ask_short_of_memory(self.host.dialog_parent, short.problem, short.remedy(part, titled=True)):
+        smaller_region = "isolate a part and move only that (Hex menu)"
+        remedy = shortage.remedy(smaller_region, titled=True)
+        if ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy):
             start()
 
     def _on_failed(self, error: Exception) -> None:
         record = self.session.run.record
         kept = record is not None and record.result
-        where = f"is at iteration {kept}, the last good one" if kept else "is as it was before the run"
+        where = f"is at iteration {kept}, the last valid one" if kept else "is unchanged"
         self.host.messages.show_error("The method failed", f"{error}. The mesh {where}.", report_of(error))
 
     def _on_hit(self, frame: IterationFrame) -> None:

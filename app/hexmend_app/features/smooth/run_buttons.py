@@ -1,4 +1,4 @@
-"""The buttons that run, pause, step, stop and reset."""
+"""Buttons to run, pause, step, stop and reset."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend_app.theme.style import icon, on_theme_change, set_help
 
 @dataclass(frozen=True)
 class RunState:
-    """Controls in a run state: text, icon and help of the main button, and the enabled state of the others."""
+    """Controls in a run state: text, icon and help of the main button, and whether each control is enabled."""
 
     text: str
     icon: str
@@ -26,14 +26,14 @@ class RunState:
     edit: bool
 
 
-_RUN = "Smooth the mesh with this method until a stop condition holds."
+_RUN = "Smooth the mesh with this method until a stopping criterion is met."
 STATES = {
     "idle": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=False, edit=True),
     "preparing": RunState(
-        "Preparing", "timer-sand", "The method gets ready.", run=False, step=False, stop=True, reset=False, edit=False
+        "Preparing", "timer-sand", "Preparing the method.", run=False, step=False, stop=True, reset=False, edit=False
     ),
     "stopping": RunState(
-        "Stopping", "timer-sand", "The run ends soon.", run=False, step=False, stop=False, reset=False, edit=False
+        "Stopping", "timer-sand", "Stopping the run.", run=False, step=False, stop=False, reset=False, edit=False
     ),
     "running": RunState(
         "Pause", "pause", "Pause after this iteration.", run=True, step=False, stop=True, reset=False, edit=False
@@ -42,14 +42,14 @@ STATES = {
     "finished": RunState("Run", "play", _RUN, run=True, step=True, stop=False, reset=True, edit=True),
 }
 _HELP = {
-    "step": "Make one iteration, and hold.",
-    "stop": "End the run after this iteration and keep what has been reached.",
-    "reset": "Put all nodes back to where they were when the mesh was opened.",
+    "step": "Run the number of iterations set below, then pause.",
+    "stop": "Stop the run after this iteration and keep its result.",
+    "reset": "Restore all node positions of the mesh as it was opened.",
 }
 
 
 class RunButtons(QWidget):
-    """A row of buttons, of which the first runs, pauses or resumes as the state has it; none moves as it does.
+    """Row of buttons; the first one runs, pauses or resumes, depending on the state.
 
     Signals
     -------
@@ -66,7 +66,7 @@ class RunButtons(QWidget):
         self._buttons = {
             "run": QPushButton(),
             "step": QPushButton(icon("skip-next"), "Step"),
-            "stop": QPushButton(icon("stop"), ""),  # no words: the column is narrow
+            "stop": QPushButton(icon("stop"), ""),  # no text: the column is narrow
             "reset": QPushButton(icon("restore"), ""),
         }
         on_theme_change(self, lambda: self._buttons["run"].setStyleSheet(_main_button()))
@@ -81,26 +81,26 @@ class RunButtons(QWidget):
         self.set_state("idle", True)
 
     def _reserve_space(self) -> None:
-        """Reserve the width of the longest word, so that the panel keeps its width while a run is paused."""
+        """Reserve the width of the longest text, so that no button moves when the state changes."""
         widest = 0
         for state in STATES:
             self.set_state(state, True)
             self._buttons["run"].ensurePolished()
             widest = max(widest, self._buttons["run"].minimumSizeHint().width())
         self._buttons["run"].setMinimumWidth(widest)
-        for name in ("step", "stop", "reset"):  # less than the style's 80 pixels, which four have no room for
+        for name in ("step", "stop", "reset"):  # four buttons of the style's 80 pixels do not fit
             button = self._buttons[name]
             text = button.fontMetrics().horizontalAdvance(button.text())
             button.setMinimumWidth(text + button.iconSize().width() + 18)
 
     def set_state(self, state: str, available: bool) -> None:
-        """Enable what a state of `STATES` offers, or nothing where there is nothing to run."""
+        """Show a state of `STATES`; no button is enabled unless `available`."""
         self._state = state
-        offer = STATES[state]
-        self._buttons["run"].setText(offer.text)
-        self._buttons["run"].setIcon(icon(offer.icon, ON_ACCENT))
+        controls = STATES[state]
+        self._buttons["run"].setText(controls.text)
+        self._buttons["run"].setIcon(icon(controls.icon, ON_ACCENT))
         for name, button in self._buttons.items():
-            button.setEnabled(available and getattr(offer, name))
+            button.setEnabled(available and getattr(controls, name))
         self._explain()
 
     def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
@@ -109,7 +109,7 @@ class RunButtons(QWidget):
         self._explain()
 
     def button(self, name: str) -> QPushButton:
-        """A button by the name that `pressed` gives."""
+        """Return the button with a name that `pressed` sends."""
         return self._buttons[name]
 
     def _explain(self) -> None:
@@ -120,7 +120,7 @@ class RunButtons(QWidget):
 
 
 def _main_button() -> str:
-    """The style sheet of the one button that this panel is for."""
+    """Return the style sheet of the main button."""
     return f"""
 QPushButton {{ background: {ACCENT}; color: {ON_ACCENT}; border: 1px solid {ACCENT}; border-radius: 3px;
     padding: 4px 6px; }}

@@ -1,4 +1,4 @@
-"""The panel from which smoothing is started and held: method, parameters, stop conditions, buttons, status."""
+"""Panel that sets up, runs and pauses smoothing: method, parameters, stopping criteria, buttons and status."""
 
 from __future__ import annotations
 
@@ -19,28 +19,28 @@ from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.wording import counted
 
-# Height of a section's margins, and of names that take two lines in a narrow panel.
+# Height in pixels of a section's margins and of labels that wrap in a narrow panel.
 _AROUND_FORM = 24
 
-# Lines that most sentences on a run fill at most.
+# Lines that most status sentences need at most.
 _LINES = 4
 
 
 class SmoothingPanel(QWidget):
-    """Chooses a method and its values, and asks for it to be run.
+    """Panel to set up a method and to run it.
 
     Signals
     -------
     run_requested(Stage), step_requested(Stage, iterations)
-        Not sent while a value is wrong.
+        Not sent while a value is invalid.
     change_requested(Stage)
-        Before a paused run goes on: the rest of it is to be done with what was set meanwhile.
+        Sent before a paused run is resumed with other settings.
     pause_requested, resume_requested, stop_requested, reset_requested
 
     Parameters
     ----------
-    order : Order
-        What is set here, and by others.
+    setup : RunSetup
+        Edited by the panel; shown when it is changed elsewhere.
 
     Attributes
     ----------
@@ -55,25 +55,23 @@ class SmoothingPanel(QWidget):
     stop_requested = Signal()
     reset_requested = Signal()
 
-    def __init__(self, order: RunSetup, parent: QWidget | None = None):
+    def __init__(self, setup: RunSetup, parent: QWidget | None = None):
         super().__init__(parent)
-        self._order = order
+        self._setup = setup
         self._refused = False
         self._state = "idle"
-        self._placed = False
+        self._was_shown = False
 
-        stage = self.stage = StageForm(order, self)
-        choice = QFormLayout()
-        choice.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        choice.addRow("Method", stage.method)
+        stage = self.stage = StageForm(setup, self)
+        method_row = QFormLayout()
+        method_row.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        method_row.addRow("Method", stage.method)
 
         self.breakpoint_form = BreakpointForm()
         self._sections = (
-            Section(
-                "Parameters", self.stage.parameters, "How the method goes about it; the defaults suit most meshes."
-            ),
-            Section("Stop when", stage.stop, "When a run ends by itself."),
-            Section("Pause when", self.breakpoint_form, "Break-points: what a run pauses at, to be looked at."),
+            Section("Parameters", stage.parameters, "Parameters of the method; the defaults suit most meshes."),
+            Section("Stop when", stage.stop, "Stopping criteria of a run."),
+            Section("Pause when", self.breakpoint_form, "Breakpoints: events at which a run pauses."),
         )
         self.buttons = RunButtons()
         self.buttons.pressed.connect(self._on_button)
@@ -81,29 +79,29 @@ class SmoothingPanel(QWidget):
         self._steps = QSpinBox()
         self._steps.setRange(1, 9999)
         self._steps.setFont(tabular(self._steps.font()))
-        set_help(self._steps, "Iterations of a step", "How many iterations Step makes before it holds.")
+        set_help(self._steps, "Iterations per step", "Number of iterations that Step runs before it pauses.")
         steps = QLabel("Step by")
         steps.setBuddy(self._steps)
-        self._progress = ElidingLabel()  # the more iterations, the longer: the column keeps its width
+        self._progress = ElidingLabel()  # keeps the width of the panel as the numbers grow
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName("Progress")
         self._sentence = note()
         self._sentence.setAccessibleName("Outcome")
         self._sentence.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
-        # Room for it from the start: what is below does not move as a sentence comes and goes.
+        # Reserve the height, so that nothing below moves when the sentence changes.
         self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())
 
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        layout.addLayout(choice)
+        layout.addLayout(method_row)
         layout.addWidget(self.buttons)
         foot = QHBoxLayout()
         foot.addWidget(self._progress, 1)
         foot.addWidget(steps)
         foot.addWidget(self._steps)
         layout.addLayout(foot)
-        layout.addWidget(stage.help)  # below what is clicked: texts of methods differ in length
+        layout.addWidget(stage.help)  # below the buttons: its height depends on the method
         layout.addWidget(self._sentence)
         for section in self._sections:
             layout.addWidget(section)
@@ -111,18 +109,18 @@ class SmoothingPanel(QWidget):
         self.set_state("idle")
         self.set_status()
         self.stage.edited.connect(self._on_edited)
-        order.chosen.connect(self._on_chosen)
-        order.refused.connect(self._show_problem)
+        setup.chosen.connect(self._on_setup_changed)
+        setup.refused.connect(self._show_problem)
 
-    def _on_chosen(self) -> None:
-        self.stage.show_order()
+    def _on_setup_changed(self) -> None:
+        self.stage.show_setup()
         self._refused = False
 
     def _on_edited(self) -> None:
-        self._refused = self._refused and self.stage.wrong is not None
+        self._refused = self._refused and self.stage.invalid_form is not None
 
     def set_state(self, state: str) -> None:
-        """Enable what makes sense in a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
+        """Enable the controls of a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
         self.buttons.set_state(state, True)
         self.stage.set_enabled(STATES[state].edit)
@@ -132,47 +130,47 @@ class SmoothingPanel(QWidget):
         self.buttons.set_shortcuts(shortcuts)
 
     def set_status(self, iteration: int | None = None, seconds: float | None = None, sentence: str = "") -> None:
-        """Show how far a run is (seconds in the method) and, at its end, the outcome."""
+        """Show the progress of a run (seconds spent in the method) and a sentence about its state or outcome."""
         parts = [] if iteration is None else [counted(iteration, "iteration")]
         if seconds is not None:
-            digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three in all: there is room for no more
+            digits = 2 - min(len(str(int(seconds))) - 1, 2)  # three digits in all
             parts.append(f"{seconds:.{digits}f} s")
         text = " · ".join(parts)
         self._progress.setText(text or "Not run yet")
         self._progress.setToolTip(text)
         if not self._refused:
-            self._tell(sentence, MUTED)
+            self._show_sentence(sentence, MUTED)
 
-    def _tell(self, sentence: str, role: Role) -> None:
+    def _show_sentence(self, sentence: str, role: Role) -> None:
         tint(self._sentence, role)
         self._sentence.setText(sentence)
 
     @property
     def steps(self) -> int:
-        """Return the number of iterations in a step."""
+        """Number of iterations per step."""
         return self._steps.value()
 
     def set_steps(self, count: int) -> None:
-        """Set how many iterations a step makes."""
+        """Set the number of iterations per step."""
         self._steps.setValue(count)
 
-    def show_break_points(self) -> None:
-        """Unfold what a run pauses at."""
+    def show_breakpoints(self) -> None:
+        """Expand the section of the breakpoints."""
         self._sections[-1].expand()
 
     def run_or_pause(self) -> None:
-        """Run, pause or resume, according to the state."""
+        """Run, pause or resume, depending on the state."""
         if self._state == "running":
             self.pause_requested.emit()
         elif self._state == "paused":
-            self._order.use(self._resume)
+            self._setup.use(self._resume)
         elif STATES[self._state].run:
-            self._order.use(self.run_requested.emit)
+            self._setup.use(self.run_requested.emit)
 
     def step(self) -> None:
-        """Ask for one iteration, where the state allows it."""
+        """Request a step if the state allows it."""
         if STATES[self._state].step:
-            self._order.use(self._step)
+            self._setup.use(self._step)
 
     def _resume(self, stage: Stage) -> None:
         self._change(stage)
@@ -184,9 +182,9 @@ class SmoothingPanel(QWidget):
         self.step_requested.emit(stage, self.steps)
 
     def _change(self, stage: Stage) -> None:
-        """Tell what the rest of the run is to be done with, if that is something else."""
-        if stage != self._order.begun:
-            self._order.begun = stage
+        """Request the rest of the run with `stage` if it differs from the active one."""
+        if stage != self._setup.begun:
+            self._setup.begun = stage
             self.change_requested.emit(stage)
 
     def _on_button(self, name: str) -> None:
@@ -198,28 +196,28 @@ class SmoothingPanel(QWidget):
         }[name]()
 
     def _show_problem(self) -> None:
-        """Say which value is wrong, until it is so no more."""
-        form = self.stage.wrong
+        """Show the first invalid value and a message until it is corrected."""
+        form = self.stage.invalid_form
         if form is not None:
             self._sections[(self.stage.parameters, self.stage.stop).index(form)].expand()
             form.show_problem()
             self._refused = True
-            self._tell("Correct the marked value first.", WORSE)
+            self._show_sentence("Correct the marked value first.", WORSE)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Unfold the parameters at first sight where there is room for them."""
+        """Expand the sections that fit when the panel is first shown."""
         super().showEvent(event)
-        if self._placed:
+        if self._was_shown:
             return
-        self._placed = True
-        around = self.parentWidget()
-        while around is not None and not isinstance(around, QScrollArea):
-            around = around.parentWidget()
-        space, whole = (self.height(), self) if around is None else (around.viewport().height(), around.widget())
-        space -= whole.minimumSizeHint().height()  # what stands beside this panel counts too
+        self._was_shown = True
+        area = self.parentWidget()
+        while area is not None and not isinstance(area, QScrollArea):
+            area = area.parentWidget()
+        height, content = (self.height(), self) if area is None else (area.viewport().height(), area.widget())
+        height -= content.minimumSizeHint().height()  # includes other panels in the same scroll area
         for section, form in zip(self._sections, (self.stage.parameters, self.stage.stop), strict=False):
-            need = form.sizeHint().height() + _AROUND_FORM
-            if need > space:
+            needed = form.sizeHint().height() + _AROUND_FORM
+            if needed > height:
                 break
             section.expand()
-            space -= need
+            height -= needed

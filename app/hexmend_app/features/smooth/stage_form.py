@@ -21,35 +21,35 @@ from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
 
 class StageForm(QObject):
-    """Lets the order be set; the panel lays its parts out.
+    """Widgets that edit a `RunSetup`; the panel lays them out.
 
     Parameters
     ----------
-    order : Order
-        What is set here, and by others.
+    setup : RunSetup
+        Edited by the form.
 
     Attributes
     ----------
     method : QComboBox
     help : QLabel
-        What the method does.
+        Description of the method.
     parameters, stop : ParameterForm
 
     Signals
     -------
     edited
-        The user has set something, admitted or not.
+        The user has changed a value, valid or not.
     """
 
     edited = Signal()
 
-    def __init__(self, order: RunSetup, parent: QObject | None = None):
+    def __init__(self, setup: RunSetup, parent: QObject | None = None):
         super().__init__(parent)
-        self._order = order
+        self._setup = setup
         self._name = ""
         self.method = QComboBox()
         let_shrink(self.method, 14)
-        set_help(self.method, "Method", "How nodes are moved; the line below says what the chosen method does.")
+        set_help(self.method, "Method", "Smoothing method; it is described below.")
         for at, method in enumerate(METHODS.values()):
             self.method.addItem(method.title, method.name)
             about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
@@ -57,37 +57,37 @@ class StageForm(QObject):
             self.method.setItemData(at, tip, Qt.ItemDataRole.ToolTipRole)
         self.help = note()
         self.parameters, self.stop = ParameterForm(), ParameterForm(declared(StoppingCriteria))
-        self.show_order()
+        self.show_setup()
         self.method.activated.connect(self._on_method)
         for form in (self.parameters, self.stop):
             form.changed.connect(self._on_edited)
 
-    def show_order(self) -> None:
-        """Show what others have set; without a signal."""
-        stage = self._order.stage
+    def show_setup(self) -> None:
+        """Show the stage of the setup without sending a signal."""
+        stage = self._setup.stage
         self._show_method(stage.smoother.name, stage.smoother.values())
         with QSignalBlocker(self.stop):
             self.stop.set_values(stage.stop.values())
 
     def set_enabled(self, on: bool) -> None:
-        """Let the user set it, or not."""
-        for part in (self.method, self.parameters, self.stop):
-            part.setEnabled(on)
+        """Enable or disable editing."""
+        for widget in (self.method, self.parameters, self.stop):
+            widget.setEnabled(on)
 
     @property
-    def wrong(self) -> ParameterForm | None:
-        """The first form in which a value is wrong."""
+    def invalid_form(self) -> ParameterForm | None:
+        """First form with an invalid value; None if all values are valid."""
         return next((form for form in (self.parameters, self.stop) if form.problems()), None)
 
     def _show_method(self, name: str, values: Mapping[str, Any] | None = None) -> None:
-        """Show a method with what was last set for it, or with `values`."""
+        """Show a method with its last values, updated by `values`."""
         method = METHODS[name]
         self._name = name
         self.method.setCurrentIndex(self.method.findData(name))
         self.help.setText(f"{method.help}\nSource: {method.source}" if method.source else method.help)
         with QSignalBlocker(self.parameters):
             self.parameters.set_declarations(declared(method))
-            self.parameters.set_values(self._order.values_of(name) | dict(values or {}))
+            self.parameters.set_values(self._setup.values_of(name) | dict(values or {}))
 
     def _on_method(self) -> None:
         if self.method.currentData() != self._name:
@@ -96,11 +96,11 @@ class StageForm(QObject):
 
     def _on_edited(self, *_: object) -> None:
         self.edited.emit()
-        self._order.set(self._name, self.parameters.values(), self._stage())
+        self._setup.set(self._name, self.parameters.values(), self._stage())
 
     def _stage(self) -> Stage | None:
         """Return the stage set in the forms; None while a value is invalid."""
-        if self.wrong is not None:
+        if self.invalid_form is not None:
             return None
         try:
             return Stage(METHODS[self._name](**self.parameters.values()), StoppingCriteria(**self.stop.values()))

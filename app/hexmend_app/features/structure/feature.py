@@ -1,4 +1,4 @@
-"""The mesh's structure in the view: irregular and sharp edges, fixed, free and locked nodes."""
+"""Layers of the mesh structure: irregular and sharp edges; fixed, free and locked nodes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend_app.picture.layer_switch import ordered_layers
 
 
 class FeatureStructure(Feature):
-    """Switches the layers that show a mesh's structure, and counts what they show."""
+    """Shows and hides the layers of the mesh structure, with counts."""
 
     order = 53
 
@@ -25,7 +25,7 @@ class FeatureStructure(Feature):
         self.panel.structure_changed.connect(lambda structure: self._view.change(structure=structure))
 
     def actions(self) -> Sequence[Action]:
-        """One for each layer."""
+        """Return one action for each layer."""
         return [
             Action(
                 id=f"show_{layer.name}",
@@ -42,7 +42,7 @@ class FeatureStructure(Feature):
         ]
 
     def panels(self) -> Sequence[Panel]:
-        """The layers, with what their colours mean."""
+        """Return the panel with the layers and their legends."""
         return (
             Panel(
                 id="show",
@@ -50,18 +50,18 @@ class FeatureStructure(Feature):
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 order=40,
-                help="Edges and nodes that are shown over the mesh.",
+                help="Edges and nodes drawn over the mesh.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show what is switched on, and how many there are."""
+        """Update check boxes, legends and counts."""
         session = self.session
         self.panel.setEnabled(session.document.is_open)
         self.panel.set_structure(self._view.look.structure)
         if not session.document.is_open:
             return
-        self._class()
+        self._classify_boundary()
         if self._seen.changed("found", session.structure_finder.structure, session.document.start):
             self.panel.set_found(session.structure_finder.structure)
         now = session.document.now
@@ -69,24 +69,23 @@ class FeatureStructure(Feature):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
                     self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))
-        counted = now.mesh.pinned, now.summary.free_nodes, now.summary.locked_inverted
+        summary = now.summary
+        counted = now.mesh.pinned, summary.free_nodes, summary.locked_inverted
         if self._seen.changed("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
             pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
-            self.panel.set_nodes(
-                np.count_nonzero(boundary), pinned, now.summary.free_nodes, now.summary.locked_inverted
-            )  # fmt: skip
+            self.panel.set_nodes(np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted)
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
         self.refresh()
 
-    def _class(self) -> None:
-        """Have the boundary classed that the next run begins with, where somebody looks at that."""
+    def _classify_boundary(self) -> None:
+        """Classify the boundary nodes for the next run if the result is visible."""
         session = self.session
         now, smoother = session.document.now, session.run_setup.smoother
-        looked = self.panel.isVisible() or self._view.look.structure.kinds
-        if looked and smoother is not None and not session.run.busy:
+        visible = self.panel.isVisible() or self._view.look.structure.kinds
+        if visible and smoother is not None and not session.run.busy:
             session.boundary_classifier.ask(
                 now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE)
             )

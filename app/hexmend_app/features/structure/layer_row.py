@@ -9,21 +9,19 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 from hexmend_app.theme.palette import RIM, Role
 from hexmend_app.theme.style import note, set_help, tabular
 
-_NOT_YET = "Being counted."
-#: What is said where it could not be found out what there is.
-_FAILED = "could not be worked out"
+_COUNTING = "Counting."
+_FAILED = "failed"
 _COLUMNS = 2
 
-#: Letters up to which texts stand beside each other: two more and they are cut off in a narrow column.
+#: Maximum length of texts in two columns; longer ones are cut off in a narrow panel.
 _WIDEST = 6
 
-#: What one mark of a layer stands for: its colour, or None for a remark without a mark, whether it is a line, and the
-#: text beside it.
+#: Legend entry: colour (None without a mark), True for a line, and text.
 Entry = tuple[str | Role | None, bool, str]
 
 
 class LayerRow:
-    """Check box of one layer with a legend.
+    """Check box and legend of a layer.
 
     Parameters
     ----------
@@ -31,10 +29,10 @@ class LayerRow:
         Text of the check box, and its tooltip.
     reason : str
         Tooltip if the layer is empty.
-    at_once : bool
-        True if the layer can be selected before its contents are known.
-    unless : bool
-        True if the layer is on by default; an empty layer is hidden.
+    offered_early : bool
+        True if the layer can be switched on before its contents are known.
+    hidden_when_empty : bool
+        True if the row is hidden while the layer is empty.
 
     Attributes
     ----------
@@ -42,10 +40,10 @@ class LayerRow:
     entries : QWidget
     """
 
-    def __init__(self, name: str, help: str, reason: str, at_once: bool = False, unless: bool = False):
-        self._name, self._help, self._reason, self._at_once = name, help, reason, at_once
-        self._unless = unless
-        self._known: list[Entry] | None = []
+    def __init__(self, name: str, help: str, reason: str, offered_early: bool = False, hidden_when_empty: bool = False):
+        self._name, self._help, self._reason = name, help, reason
+        self._offered_early, self._hidden_when_empty = offered_early, hidden_when_empty
+        self._entries: list[Entry] | None = []
         self._error: BaseException | None = None
         self.box = QCheckBox(name)
         self.entries = QWidget()
@@ -57,39 +55,40 @@ class LayerRow:
             self._grid.setColumnStretch(column, 1)
 
     def set_on(self, on: bool) -> None:
-        """Show whether it is drawn."""
+        """Check or uncheck the box."""
         self.box.setChecked(on)
         self._enable()
 
     def set_entries(self, entries: list[Entry] | None, error: BaseException | None = None) -> None:
-        """Show the legend; None while unknown, with the error if finding it failed."""
-        self._known, self._error = entries, error
+        """Show the legend; None while it is unknown, with the error if finding it failed."""
+        self._entries, self._error = entries, error
         while self._grid.count():
             old = self._grid.takeAt(0).widget()
             old.hide()
             old.deleteLater()
         if not entries:
-            sentence = _FAILED if error is not None else "counting…" if entries is None else "none"
-            self._grid.addWidget(_text(sentence), 0, 0, 1, _COLUMNS)
-        neighbour = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
+            text = _FAILED if error is not None else "counting…" if entries is None else "none"
+            self._grid.addWidget(_text(text), 0, 0, 1, _COLUMNS)
+        columns = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
         for at, entry in enumerate(entries or ()):
-            self._grid.addWidget(_entry(*entry), at // neighbour, at % neighbour, 1, _COLUMNS // neighbour)
+            self._grid.addWidget(_entry(*entry), at // columns, at % columns, 1, _COLUMNS // columns)
         self._enable()
 
     def _enable(self) -> None:
         failed = self._error is not None
-        waits = self._known is None and not self._at_once
-        there = bool(self._known) or (self._known is None and self._at_once and not failed)
-        self.box.setEnabled(there or (self.box.isChecked() and not self._unless))  # what is on can be switched off
-        if self._unless:
-            self.box.setVisible(there)
-            self.entries.setVisible(there)
-        reason = f"This could not be worked out: {self._error}." if failed else _NOT_YET if waits else self._reason
-        set_help(self.box, self._name, self._help if there else reason)
+        waiting = self._entries is None and not self._offered_early
+        offered = bool(self._entries) or (self._entries is None and self._offered_early and not failed)
+        # A layer that is on can be switched off.
+        self.box.setEnabled(offered or (self.box.isChecked() and not self._hidden_when_empty))
+        if self._hidden_when_empty:
+            self.box.setVisible(offered)
+            self.entries.setVisible(offered)
+        reason = f"Counting failed: {self._error}." if failed else _COUNTING if waiting else self._reason
+        set_help(self.box, self._name, self._help if offered else reason)
 
 
 class _Mark(QWidget):
-    """Line or point as the view draws it: a colour with a rim."""
+    """Mark of a line or point: a coloured rectangle with a rim, as in the view."""
 
     def __init__(self, colour: str | Role, line: bool, parent: QWidget | None = None):
         super().__init__(parent)
@@ -97,7 +96,7 @@ class _Mark(QWidget):
         self.setFixedSize(QSize(11, 7) if line else QSize(9, 9))
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Fill the rim."""
+        """Paint the rectangle and its rim."""
         painter = QPainter(self)
         painter.setPen(QColor(str(RIM)))
         painter.setBrush(QColor(str(self._colour)))

@@ -1,4 +1,4 @@
-"""The panel of the mesh's structure: irregular and sharp edges, and fixed, free and locked nodes, each shown or not."""
+"""Panel for the layers of the mesh structure: irregular and sharp edges; fixed, free and locked nodes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from hexmend.boundary import NodeClass
-from hexmend.mesh.structure import Structure as Found
+from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.picture.appearance import Structure
 from hexmend_app.picture.layer_switch import ordered_layers
@@ -26,15 +26,15 @@ from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryCl
 from hexmend_app.widgets.wording import counted
 
 _EDGES = ("irregular", "boundary", "sharp")
-#: What nodes are called by what they are to the boundary.
-_CALLED = {
+#: Texts of the classes of boundary nodes.
+_KIND_TEXT = {
     NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
     WHISKER: "on whiskers", PIN: "pinned",
 }  # fmt: skip
 
 
 class StructurePanel(QWidget):
-    """Selects the layers of the mesh structure, and shows their counts.
+    """Panel that shows and hides the layers of the mesh structure, with counts.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class StructurePanel(QWidget):
     Signals
     -------
     structure_changed(Structure)
-        The user chose.
+        The user has shown or hidden a layer.
     """
 
     structure_changed = Signal(object)
@@ -55,8 +55,10 @@ class StructurePanel(QWidget):
         self._counts: tuple[int, ...] = ()
         self._classes: BoundaryClasses | None = None
         self.layers = {
-            one.name: LayerRow(one.title, one.help, one.empty, one.offered_early, one.hidden_when_empty)
-            for one in ordered_layers()
+            switch.name: LayerRow(
+                switch.title, switch.help, switch.empty, switch.offered_early, switch.hidden_when_empty
+            )
+            for switch in ordered_layers()
         }
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
@@ -66,21 +68,21 @@ class StructurePanel(QWidget):
         for row, (name, layer) in enumerate(self.layers.items()):
             grid.addWidget(layer.box, row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(layer.entries, row, 1)
-            layer.box.clicked.connect(lambda on, name=name: self._choose(name, on))
-        self.set_structure(self._structure)  # of no mesh there is nothing to count
+            layer.box.clicked.connect(lambda on, name=name: self._switch(name, on))
+        self.set_structure(self._structure)
 
     def offered(self) -> dict[str, bool]:
-        """Return for each field of `Structure` whether its layer can be switched."""
+        """Return for each layer whether it can be switched on or off."""
         return {name: layer.box.isEnabled() for name, layer in self.layers.items()}
 
     def set_structure(self, structure: Structure) -> None:
-        """Show a choice, without a signal."""
+        """Show which layers are on, without sending a signal."""
         self._structure = structure
         for name, layer in self.layers.items():
             layer.set_on(structure.is_on(name))
 
-    def set_found(self, found: Found | None) -> None:
-        """Take the edges of a mesh; None while they are being found."""
+    def set_found(self, found: MeshStructure | None) -> None:
+        """Show the counts of edges; None while they are being found."""
         if found is None:
             for name in _EDGES:
                 self.layers[name].set_entries(None)
@@ -93,7 +95,7 @@ class StructurePanel(QWidget):
         self.layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
 
     def set_nodes(self, boundary: int, pinned: int, free: int, locked: int) -> None:
-        """Take the numbers of nodes on the boundary, pinned and free, and of locked elements."""
+        """Show the numbers of boundary, pinned and free nodes, and of locked hexes."""
         counts = (boundary, pinned, free, locked)
         if counts == self._counts:
             return
@@ -110,36 +112,37 @@ class StructurePanel(QWidget):
         self.layers[name].set_entries(entries)
 
     def set_classes(self, classes: BoundaryClasses | None, error: BaseException | None = None) -> None:
-        """Take what the nodes of the boundary are; None while that is being found, or with the error why not."""
+        """Show the classes of boundary nodes; None while they are being found, with the error if that failed."""
         self._classes = classes
         entries: list[Entry] | None = None
         if classes is not None:
-            counts = {kind: classes.count(kind) for kind in _CALLED}
-            entries = [(KINDS[kind], False, f"{count:,} {_CALLED[kind]}") for kind, count in counts.items() if count]
+            counts = {kind: classes.count(kind) for kind in _KIND_TEXT}
+            entries = [(KINDS[kind], False, f"{count:,} {_KIND_TEXT[kind]}") for kind, count in counts.items() if count]
         self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 
     def _show_locked(self) -> None:
-        """Show the number of locked hexes and, once known, how many of them sliding can free."""
+        """Show the number of locked hexes and, once known, how many of them sliding frees."""
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
         entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
         if locked and classes is not None and classes.locked == locked:
             entries.append((None, False, f"{classes.freed:,} freed by sliding"))
         self.layers["locked"].set_entries(entries)
 
-    def _choose(self, name: str, on: bool) -> None:
+    def _switch(self, name: str, on: bool) -> None:
         self._structure = self._structure.switched(name, on)
         self.layers[name].set_on(on)
         self.structure_changed.emit(self._structure)
 
 
 def _by_valence(valence: np.ndarray) -> list[Entry]:
-    """Return edge counts by valence; valences without a colour are merged."""
+    """Return the counts of edges by valence; valences without a colour are merged."""
     numbers, counts = np.unique(valence, return_counts=True)
-    own = [(VALENCES[n], True, f"{count:,} of {n}") for n, count in zip(numbers, counts, strict=True) if n in VALENCES]
-    others = [(n, count) for n, count in zip(numbers, counts, strict=True) if n not in VALENCES]
-    if len(others) == 1:
-        own.append((OTHER, True, f"{others[0][1]:,} of {others[0][0]}"))
-    elif others:
-        own.append((OTHER, True, f"{sum(count for _, count in others):,} others"))
-    return own
+    pairs = list(zip(numbers, counts, strict=True))
+    entries = [(VALENCES[n], True, f"{count:,} of {n}") for n, count in pairs if n in VALENCES]
+    rest = [(n, count) for n, count in pairs if n not in VALENCES]
+    if len(rest) == 1:
+        entries.append((OTHER, True, f"{rest[0][1]:,} of {rest[0][0]}"))
+    elif rest:
+        entries.append((OTHER, True, f"{sum(count for _, count in rest):,} others"))
+    return entries

@@ -1,4 +1,4 @@
-"""Tagging hexes: the lines between the mesh's groups of hexes and the panel that shows them."""
+"""Tags: named groups of hexes in the mesh, and their panel."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
 
 
 class FeatureTags(Feature):
-    """Gives hexes tags, takes them away, and shows who has them."""
+    """Adds and removes tags of hexes, and lists them."""
 
     order = 54
 
@@ -29,17 +29,16 @@ class FeatureTags(Feature):
         panel.refused.connect(host.messages.show_info)
 
     def actions(self) -> Sequence[Action]:
-        """Tag what is chosen."""
+        """Return the action that tags the selected hex."""
         return (
             Action(
                 id="tag",
-                text="&Tag the hex",
+                text="&Tag hex",
                 menu="Hex",
                 part=2,
                 keys="T",
                 icon="tag-outline",
-                help="Give the chosen hex the tag that the panel Tags names, or take it away; "
-                "tags are saved with the mesh.",
+                help="Add the tag in the Tags panel to the selected hex, or remove it; tags are saved with the mesh.",
                 handle=self.panel.toggle,
                 in_view=True,
             ),
@@ -50,7 +49,7 @@ class FeatureTags(Feature):
         return (StatePart(name="tag", data=str, to_data=lambda: self.panel.name, restore=self.panel.set_name),)
 
     def panels(self) -> Sequence[Panel]:
-        """The tags."""
+        """Return the panel with the tags."""
         return (
             Panel(
                 id="tags",
@@ -63,7 +62,7 @@ class FeatureTags(Feature):
         )
 
     def refresh(self) -> None:
-        """Show the tags as they are now."""
+        """Show the tags of the mesh."""
         self.panel.setEnabled(self.session.document.is_open)
         self.panel.set_state(self.session.selection.hex is not None, not self.session.editable)
         if not self.session.document.is_open:
@@ -85,9 +84,9 @@ class FeatureTags(Feature):
         self.refresh()
 
     def _toggle(self, name: str) -> None:
-        chosen = self.session.selection.hex
+        selected = self.session.selection.hex
         members = self.session.document.now.mesh.hex_sets.get(name, ())
-        self.session.commands.tag(name, [chosen], on=chosen not in members)
+        self.session.commands.tag(name, [selected], on=selected not in members)
 
     def _all_shown(self) -> np.ndarray:
         shown = None if self.canvas is None else self.canvas.viewport.left()

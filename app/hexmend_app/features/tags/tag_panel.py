@@ -1,4 +1,4 @@
-"""Tags: named groups of elements that are saved with the mesh."""
+"""Panel for tags: named groups of hexes that are saved with the mesh."""
 
 from __future__ import annotations
 
@@ -23,39 +23,39 @@ from hexmend_app.widgets.wording import figure
 
 _TITLES = ("Tag", "Hexes", "Inverted", "q min")
 _HINT = (
-    "No hex is tagged. Choose one and press T, or tag all that are shown or listed as worst. "
-    "Tags are saved with the mesh in VTK and VTU files; groups of hexes that a file holds appear here."
+    "No tags. Select a hex and press T, or tag all shown or worst hexes. "
+    "Tags are saved with the mesh in VTK and VTU files; hex groups of opened files appear here."
 )
-_BUSY = "Nothing can be tagged while a run is under way, paused or not: end it with Stop, which keeps what it reached."
-_NAMELESS = "Tags need a name: write one into “Tag as”."
-_NONE_CHOSEN = "No hex is chosen: click on one in the view, or press N for the worst, then T tags it."
+_BUSY = "Hexes cannot be tagged during a run, even a paused one. Stop the run; its result is kept."
+_NAMELESS = "Enter a tag name in “Tag as”."
+_NONE_SELECTED = "No hex selected: click a hex in the view, or press N for the worst, then press T to tag it."
 _Trigger = QAbstractItemView.EditTrigger
 _RENAMING = _Trigger.DoubleClicked | _Trigger.EditKeyPressed | _Trigger.AnyKeyPressed
 
 
 @dataclass(frozen=True)
 class TagRow:
-    """A tag, how many elements have it, how many of these are inverted, and the least q among them (None of none)."""
+    """Row of a tag: its number of hexes, of inverted hexes, and the minimum q (None without hexes)."""
 
     name: str
-    elements: int
+    hexes: int
     inverted: int
     q_min: float | None
 
 
 class TagPanel(QWidget):
-    """Lists the tags and gives them.
+    """Table of the tags, with buttons to tag hexes.
 
     Signals
     -------
     toggle_requested(name)
-        The user wants the chosen element tagged, or no more.
+        Tag or untag the selected hex.
     shown_requested(name), listed_requested(name)
-        The user wants all elements tagged that are shown in the view, or listed as the worst.
+        Tag all hexes shown in the view, or all in the list of the worst.
     isolate_requested(name), remove_requested(name)
     renamed(name, other)
     refused(str)
-        The chosen hex was to be tagged, and cannot be: why, as a sentence.
+        The selected hex cannot be tagged; the reason as a sentence.
     """
 
     toggle_requested = Signal(str)
@@ -69,22 +69,22 @@ class TagPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._rows: list[TagRow] = []
-        self._busy = self._chosen = False
+        self._busy = self._hex_selected = False
         self._name = QComboBox()
         self._name.setEditable(True)
-        self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list is of tags that there are
+        self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list contains existing tags only
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
-        set_help(self._name, "Tag as", "The name of the tag that hexes are given.")
-        self._element = self._button("Hex", "Tag the chosen hex, or take the tag from it (T).")
-        self._shown = self._button("Shown", "Tag all hexes that are shown in the view: what is hidden is left out.")
-        self._listed = self._button("Worst", "Tag all hexes of the list of the worst.")
-        self._isolate = self._button("Isolate", "Show the hexes of this tag and their neighbours, and nothing else.")
-        self._remove = self._button("Remove", "Take this tag from all its hexes.")
+        set_help(self._name, "Tag as", "Name of the tag to add.")
+        self._hex = self._button("Hex", "Tag or untag the selected hex (T).")
+        self._shown = self._button("Shown", "Tag all hexes shown in the view, except hidden ones.")
+        self._listed = self._button("Worst", "Tag all hexes in the list of the worst.")
+        self._isolate = self._button("Isolate", "Show only the hexes with this tag and their neighbours.")
+        self._remove = self._button("Remove", "Remove this tag from all hexes.")
         self._table = self._make_table()
         self._hint = note(_HINT)
         self._lay_out()
-        self._element.clicked.connect(self.toggle)
+        self._hex.clicked.connect(self.toggle)
         self._shown.clicked.connect(lambda: self.shown_requested.emit(self.name))
         self._listed.clicked.connect(lambda: self.listed_requested.emit(self.name))
         self._isolate.clicked.connect(lambda: self.isolate_requested.emit(self._selected()))
@@ -114,11 +114,11 @@ class TagPanel(QWidget):
         label.setBuddy(self._name)
         head.addWidget(label)
         head.addWidget(self._name, 1)
-        for part in (self._element, self._shown, self._listed):
-            head.addWidget(part)
+        for button in (self._hex, self._shown, self._listed):
+            head.addWidget(button)
         foot.addWidget(self._hint, 1)
-        for part in (self._isolate, self._remove):
-            foot.addWidget(part)
+        for button in (self._isolate, self._remove):
+            foot.addWidget(button)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)
@@ -128,7 +128,7 @@ class TagPanel(QWidget):
 
     @property
     def name(self) -> str:
-        """The name of the tag that elements are given; "" while there is none."""
+        """Name of the tag to add; "" if empty."""
         return self._name.currentText().strip()
 
     def set_name(self, name: str) -> None:
@@ -137,27 +137,27 @@ class TagPanel(QWidget):
 
     @property
     def can_toggle(self) -> bool:
-        """Return True if a hex is selected and a name is given."""
-        return not self.reason_against
+        """True if the selected hex can be tagged."""
+        return not self.obstacle
 
     @property
-    def reason_against(self) -> str:
-        """Why the chosen hex cannot be tagged, as a sentence; "" where it can."""
+    def obstacle(self) -> str:
+        """Reason why the selected hex cannot be tagged, as a sentence; "" if it can."""
         if self._busy:
             return _BUSY
         if not self.name:
             return _NAMELESS
-        return "" if self._chosen else _NONE_CHOSEN
+        return "" if self._hex_selected else _NONE_SELECTED
 
     def toggle(self) -> None:
-        """Ask for the chosen hex's tag, or to take it away; or say why that cannot be."""
+        """Request to tag or untag the selected hex, or report why that is not possible."""
         if self.can_toggle:
             self.toggle_requested.emit(self.name)
         else:
-            self.refused.emit(self.reason_against)
+            self.refused.emit(self.obstacle)
 
     def set_tags(self, rows: list[TagRow]) -> None:
-        """Show the tags; without a signal."""
+        """Show the tags without sending a signal."""
         if rows == self._rows:
             return
         selected, name = self._selected(), self._name.currentText()
@@ -165,7 +165,7 @@ class TagPanel(QWidget):
         with QSignalBlocker(self._table), QSignalBlocker(self._name):
             self._table.setRowCount(len(rows))
             for at, row in enumerate(rows):
-                for column, text in enumerate((row.name, f"{row.elements:,}", f"{row.inverted:,}", figure(row.q_min))):
+                for column, text in enumerate((row.name, f"{row.hexes:,}", f"{row.inverted:,}", figure(row.q_min))):
                     self._table.setItem(at, column, self._item(text, column))
             self._name.clear()
             self._name.addItems([row.name for row in rows])
@@ -184,9 +184,9 @@ class TagPanel(QWidget):
             item.setToolTip("Double-click to rename the tag.")
         return item
 
-    def set_state(self, chosen: bool, busy: bool) -> None:
-        """Say whether an element is chosen, and whether a run is under way, in which nothing can be tagged."""
-        self._chosen, self._busy = chosen, busy
+    def set_state(self, hex_selected: bool, busy: bool) -> None:
+        """Set whether a hex is selected, and whether a run prevents tagging."""
+        self._hex_selected, self._busy = hex_selected, busy
         self._enable()
 
     def _selected(self) -> str:
@@ -195,8 +195,8 @@ class TagPanel(QWidget):
 
     def _on_edited(self, item: QTableWidgetItem) -> None:
         old, new = self._rows[item.row()].name, item.text().strip()
-        taken = any(row.name == new for row in self._rows)
-        if new and not taken and not self._busy:
+        exists = any(row.name == new for row in self._rows)
+        if new and not exists and not self._busy:
             self.renamed.emit(old, new)
         else:
             with QSignalBlocker(self._table):
@@ -204,12 +204,12 @@ class TagPanel(QWidget):
 
     def _enable(self) -> None:
         possible = bool(self.name) and not self._busy
-        self._element.setEnabled(self.can_toggle)
+        self._hex.setEnabled(self.can_toggle)
         self._shown.setEnabled(possible)
         self._listed.setEnabled(possible)
         self._isolate.setEnabled(bool(self._selected()))
         self._remove.setEnabled(bool(self._selected()) and not self._busy)
         self._table.setEditTriggers(_Trigger.NoEditTriggers if self._busy else _RENAMING)
-        free = _NONE_CHOSEN if self._rows else _HINT
-        reason = self.reason_against
-        self._hint.setText(free if reason == _NONE_CHOSEN else reason)
+        hint = _NONE_SELECTED if self._rows else _HINT
+        reason = self.obstacle
+        self._hint.setText(hint if reason == _NONE_SELECTED else reason)

@@ -1,4 +1,4 @@
-"""Recipes in the window, by real clicks and keys: put together, run, saved and loaded."""
+"""Recipes in the window, by mouse and keys: edited, run, saved and loaded."""
 
 import numpy as np
 import pytest
@@ -52,13 +52,13 @@ def add(window, panel, method, values=None, stop=SHORT):
 
 
 def said(window):
-    """The sentence below the buttons that hold a run."""
+    """Return the sentence below the buttons of a run."""
     window.refresh()
     return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def type_value(window, name, text):
-    """Give the method at hand another value, as a hand does."""
+    """Type a value of the selected method."""
     panel = window.features["smooth"].panel
     next(one for one in panel.findChildren(Section) if one.text() == "Parameters").expand()
     editor = panel.stage.parameters.editor(name).lineEdit()

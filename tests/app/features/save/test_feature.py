@@ -1,4 +1,4 @@
-"""The mesh and the view, saved from the window."""
+"""Meshes and pictures saved from the window."""
 
 from __future__ import annotations
 

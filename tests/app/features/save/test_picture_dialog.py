@@ -1,4 +1,4 @@
-"""The dialog that asks what a picture is to be like and where it goes."""
+"""Dialog for the settings and path of a picture."""
 
 import numpy as np
 import pytest
@@ -158,7 +158,7 @@ def test_what_cannot_be_used_is_said_and_not_saved(dialog, tmp_path):
 
 def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
     type_into(dialog, "edges", "0.4")
-    dialog.keep(str(tmp_path / "scene.toml"))
+    dialog.save_scene(str(tmp_path / "scene.toml"))
     assert read_scene(tmp_path / "scene.toml") == dialog.scene()
     other = Scene(camera=Camera("+x"), cameras={"side": Camera("-y")}, page=Page(85, 60, dpi=600))
     write_scene(tmp_path / "other.toml", other)

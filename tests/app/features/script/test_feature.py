@@ -16,7 +16,7 @@ from tests.patience import PATIENCE
 @pytest.fixture(autouse=True)
 def nothing_done_before(window):
     """What other tests have done in the window they share is not in the script."""
-    window.features["script"].script.begin_anew()
+    window.features["script"].script.restart()
 
 
 @pytest.fixture

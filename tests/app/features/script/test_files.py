@@ -33,7 +33,7 @@ CLOCKS = ("seconds", "setup_seconds", "message")
 def script(window):
     """What other tests have done in the window they share is not in the script."""
     script = window.features["script"].script
-    script.begin_anew()
+    script.restart()
     return script
 
 
@@ -196,7 +196,7 @@ def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path
     words = ["render", "before.vtu", "after.vtu", "-o", "both.png"]
     subprocess.run([sys.executable, "-m", "hexmend", *words], check=True, cwd=tmp_path)
     open_and_wait(qtbot, window, tmp_path / "both.png")
-    script.begin_anew()
+    script.restart()
     window.refresh()
     assert len(session.side_views.all) == 1
     path = tmp_path / "again.png"
@@ -244,7 +244,7 @@ def test_what_a_session_has_kept_is_read_from_it(window, qtbot, script, tmp_path
     kept = tmp_path / "kept.hexmend"
     save_and_wait(session, kept)
     open_and_wait(qtbot, window, kept)
-    script.begin_anew()
+    script.restart()
     (record,) = session.history.records
     session.timeline.go(record, 3)
     window.refresh()

@@ -5,11 +5,13 @@ import sys
 
 import pytest
 
+from hexmend import io
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.features.script.script import Script
 from hexmend_app.picture import Scene
 from hexmend_app.state.session.session import Session
+from hexmend_app.state.session.user_events import FileExported
 from tests.app.features.script.recording import SHORT, opened, run, same_again, stage
 from tests.patience import PATIENCE
 
@@ -45,10 +47,10 @@ def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, na
 @pytest.mark.slow
 def test_begun_anew_after_a_run_it_goes_on_from_what_the_run_made(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
-    session.script.begin_anew()
+    session.script.restart()
     run(qtbot, session, stage("laplacian"))
     same_again(session, tmp_path)
-    session.script.begin_anew()
+    session.script.restart()
     session.commands.undo()
     run(qtbot, session, stage("getme"))
     same_again(session, tmp_path)
@@ -60,7 +62,7 @@ def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtb
         run(qtbot, session, stage(method))
         session.commands.undo()
     session.commands.redo()
-    session.script.begin_anew()
+    session.script.restart()
     session.commands.tag("a", [4])
     assert session.script.text.count("hx.smooth(") == 0  # nobody has the mesh that the run began with
     assert "save it under this name first" in session.script.text
@@ -97,6 +99,22 @@ def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot,
     save_and_wait(session, kept)
     session.commands.take("back", end)
     same_again(session, tmp_path)
+
+
+@pytest.mark.slow
+def test_a_snapshot_of_a_session_is_read_from_it(session, qtbot, tmp_path):
+    run(qtbot, session, stage("local-sd"))
+    (record,) = session.history.records
+    session.timeline.go(record, 2)
+    session.snapshots.keep("iteration 2", session.document.now)
+    session.timeline.go(record, record.newest)
+    kept = tmp_path / "kept.hexmend"
+    save_and_wait(session, kept)
+    opened(qtbot, session, kept)
+    session.script.restart()
+    mesh = session.document.now.mesh.with_points(session.snapshots.all[0].points)
+    session.commands.export(FileExported("mesh", io.write, (tmp_path / "snapshot.vtu", mesh)))
+    assert ".snapshots[0].points" in same_again(session, tmp_path)
 
 
 def test_what_reads_a_file_that_was_saved_over_says_so(session, qtbot, path):

@@ -1,4 +1,4 @@
-"""The form for what a run pauses at, without a run."""
+"""Form for breakpoints, without a run."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Runs in the window: begun, held, stepped through, ended and put back, by mouse and keys."""
+"""Runs in the window: started, paused, stepped, stopped and reset, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -23,19 +23,19 @@ CONTROL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftM
 
 @pytest.fixture
 def endless(window):
-    """The window with a method at hand that does not end before it is stopped."""
+    """The window, set up with a method that runs until it is stopped."""
     choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     return window
 
 
 def sentence(window):
-    """What is said below the buttons."""
+    """Return the sentence below the buttons."""
     window.refresh()
     return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
 
 def counts(window):
-    """What is said below the view."""
+    """Return the text of the counts below the view."""
     window.refresh()
     return named(window, QLabel, "Counts").text()
 
@@ -123,7 +123,7 @@ def test_a_method_with_a_wrong_value_is_not_started(window):
 
 @pytest.fixture
 def slow_method(monkeypatch):
-    """A method waits, in its preparation, until it is let go on."""
+    """Block the preparation of a method until the returned event is set."""
     go_on, iterate = threading.Event(), worker.iterate
 
     def preparing(*order):
@@ -159,7 +159,7 @@ def test_a_run_is_stopped_while_its_method_is_prepared(window, qtbot, slow_metho
 
 @pytest.fixture
 def running_window(fresh_window, qtbot):
-    """A window of the test's own in which a method runs that does not end."""
+    """A separate window with a run that does not end by itself."""
     choose(fresh_window, "local-sd", StoppingCriteria(tolerance=0.0))
     click(fresh_window, "Run")
     qtbot.waitUntil(phase(fresh_window, Phase.RUNNING), timeout=PATIENCE)

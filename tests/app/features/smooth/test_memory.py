@@ -1,4 +1,4 @@
-"""Memory that will not suffice: the window asks before a run, and nothing is lost by a no."""
+"""Shortage of memory: the window asks before a run, and nothing changes if the user declines."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ YES, NO = QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No
 
 @pytest.fixture
 def asked(window, monkeypatch):
-    """Memory is short; what the window asks is kept, and answered as `answer` has it."""
+    """Make memory short; record the questions of the window and answer them with `answer`."""
 
     class Asked(list):
         answer = NO

@@ -1,4 +1,4 @@
-"""The smoothing panel's requests and states."""
+"""Requests and states of the smoothing panel."""
 
 import pytest
 from PySide6.QtCore import Qt
@@ -26,16 +26,16 @@ _STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7
 
 
 @pytest.fixture
-def order(qapp):
-    """What the panel sets: the method GETMe, scaling 0.25."""
-    order = RunSetup()
-    order.choose(_STAGE)
-    return order
+def setup(qapp):
+    """Set-up of the panel: the method GETMe, scaling 0.25."""
+    setup = RunSetup()
+    setup.choose(_STAGE)
+    return setup
 
 
 @pytest.fixture
-def panel(shown, order):
-    return shown(SmoothingPanel(order), 360, 700)
+def panel(shown, setup):
+    return shown(SmoothingPanel(setup), 360, 700)
 
 
 @pytest.fixture
@@ -47,7 +47,7 @@ def heard(panel):
 
 
 def named(panel, kind, name):
-    """A part of the panel by its accessible name."""
+    """Return a widget of the panel by its accessible name."""
     return next(one for one in panel.findChildren(kind) if one.accessibleName() == name)
 
 
@@ -93,50 +93,50 @@ def test_reset_is_offered_once_there_is_something_to_reset(panel, heard):
     assert heard == [("reset_requested",)] * 2
 
 
-def test_keys_choose_a_method_and_each_keeps_its_values(panel, order):
+def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
     method = named(panel, QComboBox, "Method")
     method.setFocus()
     QTest.keyClick(method, Qt.Key.Key_Down)
-    assert order.method == "getme-sequential"
-    assert order.stage.smoother == METHODS["getme-sequential"]()
+    assert setup.method == "getme-sequential"
+    assert setup.stage.smoother == METHODS["getme-sequential"]()
     assert METHODS["getme-sequential"].help in "".join(label.text() for label in panel.findChildren(QLabel))
     QTest.keyClick(method, Qt.Key.Key_Up)
     assert panel.stage.parameters.values()["scaling"] == 0.25
-    assert order.stage == _STAGE
+    assert setup.stage == _STAGE
 
 
-def test_what_somebody_else_chooses_is_shown(panel, order, heard):
-    order.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
+def test_what_somebody_else_chooses_is_shown(panel, setup, heard):
+    setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
     assert panel.stage.stop.values()["max_iterations"] == 3
     assert heard == []
     click(panel, "run")
-    assert heard == [("run_requested", order.stage)]
+    assert heard == [("run_requested", setup.stage)]
 
 
-def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, order):
+def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, setup):
     changes = []
     panel.change_requested.connect(changes.append)
-    order.begun = order.stage
+    setup.begun = setup.stage
     panel.set_state("paused")
     click(panel, "run")
     assert changes == []
     panel.stage.parameters.editor("scaling").setFocus()
     panel.stage.parameters.editor("scaling").stepUp()
     click(panel, "run")
-    assert changes == [order.stage]
-    assert order.stage.smoother.scaling > 0.25
+    assert changes == [setup.stage]
+    assert setup.stage.smoother.scaling > 0.25
 
 
-def test_a_wrong_value_is_led_to_instead_of_run_with(panel, order, heard):
+def test_a_wrong_value_is_led_to_instead_of_run_with(panel, setup, heard):
     parameters = sections(panel)[0]
     parameters.expand()
     editor = panel.stage.parameters.editor("scaling")
     editor.lineEdit().setFocus()
     editor.lineEdit().selectAll()
     QTest.keyClicks(editor.lineEdit(), "-7")
-    assert order.stage is None
-    assert order.smoother is None
+    assert setup.stage is None
+    assert setup.smoother is None
     parameters.collapse()
     panel.buttons.button("run").setFocus()
     click(panel, "run")
@@ -165,8 +165,8 @@ def test_shortcuts_are_told_in_the_tooltips_in_every_state(panel):
 
 
 @pytest.mark.parametrize(("height", "opened"), [(1200, True), (220, False)])
-def test_parameters_are_unfolded_where_there_is_room(shown, order, height, opened):
-    panel = SmoothingPanel(order)
+def test_parameters_are_unfolded_where_there_is_room(shown, setup, height, opened):
+    panel = SmoothingPanel(setup)
     area = QScrollArea()
     area.setWidget(panel)
     area.setWidgetResizable(True)

@@ -1,4 +1,4 @@
-"""A window with a mesh of five blocks."""
+"""Fixture with a window that shows a mesh of five blocks."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from tests.app.features.structure.layers import open_and_know
 
 @pytest.fixture
 def five(window, qtbot, tmp_path):
-    """The window with a mesh of five blocks in it."""
+    """The window with a mesh of five blocks."""
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500))
     open_and_know(qtbot, window, tmp_path / "five.vtu")
-    window.session.view.change(shading=False)  # shades come when the view has rested, whenever that is
+    window.session.view.change(shading=False)  # shading is drawn later, at an unknown time
     window.refresh()
     return window

@@ -1,4 +1,4 @@
-"""The layers of the structure, as a hand and an eye use them."""
+"""Helpers that operate the layers of the structure."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ KEYS = {
 
 
 def open_and_know(qtbot, window, path):
-    """Open a mesh, and wait until its structure is found: not that of the mesh before."""
+    """Open a mesh, and wait until its structure is found."""
     open_and_wait(qtbot, window, path)
     qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
     window.refresh()
@@ -41,13 +41,13 @@ def press(box):
 
 
 def texts(panel, name):
-    """What stands beside a layer."""
-    turn()  # what stood there before goes
+    """Return the texts of a layer's legend."""
+    turn()  # delete the old labels
     return [label.text() for label in panel.layers[name].entries.findChildren(QLabel)]
 
 
 def pixels(window):
-    """A fast frame: a fine one has other edges."""
+    """Return the pixels of a fast frame, whose edges differ from those of a shaded one."""
     window.refresh()
     window.canvas.viewport.moving()
     return drawn(window)

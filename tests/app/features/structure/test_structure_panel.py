@@ -39,16 +39,16 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
     assert [name for name, on in panel.offered().items() if on] == ["fixed", "free", "locked", "kinds", "original"]
     assert texts(panel, "irregular") == ["counting…"]
-    assert "Being counted" in panel.layers["sharp"].box.toolTip()
+    assert "Counting." in panel.layers["sharp"].box.toolTip()
     assert texts(panel, "fixed") == ["8 boundary", "1 pinned"]
     assert texts(panel, "locked") == ["of 2 hexes"]
 
 
 def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
     panel.set_classes(None, ValueError("no boundary"))
-    assert texts(panel, "kinds") == ["could not be worked out"]
+    assert texts(panel, "kinds") == ["failed"]
     assert not panel.offered()["kinds"]
-    assert "This could not be worked out: no boundary." in panel.layers["kinds"].box.toolTip()
+    assert "Counting failed: no boundary." in panel.layers["kinds"].box.toolTip()
     panel.set_classes(None)
     assert texts(panel, "kinds") == ["counting…"]
     assert panel.offered()["kinds"]

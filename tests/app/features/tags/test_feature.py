@@ -1,4 +1,4 @@
-"""Tagging elements in the window, with mouse and keys, and what becomes of the tags."""
+"""Tagging hexes in the window by mouse and keys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why a hex cannot be tagged is said, in the panel and where T is pressed."""
+"""The panel and the shortcut tell why a hex cannot be tagged."""
 
 import pytest
 from PySide6.QtWidgets import QComboBox, QLabel
@@ -32,23 +32,23 @@ def said(panel):
 
 @pytest.mark.parametrize("rows", [[], [TagRow("one", 3, 0, 0.5)]])
 @pytest.mark.parametrize(
-    ("chosen", "busy", "name", "word"),
+    ("selected", "busy", "name", "word"),
     [
-        (False, False, "bad", "No hex is chosen"),
-        (True, True, "bad", "while a run is under way"),
-        (False, True, "bad", "while a run is under way"),
-        (True, False, " ", "write one"),
+        (False, False, "bad", "No hex selected"),
+        (True, True, "bad", "during a run"),
+        (False, True, "bad", "during a run"),
+        (True, False, " ", "Enter a tag name"),
     ],
 )
-def test_what_is_refused_has_a_reason(panel, refused, rows, chosen, busy, name, word):
+def test_what_is_refused_has_a_reason(panel, refused, rows, selected, busy, name, word):
     panel.set_tags(rows)
     panel.findChild(QComboBox).setEditText(name)
-    panel.set_state(chosen, busy)
+    panel.set_state(selected, busy)
     panel.toggle()
     assert len(refused) == 1
     assert word in refused[0]
-    # What a newcomer reads first says how a hex is chosen, too.
-    assert any(word in text or ("Choose one" in text and not busy and name.strip()) for text in said(panel))
+    # The first hint also tells how to select a hex.
+    assert any(word in text or ("Select a hex" in text and not busy and name.strip()) for text in said(panel))
 
 
 def test_what_is_possible_is_done(panel, refused):
@@ -59,9 +59,9 @@ def test_what_is_possible_is_done(panel, refused):
 
 def test_the_panel_keeps_its_height_whatever_is_said(panel):
     heights = set()
-    for chosen, busy in ((True, False), (False, False), (True, True)):
+    for selected, busy in ((True, False), (False, False), (True, True)):
         panel.set_tags([TagRow("one", 3, 0, 0.5)])
-        panel.set_state(chosen, busy)
+        panel.set_state(selected, busy)
         panel.layout().activate()
         heights.add(panel.findChild(QComboBox).geometry().top())
     assert len(heights) == 1
@@ -84,7 +84,7 @@ def test_the_key_says_why_nothing_is_tagged_while_a_run_is_paused(host, qtbot):
     feature.refresh()
     assert tag.enabled()
     tag.handle()
-    assert "while a run is under way" in " ".join(host.messages.messages()[-1])
+    assert "during a run" in " ".join(host.messages.messages()[-1])
     assert host.session.document.now.mesh.hex_sets == {}
     with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE):
         smoothing.stop()

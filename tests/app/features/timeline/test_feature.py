@@ -1,4 +1,4 @@
-"""Watching a run in the window, by mouse and keys: scrubbing, playing, branching, break-points."""
+"""Watching a run in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ def stepped(window, qtbot, iterations=12, method="local-sd"):
     """Make so many iterations by the Step button, and hold."""
     panel = window.features["smooth"].panel
     choose(window, method, ENDLESS)
-    box = named(panel, QSpinBox, "Iterations of a step")
+    box = named(panel, QSpinBox, "Iterations per step")
     box.setFocus()
     box.selectAll()
     QTest.keyClicks(box, str(iterations))
@@ -159,7 +159,7 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
 
 
 def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
-    window.features["smooth"].panel.show_break_points()
+    window.features["smooth"].panel.show_breakpoints()
     check(window, "A hex inverts")
     choose(window, "laplacian", ENDLESS)
     with qtbot.waitSignal(window.session.run.hit, timeout=PATIENCE) as hit:
@@ -168,7 +168,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     frame = hit.args[0]
     assert window.session.selection.hex == frame.hit.hexes[0]
     assert window.canvas.viewport.filters.ghosts(window.canvas.viewport.frame) is None  # nothing is before it
-    assert said(window) == f"Paused at a break-point: {frame.hit.sentence}."
+    assert said(window) == f"Paused at a breakpoint: {frame.hit.sentence}."
     assert at(window, frame.iteration.number)()
     assert frame.hit.sentence in slider(window).toolTip()
 
@@ -177,15 +177,15 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
     ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
 def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
-    window.features["smooth"].panel.show_break_points()
+    window.features["smooth"].panel.show_breakpoints()
     mesh = window.session.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
     window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
     window.refresh()
     check(window, text)  # a node is taken from the selection
     form = window.features["smooth"].panel.breakpoint_form
-    named(form, QDoubleSpinBox, "How much the node moves").setValue(0.001)
-    named(form, QSpinBox, "Most cuts of the line search").setValue(0)
+    named(form, QDoubleSpinBox, "Node moves by more than").setValue(0.001)
+    named(form, QSpinBox, "Maximum backtracks of the line search").setValue(0)
     window.session.selection.choose(None)
     choose(window, method)
     with qtbot.waitSignal(window.session.run.hit, timeout=PATIENCE) as hit:

@@ -19,13 +19,13 @@ from hexmend_app.state.session.session import Session
 from hexmend_app.state.session.session_data import SessionData, numbered
 
 
-class Stored:
-    """Locates states, runs and the comparison in a session file.
+class SessionContents:
+    """Source of states, runs and the comparison in the opened session file.
 
     Parameters
     ----------
     session : Session
-    lines : Lines
+    lines : ScriptLines
     """
 
     def __init__(self, session: Session, lines: ScriptLines):
@@ -38,7 +38,7 @@ class Stored:
         self.clear()
 
     def clear(self) -> None:
-        """Forget the names; sessions are read again when needed."""
+        """Forget the names of sessions; they are read again when needed."""
         self._names: dict[Path, str] = {}
 
     def take(self, data: SessionData, path: Path) -> None:
@@ -64,69 +64,68 @@ class Stored:
         if self._data is None or path not in (at[0] for at in self._states.values()):
             return
         before, lines = dict(self._states.items()), self._lines
-        whole = self._names.get(path) if self._same(session) else None
-        for kept in (self._states, self._runs):
-            for one in [one for one, at in kept.items() if at[0] == path]:
-                del kept[one]
+        session_name = self._names.get(path) if self._same(session) else None
+        for places in (self._states, self._runs):
+            for item in [item for item, place in places.items() if place[0] == path]:
+                del places[item]
         self.take(session, path)
-        good = set()
-        for state, at in before.items():
-            called, new = known(state), self._states.get(state)
-            if at[0] == path and called is not None and new is not None:
-                line = f"{called} = {self._reads(*new)}"
-                if lines.change(f"{called} = {self._reads(*at)}", line):
-                    good.add(line)
-        if whole is not None:
-            self._names[path] = whole
-            good.add(f"{whole} = {self._whole(path)}")
-        lines.overwritten(path, good)
+        valid = set()
+        for state, old in before.items():
+            name, new = known(state), self._states.get(state)
+            if old[0] == path and name is not None and new is not None:
+                line = f"{name} = {self._mesh_source(*new)}"
+                if lines.change(f"{name} = {self._mesh_source(*old)}", line):
+                    valid.add(line)
+        if session_name is not None:
+            self._names[path] = session_name
+            valid.add(f"{session_name} = {self._data_source(path)}")
+        lines.mark_overwritten(path, valid)
 
     def _same(self, session: SessionData) -> bool:
         """Return True if runs, snapshots and comparison have the same indices in another session."""
         old, records = self._data, self._session.history.records
-        runs = all(at < len(records) and records[at] is one for one, (path, at) in self._runs.items()
+        runs = all(at < len(records) and records[at] is record for record, (path, at) in self._runs.items()
                    if path == self._path)  # fmt: skip
-        kept = [one.points for one in old.snapshots]
-        places = len(session.snapshots) >= len(kept) and all(
-            one.points is points for one, points in zip(session.snapshots, kept, strict=False)
+        snapshots = len(session.snapshots) >= len(old.snapshots) and all(
+            new.points is before.points for new, before in zip(session.snapshots, old.snapshots, strict=False)
         )
-        return runs and places and session.comparison.results is old.comparison.results
+        return runs and snapshots and session.comparison.results is old.comparison.results
 
     def mesh(self, state: State) -> str | None:
         """Return the source that reads the mesh of a state, or None."""
         if state not in self._states:
             return None
-        return self._reads(*self._states[state])
+        return self._mesh_source(*self._states[state])
 
     def run(self, record: RunRecord) -> str | None:
         """Return the source that reads a run, or None."""
         if record not in self._runs:
             return None
         path, at = self._runs[record]
-        return f"{self._lines.use(recorded)}({self._session_of(path)}, {at})"
+        return f"{self._lines.use(recorded)}({self._session_name(path)}, {at})"
 
     def points(self, points: np.ndarray) -> str | None:
         """Return the source that reads a snapshot's points, or None."""
-        for at, one in enumerate(() if self._data is None else self._data.snapshots):
-            if one.points is points:
-                return f"{self._session_of(self._path)}.kept[{at}].points"
+        for at, snapshot in enumerate(() if self._data is None else self._data.snapshots):
+            if snapshot.points is points:
+                return f"{self._session_name(self._path)}.snapshots[{at}].points"
         return None
 
     def comparison(self, results: tuple[MethodResult, ...]) -> str | None:
         """Return the source that reads the comparison with these results, or None."""
         if self._data is None or self._data.comparison.results is not results:
             return None
-        return f"{self._session_of(self._path)}.comparison"
+        return f"{self._session_name(self._path)}.comparison"
 
-    def _session_of(self, path: Path) -> str:
+    def _session_name(self, path: Path) -> str:
         if path not in self._names:
             name = self._names[path] = f"session_{self._count}"
             self._count += 1
-            self._lines.put("Contents of the session", f"{name} = {self._whole(path)}")
+            self._lines.put("Contents of the session", f"{name} = {self._data_source(path)}")
         return self._names[path]
 
-    def _reads(self, path: Path, at: int) -> str:
+    def _mesh_source(self, path: Path, at: int) -> str:
         return f"{self._lines.use(read_session)}({str(path.absolute())!r}).meshes[{at}]"
 
-    def _whole(self, path: Path) -> str:
+    def _data_source(self, path: Path) -> str:
         return f"{self._lines.use(session_data.read)}({str(path.absolute())!r})"
