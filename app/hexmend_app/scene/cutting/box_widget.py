@@ -42,7 +42,7 @@ class BoxWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._shape.GetOutlineProperty().SetColor(rgb(PLANE_EDGE.of(dark)))
         for part in ("SelectedFace", "SelectedOutline", "Handle"):
             getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_HELD.of(dark)))

@@ -43,7 +43,7 @@ class PlaneWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         edge, plane, selected = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
         self._shape.SetEdgeColor(edge)
         self._shape.GetPlaneProperty().SetColor(plane)

@@ -129,7 +129,7 @@ class Panes:
         return view
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._dark = dark
         for view in self.all:
             view.set_dark(dark)

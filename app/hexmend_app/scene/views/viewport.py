@@ -72,7 +72,7 @@ class Viewport:
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one, which pictures in reports have."""
+        """Use the colours of the dark or of the light theme, which pictures in reports have."""
         self._pane.set_background(BACKGROUND.of(dark))
         if self.axes is not None:
             self.axes.set_dark(dark)
@@ -112,7 +112,7 @@ class Viewport:
         measured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
         if another:
             self._take_mesh()
-        self.extras.follow(frame, moved and not another, pinned, classed)
+        self.extras.update(frame, moved and not another, pinned, classed)
         if measured:
             self.colours.measure(frame)
         keep = self.kept()
