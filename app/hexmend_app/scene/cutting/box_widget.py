@@ -1,4 +1,4 @@
-"""The clipping box, whose sides are dragged in the view."""
+"""Cut box whose sides are dragged in the view."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class BoxWidget(Handles):
     ----------
     pane : Pane
     moved : callable
-        Called with (low, high) as the user drags; never for what is set by `set`.
+        Called with (low, high) while the user drags; not called by `set`.
     """
 
     def __init__(self, pane: Pane, moved: Callable[[tuple, tuple], None]):
@@ -52,7 +52,7 @@ class BoxWidget(Handles):
         self._bounds = np.array(bounds).reshape(3, 2)
 
     def set(self, clip: BoxClip | None, shown: bool = True) -> None:
-        """Show the box of a clip, or hide it."""
+        """Show a box, or hide it if it is None or not `shown`."""
         on = clip is not None and shown and self._bounds is not None
         if on and not self._dragging:
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])

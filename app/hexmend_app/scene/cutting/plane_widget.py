@@ -1,4 +1,4 @@
-"""The clipping plane, which is dragged and turned in the view."""
+"""Cut plane that is dragged and rotated in the view."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PlaneWidget(Handles):
     ----------
     pane : Pane
     moved : callable
-        Called with the ClipPlane as the user drags; never for what is set by `set`.
+        Called with the ClipPlane while the user drags; not called by `set`.
     """
 
     def __init__(self, pane: Pane, moved: Callable[[ClipPlane], None]):
@@ -56,10 +56,10 @@ class PlaneWidget(Handles):
         self._placed = True
 
     def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
-        """Show a plane, or hide it.
+        """Show a plane, or hide it if it is None or not `shown`.
 
-        While it is dragged it follows the hand: turned on from where it has been set straight, it would never get away
-        from there.
+        The position of the widget is not changed during a drag; otherwise a plane that snaps to an axis could not be
+        rotated away from it.
         """
         self._plane = plane
         on = plane is not None and shown and self._placed

@@ -6,9 +6,9 @@ import numpy as np
 import pyvista as pv
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.scene.colour.hex_colours import ElementColours
+from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.cutting import cut
-from hexmend_app.scene.cutting.polygons import Polygons, together
+from hexmend_app.scene.cutting.polygons import Polygons, merge_polygons
 from hexmend_app.scene.geometry.decimated_surface import MANY, decimated
 from hexmend_app.scene.geometry.shaded_surface import shaded, shaded_surface
 from hexmend_app.scene.geometry.skin import Faces, Skin
@@ -66,7 +66,7 @@ class MeshLayer:
             surface.hide()
             outline.hide()
 
-    def rebuild(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
+    def rebuild(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         """Find the visible faces again, and draw them.
 
         Parameters
@@ -74,7 +74,7 @@ class MeshLayer:
         frame : Frame
         keep : (m,) bool, optional
             True for hexes shown whole or in part; None for all.
-        colours : ElementColours
+        colours : HexColours
             Colours of the hexes of the frame.
         """
         for surface in (self.skin, self.section):
@@ -85,7 +85,7 @@ class MeshLayer:
         self.whole = quads(faces.places(frame.mesh.points), faces.quads, face_colours, faces.hexes)
         self._draw(frame, keep, colours)
 
-    def move(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
+    def move(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         """Update positions and colours of the same faces; parameters are those of `rebuild`."""
         set_points(self.whole, self.faces.places(frame.mesh.points))
         set_colours(self.whole, colours.of(self.faces.hexes, self._opened))
@@ -97,7 +97,7 @@ class MeshLayer:
             return self._skin.shrunk(look.shrink, keep, fine=not self.fast)
         return self._skin.visible(keep)
 
-    def _draw(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
+    def _draw(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         self._steady, self._coarse, self._scene = False, None, None
         self._shading = frame.look.shading
         for surface in (self.skin, self.section):
@@ -108,14 +108,14 @@ class MeshLayer:
         self._replace(frame, keep, colours)
         self.outline_inverted()
 
-    def _replace(self, frame: Frame, keep: np.ndarray | None, colours: ElementColours) -> None:
+    def _replace(self, frame: Frame, keep: np.ndarray | None, colours: HexColours) -> None:
         clip = frame.look.clip
         if clip is None or clip.crinkle:
             if self.skin.poly is not self.whole:
                 self.skin.replace(self.whole)
             self.section.hide()
             return
-        self.skin.replace(cut.behind(self.whole, clip))
+        self.skin.replace(cut.remaining_skin(self.whole, clip))
         mesh = frame.mesh
         self.section.replace(cut.sections(mesh.points, mesh.hexes, keep, clip, colours.of(slice(None))))
 
@@ -152,7 +152,7 @@ class MeshLayer:
         """Draw a fine frame, with the shading if it has been computed."""
         if self._scene is None:
             parts = [Polygons.of(surface.poly) for surface in self._shown]
-            self._scene = together(parts) if parts else Polygons.of(pv.PolyData())
+            self._scene = merge_polygons(parts) if parts else Polygons.of(pv.PolyData())
             self._refine()
         for surface in self._shown:
             surface.show_fine()

@@ -113,7 +113,7 @@ class _Views:
         for number in sorted(self.shown | {1}):
             view = Viewport(Pane(stage.window), axes=False, filters=filters, pixel_ratio=pixel_ratio)
             view.set_dark(layout.scene.page.dark)
-            view.set_ground(self._ground or _NOTHING)
+            view.set_background(self._ground or _NOTHING)
             view.draw(first if number == 1 else self._neighbour(layout.subjects[number - 1], first))
             self.all[number] = view
             filters = self.all[1].filters
@@ -124,7 +124,7 @@ class _Views:
     def _neighbour(self, subject: PageMesh, first: Frame) -> Frame:
         """Return the frame of a further mesh: under the look of the first for equal hexes, else by the scene."""
         if same_hexes(first.mesh, subject.mesh):
-            return Frame(subject.mesh, subject.figures).neighbour(first)
+            return Frame(subject.mesh, subject.figures).matching(first)
         scene = self._layout.scene
         anew = replace(scene, cut=replace(scene.cut, hexes=""))  # what the cut leaves is said of the first alone
         return Frame(subject.mesh, subject.figures, look=anew.look(subject.mesh))
@@ -134,7 +134,7 @@ class _Views:
         if declared_ends(look.scale) is None:
             lows, highs = zip(*(self.all[number].colours.ends for number in self.shown), strict=True)
             for view in self.all.values():
-                view.span((min(lows), max(highs)))
+                view.extend_range((min(lows), max(highs)))
 
     def camera(self, panel: PicturePanel) -> vtkCamera:
         """Return the camera of a panel, which shows all meshes that share it whole."""
