@@ -172,7 +172,7 @@ class Canvas(CameraView):
         wipe : Wipe, optional
             None shows all side by side.
         """
-        self.panes.leave_heads(round(HEIGHT * self.devicePixelRatioF()))
+        self.panes.reserve_captions(round(HEIGHT * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
         self._select_in_other_views()
         self._place_handles()

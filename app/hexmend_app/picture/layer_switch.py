@@ -1,4 +1,4 @@
-"""Switches of the layers that are drawn over the hexes, by name: names, texts and defaults without Qt and VTK."""
+"""Registry of the layers that users switch on and off: names, texts and defaults, without Qt and VTK."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class LayerSwitch:
     order : int
         Position in panel and menu.
     offered_early : bool
-        The layer can be switched on before its content has been counted.
+        Allow switching the layer on before its content has been counted.
     hidden_when_empty : bool
-        The panel shows the row only for meshes that have something to draw.
+        Hide the row in the panel if the mesh has nothing to draw.
     drawn_by : type, optional
-        Class that draws the layer, see `hexmend_app.scene.layers.optional_layer`; None if the structure's marks do.
+        Subclass of `hexmend_app.scene.layers.optional_layer.OptionalLayer`; None if `StructureLayers` draws the layer.
     """
 
     name: str
@@ -56,4 +56,4 @@ LAYERS: Registry[LayerSwitch] = Registry("layer", _load)
 
 def ordered_layers() -> list[LayerSwitch]:
     """Return all switches in the order of panel and menu."""
-    return sorted(LAYERS.values(), key=lambda one: one.order)
+    return sorted(LAYERS.values(), key=lambda switch: switch.order)

@@ -1,5 +1,5 @@
-"""Drawing with VTK: only this package turns a mesh into VTK's objects."""
+"""Drawing of meshes with VTK."""
 
-# Qt comes before PyVista: it looks into every module that is imported after it, and one look at PyVista once that is
-# complete has that load its plots, and matplotlib's with them: 0.4 s of every process that draws.
+# Import Qt before PyVista: PySide6 inspects all modules that are loaded when it is imported, and inspecting PyVista makes
+# it load its plotting modules and matplotlib, which would add 0.4 s to the start of every process that draws.
 import hexmend_app.state.tasks.task  # noqa: F401

@@ -1,4 +1,4 @@
-"""The camera of views: fitting, directions and movements."""
+"""Camera of views: fitting, directions and movements."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 
 from hexmend_app.scene.camera.directions import Vector, look_from
 from hexmend_app.scene.camera.fitting import fit
-from hexmend_app.scene.camera.flight import ELEMENT_FAR, PATCH_FAR, Flight
+from hexmend_app.scene.camera.flight import HEX_DISTANCE, PATCH_DISTANCE, Flight
 from hexmend_app.scene.camera.vtk_pose import pose_of
 
 
 class CameraTarget(Protocol):
-    """A view as a camera controller uses it; `hexmend_app.scene.views.viewport.Viewport` is one."""
+    """Interface of the views of a camera controller, implemented by `hexmend_app.scene.views.viewport.Viewport`."""
 
     frame: Any  # None before a mesh is drawn
 
     @property
     def camera(self) -> vtkCamera:
-        """The camera of the view."""
+        """Camera of the view."""
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
-        """The renderers of the view, from the bottom up."""
+        """Renderers of the view, from back to front."""
 
     @property
     def places(self) -> np.ndarray:
-        """The points that the camera is fitted to, (k, 3)."""
+        """Points that the camera is fitted to, (k, 3)."""
 
 
 class CameraController:
@@ -40,20 +40,20 @@ class CameraController:
     Attributes
     ----------
     up : str
-        The axis that is up: x, y or z.
+        The vertical axis: x, y or z.
 
     Parameters
     ----------
     views : callable
-        Gives the views that are seen.
+        Returns the visible views.
     aspect : callable
-        Gives the width of the picture by its height.
+        Returns the aspect ratio of a view, width by height.
     """
 
     def __init__(self, views: Callable[[], Sequence[CameraTarget]], aspect: Callable[[], float]):
         self._views, self._aspect = views, aspect
         self.up = "z"
-        self._fitted: tuple[float, ...] = ()  # where the camera stands after `fit`
+        self._fitted: tuple[float, ...] = ()  # `_extent` after the last `fit`
 
     @classmethod
     def of(cls, view: CameraTarget) -> CameraController:
@@ -62,14 +62,14 @@ class CameraController:
 
     @property
     def camera(self) -> vtkCamera:
-        """The camera of all views."""
+        """Camera of all views."""
         return self._views()[0].camera
 
     def fit(self) -> None:
-        """Fit the shown hexes into the view without turning the camera; does nothing before a mesh is drawn."""
+        """Fit the shown hexes into the view without rotating the camera; do nothing before a mesh is drawn."""
         if self._views()[0].frame is not None:
             self._fit(self.camera)
-            self._fitted = self._reach
+            self._fitted = self._extent
             self.reset_depth()
 
     def _fit(self, camera: vtkCamera) -> None:
@@ -77,12 +77,12 @@ class CameraController:
 
     @property
     def fitted(self) -> bool:
-        """True if the camera has at most turned since the last fit."""
-        return self._fitted == self._reach
+        """True if the camera has at most been rotated since the last fit."""
+        return self._fitted == self._extent
 
     @property
-    def _reach(self) -> tuple[float, ...]:
-        """The values that panning and zooming change, and rotation does not."""
+    def _extent(self) -> tuple[float, ...]:
+        """Values of the camera that panning and zooming change, but rotation does not."""
         camera = self.camera
         return *camera.GetFocalPoint(), round(camera.GetDistance(), 9), camera.GetParallelScale()
 
@@ -98,21 +98,21 @@ class CameraController:
             self.look_along("iso")
 
     def set_parallel(self, on: bool) -> None:
-        """Choose parallel projection, or perspective; the size of the focused object is kept."""
+        """Switch between parallel and perspective projection, preserving the size of objects at the focal point."""
         camera, fitted = self.camera, self.fitted
         tangent = np.tan(np.radians(camera.GetViewAngle()) / 2)
         if on and not camera.GetParallelProjection():
             camera.SetParallelScale(camera.GetDistance() * tangent)
         elif camera.GetParallelProjection() and not on:
-            focal, ahead = np.array(camera.GetFocalPoint()), np.array(camera.GetDirectionOfProjection())
-            camera.SetPosition(focal - camera.GetParallelScale() / tangent * ahead)
+            focal, forward = np.array(camera.GetFocalPoint()), np.array(camera.GetDirectionOfProjection())
+            camera.SetPosition(focal - camera.GetParallelScale() / tangent * forward)
         camera.SetParallelProjection(on)
         if fitted:
             self.fit()
         self.reset_depth()
 
     def roll(self, degrees: float) -> None:
-        """Roll the camera: the picture turns counter-clockwise."""
+        """Roll the camera, which rotates the picture counter-clockwise."""
         self.camera.Roll(degrees)
 
     def reset_depth(self) -> None:
@@ -125,10 +125,10 @@ class CameraController:
             box.GetBounds(bounds)
             self._views()[0].layers[0].ResetCameraClippingRange(bounds)
 
-    # Ways to elsewhere
+    # Flights
 
     def flight_along(self, direction: str | Vector) -> Flight:
-        """Return the movement to a fitted view from a direction."""
+        """Return the flight to a fitted view from a direction: a name of `VIEWS`, or a vector."""
         camera = vtkCamera()
         camera.DeepCopy(self.camera)
         look_from(camera, direction, self.up)
@@ -136,21 +136,21 @@ class CameraController:
         return Flight(self.camera, pose_of(camera))
 
     def flight_to(self, hexes: np.ndarray) -> Flight:
-        """Return the movement that centres hexes, given their corners, (k, 8, 3) float64."""
+        """Return the flight that centres hexes, given their corners, (k, 8, 3) float64."""
         corners = hexes.reshape(-1, 3)
         centre = corners.mean(axis=0)
         radius = float(np.sqrt(np.square(corners - centre).sum(axis=1).max()))
-        away = ELEMENT_FAR if len(hexes) == 1 else PATCH_FAR
-        return self._flight_before(centre, away * radius if radius > 0 else self.camera.GetDistance(), radius > 0)
+        radii = HEX_DISTANCE if len(hexes) == 1 else PATCH_DISTANCE
+        return self._flight_before(centre, radii * radius if radius > 0 else self.camera.GetDistance(), radius > 0)
 
     def flight_around(self, place: np.ndarray) -> Flight:
-        """Return the movement that makes a point, (3,) float64, the centre of the view and of rotation."""
+        """Return the flight that makes a point, (3,) float64, the centre of the view and of rotation."""
         return self._flight_before(place, self.camera.GetDistance(), False)
 
-    def _flight_before(self, place: np.ndarray, far: float, zoom: bool) -> Flight:
-        """Return the movement to a distance from a point without turning; `zoom` also scales parallel views."""
-        camera, now = self.camera, pose_of(self.camera)
-        ahead = np.array(camera.GetDirectionOfProjection())
-        scale = far * np.tan(np.radians(camera.GetViewAngle()) / 2) if zoom else now.scale
-        position, focal = (tuple(map(float, point)) for point in (place - far * ahead, place))
-        return Flight(camera, replace(now, position=position, focal=focal, scale=float(scale)))
+    def _flight_before(self, place: np.ndarray, distance: float, zoom: bool) -> Flight:
+        """Return the flight to a distance from a point without rotation; `zoom` also scales parallel views."""
+        camera, pose = self.camera, pose_of(self.camera)
+        forward = np.array(camera.GetDirectionOfProjection())
+        scale = distance * np.tan(np.radians(camera.GetViewAngle()) / 2) if zoom else pose.scale
+        position, focal = (tuple(map(float, point)) for point in (place - distance * forward, place))
+        return Flight(camera, replace(pose, position=position, focal=focal, scale=float(scale)))

@@ -1,4 +1,4 @@
-"""Directions of view, and the vertical axis."""
+"""View directions and the vertical axis."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 Vector = tuple[float, float, float]
 
-#: What can be up, and what is up in the picture of who looks along that.
+#: Vertical axes by name: the axis, and the up vector of views along this axis.
 UPS: dict[str, tuple[Vector, Vector]] = {
     "x": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
     "y": ((0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
     "z": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
 }
 
-#: Where a mesh is seen from as from a corner, by what is up.
+#: Direction of the isometric view, by vertical axis.
 _CORNERS: dict[str, Vector] = {"x": (0.8, 1.0, -1.3), "y": (1.0, 0.8, 1.3), "z": (1.0, -1.3, 0.8)}
 
-#: Names of directions to look from.
+#: Names of view directions.
 VIEWS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 
-#: Sine of the angle to what is up below which a direction is along it.
-_ALONG = 1e-6
+#: Sine of the angle to the vertical axis below which a direction counts as parallel to it.
+_PARALLEL = 1e-6
 
 
 def direction_of(name: str | Vector, up: str) -> Vector:
@@ -36,13 +36,13 @@ def direction_of(name: str | Vector, up: str) -> Vector:
 
 def up_in(direction: Vector, up: str) -> Vector:
     """Return the up vector of a view from a direction: the vertical axis unless that is parallel to it."""
-    axis, instead = UPS[up]
+    axis, alternative = UPS[up]
     across = np.linalg.norm(np.cross(direction, axis))
-    return axis if across > _ALONG * np.linalg.norm(direction) else instead
+    return axis if across > _PARALLEL * np.linalg.norm(direction) else alternative
 
 
 def look_from(camera: vtkCamera, name: str | Vector, up: str) -> None:
-    """Look at the origin from a direction.
+    """Make a camera look at the origin from a direction.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def look_from(camera: vtkCamera, name: str | Vector, up: str) -> None:
     name : str or (x, y, z)
         One of `VIEWS`, or a vector.
     up : str
-        The axis that is up.
+        The vertical axis: x, y or z.
     """
     direction = direction_of(name, up)
     camera.SetFocalPoint(0, 0, 0)

@@ -1,4 +1,4 @@
-"""Camera movements by steps, as keys make them."""
+"""Stepwise camera movements for the keyboard."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ def turn(camera: vtkCamera, right: float, up: float, axis: str) -> None:
     ----------
     camera : vtkCamera
     right, up : float
-        Degrees; to the right is about the axis that is up, so that the picture stays upright.
+        Angles in degrees; `right` rotates about the vertical axis, which keeps the picture upright.
     axis : str
         The vertical axis: x, y or z.
     """
-    upright = UPS[axis][0]
-    over = -1.0 if np.dot(camera.GetViewUp(), upright) < 0 else 1.0  # the picture stands on its head
+    vertical = UPS[axis][0]
+    sign = -1.0 if np.dot(camera.GetViewUp(), vertical) < 0 else 1.0  # negative if the picture is upside down
     focus = camera.GetFocalPoint()
-    about = vtkTransform()
-    about.Translate(focus)
-    about.RotateWXYZ(-right * over, upright)
-    about.Translate(*np.negative(focus))
-    camera.ApplyTransform(about)
+    rotation = vtkTransform()
+    rotation.Translate(focus)
+    rotation.RotateWXYZ(-right * sign, vertical)
+    rotation.Translate(*np.negative(focus))
+    camera.ApplyTransform(rotation)
     camera.Elevation(-up)
-    camera.OrthogonalizeViewUp()  # or the next turn over a pole goes wrong
+    camera.OrthogonalizeViewUp()  # otherwise the next rotation over a pole fails
 
 
 def pan(camera: vtkCamera, right: float, up: float) -> None:
-    """Pan the picture to the right and up, by shares of its height."""
-    focus, place = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
+    """Pan the picture to the right and up, by fractions of its height."""
+    focus, position = np.array(camera.GetFocalPoint()), np.array(camera.GetPosition())
     upwards = np.array(camera.GetViewUp())
     sidewards = np.cross(camera.GetDirectionOfProjection(), upwards)
     height = 2 * camera.GetParallelScale()
@@ -42,10 +42,10 @@ def pan(camera: vtkCamera, right: float, up: float) -> None:
         height = 2 * camera.GetDistance() * np.tan(np.radians(camera.GetViewAngle()) / 2)
     shift = height * (right * sidewards / np.linalg.norm(sidewards) + up * upwards)
     camera.SetFocalPoint(focus - shift)
-    camera.SetPosition(place - shift)
+    camera.SetPosition(position - shift)
 
 
 def zoom(camera: vtkCamera, factor: float) -> None:
-    """Zoom by a factor, in either projection."""
+    """Zoom in by a factor, in either projection."""
     camera.Dolly(factor)
     camera.SetParallelScale(camera.GetParallelScale() / factor)

@@ -8,7 +8,7 @@ from hexmend_app.picture.camera_pose import CameraPose
 
 
 def pose_of(camera: vtkCamera, axis: str = "z") -> CameraPose:
-    """Return the pose of a camera; `axis` is the axis that is up, which VTK does not know."""
+    """Return the pose of a camera; `axis` is the vertical axis, which VTK does not store."""
     return CameraPose(
         camera.GetPosition(),
         camera.GetFocalPoint(),

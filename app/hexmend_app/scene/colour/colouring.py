@@ -1,4 +1,4 @@
-"""Colours of hexes by a colour map, and special colours, such as that of inverted hexes."""
+"""Colours of hexes by a colour map, and special colours, for example of inverted hexes."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.palette import INVERTED as MAGENTA
 
-#: Colours of what shows no value: the outside of the mesh, and what is opened by a cut or a filter.
+#: Neutral colours: of boundary faces, and of faces inside the mesh that a cut or a filter exposes.
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 
-#: Colour of inverted elements, in no map of ours: magenta. In colours of changes it is that of the newly inverted; what
-#: was so before is duller, and what no longer is is yellow.
+#: Colour of inverted hexes: magenta, which no colour map contains. Colours of changes use it for newly inverted hexes, a
+#: duller magenta for hexes that are still inverted, and yellow for repaired hexes.
 INVERTED = tuple(bytes.fromhex(MAGENTA[1:]))
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 
 
 @dataclass(frozen=True)
 class SpecialColour:
-    """Colour of a group of hexes, whatever their values."""
+    """Colour of a group of hexes, independent of their values."""
 
     name: str
     colour: tuple[int, int, int]
@@ -37,23 +37,23 @@ _CHANGED = (
     SpecialColour("mended", _MENDED),
 )
 
-# A fitted range is at least this wide, relative to its values: less is rounding.
-_NARROWEST = 1e-6
+#: Minimum width of a fitted range relative to its values, for values that differ by rounding only.
+_MIN_WIDTH = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Colouring:
-    """A `ColourScale` with known ends of its range, as view, picture and colour bar use it.
+    """A `ColourScale` with its resolved range, for views, pictures and colour bars.
 
     Parameters
     ----------
     title : str
-        Of the metric.
+        Title of the metric.
     low, high : float
         Values of the first and the last colour.
     table : (256, 3) uint8
-        The colours, that of the lowest value first.
-    apart : tuple of SpecialColour
+        Colours from the lowest to the highest value.
+    special_colours : tuple of SpecialColour
     """
 
     title: str
@@ -68,19 +68,18 @@ class Colouring:
         Parameters
         ----------
         values : (k,) float64
-            Values beyond the ends of the range have the ends' colours.
+            Values outside the range get the colour of its nearest end.
         kinds : (k,) bool or uint8
-            1 for what has the first colour of `apart` whatever its value, 2 for the second...; 0 for the others.
+            k for hexes with special colour number k, counted from 1; 0 for the others.
         """
-        with np.errstate(over="ignore", invalid="ignore"):  # far beyond an end is beyond it
-            place = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
-        np.clip(place, 0, 255, out=place)
-        # What has no value (nan) is inverted, or else drawn as the lowest.
-        answer = self.table[np.nan_to_num(place, copy=False, nan=0.0).astype(np.uint8)]
-        return self._special(answer, kinds)
+        with np.errstate(over="ignore", invalid="ignore"):  # overflow is clipped
+            row = (np.asarray(values) - self.low) * (255.999 / (self.high - self.low))
+        np.clip(row, 0, 255, out=row)
+        # Hexes without a value (nan) get the lowest colour unless they are inverted.
+        return self._with_special(self.table[np.nan_to_num(row, copy=False, nan=0.0).astype(np.uint8)], kinds)
 
     def neutral(self, opened: np.ndarray, kinds: np.ndarray) -> np.ndarray:
-        """Return the colours of faces in neutral colours, (k, 3) uint8, with special colours.
+        """Return neutral colours of faces, (k, 3) uint8, with special colours.
 
         Parameters
         ----------
@@ -89,15 +88,15 @@ class Colouring:
         kinds : (k,) bool or uint8
             As for `colours`.
         """
-        return self._special(np.array([OUTSIDE, OPENED], np.uint8)[opened.astype(np.intp)], kinds)
+        return self._with_special(np.array([OUTSIDE, OPENED], np.uint8)[opened.astype(np.intp)], kinds)
 
-    def _special(self, colours: np.ndarray, kinds: np.ndarray) -> np.ndarray:
-        for kind, one in enumerate(self.special_colours, start=1):
-            colours[kinds == kind] = one.colour
+    def _with_special(self, colours: np.ndarray, kinds: np.ndarray) -> np.ndarray:
+        for kind, special in enumerate(self.special_colours, start=1):
+            colours[kinds == kind] = special.colour
         return colours
 
     def label(self, value: float) -> str:
-        """Format a value for the colour bar, with three digits of the range."""
+        """Format a value for the colour bar, to three digits of the range."""
         return range_label(value, self.low, self.high)
 
 
@@ -105,31 +104,31 @@ def resolve(
     scale: ColourScale,
     values: np.ndarray,
     inverted: np.ndarray,
-    neighbour: tuple[float, float] | None = None,
+    ends_of_views: tuple[float, float] | None = None,
     title: str = "",
 ) -> Colouring:
-    """Find the ends of the range of a scale; view, pictures and colour bars all use this function.
+    """Resolve the range of a scale; views, pictures and colour bars all use this function.
 
     Parameters
     ----------
     scale : ColourScale
     values : (m,) float64
-        Of all elements, hidden ones too, so that colours do not change as a cut is moved.
+        Values of all hexes, hidden ones too, so that colours do not change with a cut.
     inverted : (m,) bool
-        They have a colour of their own, so no range is fitted to them unless there are no others.
-    beside : (low, high), optional
-        Values of other meshes that a fitted range includes, so that colours can be compared.
+        Inverted hexes have a special colour; a range is fitted to them only if there are no others.
+    ends_of_views : (low, high), optional
+        Range of the values of other views, which a fitted range includes to make colours comparable.
     title : str
-        Of what the colours show, where it is not the metric's.
+        Title of the colours; by default that of the metric.
     """
     ends, change = declared_ends(scale), scale.metric == "q-change"
     if ends is None:
         low, high = fitted(values, inverted)
-        ends = (low, high) if neighbour is None else (min(low, neighbour[0]), max(high, neighbour[1]))
+        ends = (low, high) if ends_of_views is None else (min(low, ends_of_views[0]), max(high, ends_of_views[1]))
         if scale.metric in DISPLACEMENT_QUANTITIES:
-            most = max(abs(end) for end in ends)
-            most = most if most > ROUNDING else 1.0
-            ends = (-most if change else 0.0, most)
+            largest = max(abs(end) for end in ends)
+            largest = largest if largest > ROUNDING else 1.0
+            ends = (-largest if change else 0.0, largest)
     colours = COLOUR_MAPS[CHANGE_MAP if change else scale.map].table
     if scale.reverse != (better(scale.metric) < 0):
         colours = colours[::-1]
@@ -144,7 +143,7 @@ def declared_ends(scale: ColourScale) -> tuple[float, float] | None:
 
 
 def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
-    """Return the range of values (m,) without those of `inverted` hexes, (m,) bool, widened if it is empty."""
+    """Return the range of values, (m,), except those of `inverted` hexes, (m,) bool; a point is widened."""
     finite = np.isfinite(values)
     chosen = values[finite & ~inverted]
     if not chosen.size:
@@ -152,12 +151,12 @@ def fitted(values: np.ndarray, inverted: np.ndarray) -> tuple[float, float]:
     if not chosen.size:
         return 0.0, 1.0
     low, high = float(chosen.min()), float(chosen.max())
-    lacking = max(_NARROWEST * max(abs(low), abs(high)), 1e-300) - (high - low)
-    return (low, high) if lacking <= 0 else (low - lacking / 2, high + lacking / 2)
+    missing = max(_MIN_WIDTH * max(abs(low), abs(high)), 1e-300) - (high - low)
+    return (low, high) if missing <= 0 else (low - missing / 2, high + missing / 2)
 
 
 def range_label(value: float, low: float, high: float) -> str:
-    """Format a value between `low` and `high` with three digits of their difference.
+    """Format a value between `low` and `high` to three digits of their difference.
 
     >>> range_label(0.25, 0, 1), range_label(0.31234, 0.3121, 0.3138), range_label(2e6, 0, 4e6)
     ('0.25', '0.31234', '2e+06')

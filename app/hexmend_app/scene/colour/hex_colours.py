@@ -1,4 +1,4 @@
-"""Values, kinds and colours of the hexes of one view."""
+"""Values and colours of the hexes of a view."""
 
 from __future__ import annotations
 
@@ -10,26 +10,26 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.metric_cache import metric_values
 
 
-class ElementColours:
-    """Measures the hexes of a frame, and colours them.
+class HexColours:
+    """Computes the values and the colours of the hexes of a frame.
 
     Attributes
     ----------
     values : (m,) float64
         Coloured value of each hex.
     kinds : (m,) bool or uint8
-        As in `Colouring.colours`.
+        Number of the special colour of each hex, see `Colouring.colours`.
     colouring : Colouring or None
-        None before a frame has been measured.
+        None before `measure` is called.
     """
 
     def __init__(self) -> None:
         self.values, self.kinds = np.empty(0), np.empty(0, dtype=bool)
         self.colouring: Colouring | None = None
-        self._neighbour: tuple[float, float] | None = None
+        self._ends_of_views: tuple[float, float] | None = None
 
     def measure(self, frame: Frame) -> None:
-        """Measure another frame."""
+        """Compute the values and the colouring of a frame."""
         self._frame = frame
         mesh, figures, scale, movement = frame.mesh, frame.figures, frame.look.scale, frame.movement
         self.kinds, title = figures.inverted, ""
@@ -41,13 +41,13 @@ class ElementColours:
             self.values = movement.values(scale.metric)
             self.kinds = movement.inversion_changes if scale.metric == "q-change" else figures.inverted
             title = movement.title(scale.metric)
-        self.colouring = resolve(scale, self.values, figures.inverted, self._neighbour, title)
+        self.colouring = resolve(scale, self.values, figures.inverted, self._ends_of_views, title)
 
-    def span(self, neighbour: tuple[float, float] | None) -> bool:
-        """Extend a fitted range to values of other views; return True if it changes."""
-        if neighbour == self._neighbour:
+    def extend_range(self, ends: tuple[float, float] | None) -> bool:
+        """Extend a fitted range to that of all views; return True if it changes."""
+        if ends == self._ends_of_views:
             return False
-        before, self._neighbour = self.colouring, neighbour
+        before, self._ends_of_views = self.colouring, ends
         self.measure(self._frame)
         return (before.low, before.high) != (self.colouring.low, self.colouring.high)
 
@@ -58,7 +58,7 @@ class ElementColours:
         ----------
         hexes : (k,) int32 or slice
         opened : (k,) bool, optional
-            Of a neutral look, which faces lie inside the mesh; None for all.
+            True for faces inside the mesh, for neutral looks; None for all.
         """
         kinds = self.kinds[hexes]
         if not self._frame.look.neutral:
@@ -67,11 +67,14 @@ class ElementColours:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Range of the values of this view, as `fitted` returns it."""
+        """Fitted range of the values of this view."""
         return fitted(self.values, self._frame.figures.inverted)
 
     @property
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:
-        """Special colours: name, number of hexes, colour."""
+        """Name, number of hexes and colour of each special colour."""
         counts = np.bincount(self.kinds, minlength=len(self.colouring.special_colours) + 1)
-        return [(one.name, int(counts[k]), one.colour) for k, one in enumerate(self.colouring.special_colours, start=1)]
+        return [
+            (special.name, int(count), special.colour)
+            for special, count in zip(self.colouring.special_colours, counts[1:], strict=False)
+        ]

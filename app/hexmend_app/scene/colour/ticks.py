@@ -1,4 +1,4 @@
-"""Round values along a scale."""
+"""Tick values along a scale."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ def nice_ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def ticks_with_ends(low: float, high: float, space: float, most: int) -> list[float]:
-    """Return both ends, and the round values between them that keep a distance.
+    """Return both ends, and round values between them that are far enough apart.
 
     Parameters
     ----------
     low, high : float
-    room : float
-        Space of a value, as a share of the whole length.
+    space : float
+        Minimum distance of values, as a fraction of the scale.
     most : int
-        Values, ends included.
+        Maximum number of values, including both ends.
     """
     if not high > low:
         return []
-    near = space * (high - low)
+    gap = space * (high - low)
     between: list[float] = []
-    for number in range(min(int(1 / space) + 1, most), 2, -1):
-        between = nice_ticks(low, high, number)
-        if len(between) < 2 or between[1] - between[0] >= near:
+    for count in range(min(int(1 / space) + 1, most), 2, -1):
+        between = nice_ticks(low, high, count)
+        if len(between) < 2 or between[1] - between[0] >= gap:
             break
-    return [low, *(tick for tick in between if low + near <= tick <= high - near), high]
+    return [low, *(tick for tick in between if low + gap <= tick <= high - gap), high]

@@ -1,4 +1,4 @@
-"""Ranges of metrics for colours, filters and histogram."""
+"""Value ranges of metrics, for colours, filters and the histogram."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from hexmend_app.picture.appearance import RangeMode, ValueRange
 
 
 def within(values: np.ndarray, inverted: np.ndarray, chosen: ValueRange) -> np.ndarray:
-    """Select the hexes in a range, (m,) bool: exactly those that the histogram counts there.
+    """Return True for the hexes in a range, (m,) bool, which are exactly those that the histogram counts in it.
 
     Parameters
     ----------
     values : (m,) float64
-        Of the range's metric. What is no number is counted as inverted.
+        Values of the metric of the range; nan is treated as inverted.
     inverted : (m,) bool
     chosen : ValueRange
     """
@@ -35,6 +35,6 @@ def better(metric: str) -> int:
 
 
 def declared_range(metric: str, mode: RangeMode) -> tuple[float, float] | None:
-    """Return the range that a metric declares for the mode FULL or ACCEPTABLE; None if it is infinite."""
+    """Return the range of a metric in the mode FULL or ACCEPTABLE; None if it is infinite."""
     declared = hex_quantity(metric).full_range if mode is RangeMode.FULL else hex_quantity(metric).acceptable
     return tuple(map(float, declared)) if np.isfinite(declared).all() else None

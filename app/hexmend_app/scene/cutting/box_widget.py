@@ -1,4 +1,4 @@
-"""The clipping box, whose sides are dragged in the view."""
+"""Cut box whose sides are dragged in the view."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class BoxWidget(Handles):
     ----------
     pane : Pane
     moved : callable
-        Called with (low, high) as the user drags; never for what is set by `set`.
+        Called with (low, high) while the user drags; not called by `set`.
     """
 
     def __init__(self, pane: Pane, moved: Callable[[tuple, tuple], None]):
@@ -42,7 +42,7 @@ class BoxWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._shape.GetOutlineProperty().SetColor(rgb(PLANE_EDGE.of(dark)))
         for part in ("SelectedFace", "SelectedOutline", "Handle"):
             getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_HELD.of(dark)))
@@ -52,7 +52,7 @@ class BoxWidget(Handles):
         self._bounds = np.array(bounds).reshape(3, 2)
 
     def set(self, clip: BoxClip | None, shown: bool = True) -> None:
-        """Show the box of a clip, or hide it."""
+        """Show a box, or hide it if it is None or not `shown`."""
         on = clip is not None and shown and self._bounds is not None
         if on and not self._dragging:
             self._shape.PlaceWidget([end for pair in zip(clip.low, clip.high, strict=True) for end in pair])

@@ -1,4 +1,4 @@
-"""Common part of the VTK widgets that are dragged in the view."""
+"""Base class of the VTK widgets that are dragged in the view."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hexmend_app.scene.views.pane import Pane
 
 
 class Handles:
-    """Switches a widget on and off, and reports its drags.
+    """Switches a widget on and off, and reports when it is dragged.
 
     Attributes
     ----------
@@ -18,7 +18,7 @@ class Handles:
     ----------
     pane : Pane
     widget : vtkAbstractWidget
-        With its representation.
+        Widget with its representation.
     """
 
     def __init__(self, pane: Pane, widget: vtkAbstractWidget):
@@ -37,11 +37,11 @@ class Handles:
 
     def _switch(self, on: bool) -> None:
         if not on and self._dragging:
-            # VTK does not end a drag that is cut short: switched on again, it would go on with no button held.
+            # VTK does not end an interrupted drag; switched on again, the widget would continue it without a button.
             self.widget.GetInteractor().InvokeEvent("LeftButtonReleaseEvent")
             self._dragging = False
         if bool(self.widget.GetEnabled()) != on:
-            if on:  # switched off, VTK forgets where it was, and takes the view that the mouse was over last
+            if on:  # otherwise VTK moves the widget into the view that the mouse was over last
                 self.widget.SetCurrentRenderer(self._renderer)
             self.widget.SetEnabled(on)
 

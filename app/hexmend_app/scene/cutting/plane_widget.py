@@ -1,4 +1,4 @@
-"""The clipping plane, which is dragged and turned in the view."""
+"""Cut plane that is dragged and rotated in the view."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class PlaneWidget(Handles):
     ----------
     pane : Pane
     moved : callable
-        Called with the ClipPlane as the user drags; never for what is set by `set`.
+        Called with the ClipPlane while the user drags; not called by `set`.
     """
 
     def __init__(self, pane: Pane, moved: Callable[[ClipPlane], None]):
@@ -43,7 +43,7 @@ class PlaneWidget(Handles):
         super().__init__(pane, widget)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         edge, plane, selected = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
         self._shape.SetEdgeColor(edge)
         self._shape.GetPlaneProperty().SetColor(plane)
@@ -56,10 +56,10 @@ class PlaneWidget(Handles):
         self._placed = True
 
     def set(self, plane: ClipPlane | None, shown: bool = True) -> None:
-        """Show a plane, or hide it.
+        """Show a plane, or hide it if it is None or not `shown`.
 
-        While it is dragged it follows the hand: turned on from where it has been set straight, it would never get away
-        from there.
+        The position of the widget is not changed during a drag; otherwise a plane that snaps to an axis could not be
+        rotated away from it.
         """
         self._plane = plane
         on = plane is not None and shown and self._placed

@@ -1,4 +1,4 @@
-"""Clipping of convex polygons; several times faster than VTK's, which makes triangles of them."""
+"""Clipping of convex polygons; several times faster than in VTK, which splits them into triangles."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class Polygons:
     ----------
     points : (p, 3) float64
     start : (k + 1,) int64
-        Polygon i has the points at `places[start[i]:start[i + 1]]`, in order.
+        Polygon i has the points `places[start[i]:start[i + 1]]`, in order.
     places : (start[-1],) int64
     owner : (k,) int64
-        A number that a polygon keeps when it is cut.
+        Number of the original polygon, preserved by clipping.
     """
 
     points: np.ndarray
@@ -32,7 +32,7 @@ class Polygons:
 
     @classmethod
     def of(cls, poly: pv.PolyData) -> Polygons:
-        """Return the polygons of a dataset, owned by their cell numbers."""
+        """Return the polygons of a dataset, with their cell numbers as owners."""
         cells = poly.GetPolys()
         start, places = (
             vtk_to_numpy(a).astype(np.int64) for a in (cells.GetOffsetsArray(), cells.GetConnectivityArray())
@@ -43,7 +43,7 @@ class Polygons:
         return len(self.owner)
 
     def same(self, other: Polygons) -> bool:
-        """Return True if other polygons have equal corners."""
+        """Return True if the polygons are equal to others."""
         return self is other or (
             np.array_equal(self.points, other.points)
             and np.array_equal(self.places, other.places)
@@ -51,7 +51,7 @@ class Polygons:
         )
 
     def before(self, normals: np.ndarray, offsets: np.ndarray) -> Polygons:
-        """Return the parts of the polygons before all planes, where x . normal <= offset.
+        """Return the parts of the polygons in front of all planes, where x . normal <= offset.
 
         Parameters
         ----------
@@ -62,15 +62,15 @@ class Polygons:
         return Polygons(points, start, np.arange(len(points)), owner)
 
     def facing(self, direction: np.ndarray) -> Polygons:
-        """Return the polygons, each counter-clockwise as seen from far along a direction, (3,)."""
+        """Return the polygons in counter-clockwise order as seen from the side that a direction, (3,), points to."""
         if not len(self):
             return self
         normals = np.empty((len(self), 3))
         occlusion.normals(self.points, self.start, self.places, normals)
         counts = np.diff(self.start)
-        at = np.arange(len(self.places))
-        mirrored = np.repeat(self.start[:-1] + self.start[1:] - 1, counts) - at
-        places = self.places[np.where(np.repeat(normals @ direction < 0, counts), mirrored, at)]
+        corner = np.arange(len(self.places))
+        mirrored = np.repeat(self.start[:-1] + self.start[1:] - 1, counts) - corner
+        places = self.places[np.where(np.repeat(normals @ direction < 0, counts), mirrored, corner)]
         return Polygons(self.points, self.start, places, self.owner)
 
     def data(self) -> pv.PolyData:
@@ -80,7 +80,7 @@ class Polygons:
         return pv.PolyData(self.points, faces=pv.CellArray.from_arrays(self.start, self.places))
 
 
-def together(parts: list[Polygons]) -> Polygons:
+def merge_polygons(parts: list[Polygons]) -> Polygons:
     """Concatenate sets of polygons."""
     points = np.cumsum([0, *(len(part.points) for part in parts)])
     corners = np.cumsum([0, *(len(part.places) for part in parts)])

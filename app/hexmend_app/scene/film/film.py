@@ -1,4 +1,4 @@
-"""Films of a run: the mesh at its iterations, with figures."""
+"""Films of a run: the mesh at its iterations, with captions, colour bar and histogram."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 
-#: What can be written, by suffix: all are shown by browsers.
+#: Film formats by suffix; browsers show all of them.
 FORMATS = {".mp4": "MP4", ".gif": "GIF", ".png": "PNG", ".webp": "WEBP"}
 
-#: Colours of a GIF, shared by all its frames: what a map, an edge and a shade need, and the colour bar, which would
-#: have bands if it had to do with those.
+#: Numbers of colours in the common palette of a GIF: of the mesh, of the colour bar, which would otherwise show bands,
+#: and of the axes.
 _COLOURS, _BAR, _AXES = 116, 120, 16
 
-#: Share of the width that a histogram has.
+#: Width of the histogram, as a fraction of the film width.
 _CHART = 0.32
 
-#: How long the first and the last frame stand, in frames.
-_STAND = 8
+#: Duration of the first and the last frame, in frames.
+_PAUSE = 8
 
 
 def pictures(
-    shots: Iterable[FilmFrame],
+    film_frames: Iterable[FilmFrame],
     look: Look,
     size: tuple[int, int],
     *,
@@ -48,38 +48,37 @@ def pictures(
     movement: Displacement | None = None,
     chart: bool = False,
 ) -> Iterator[Image.Image]:
-    """Draw frames one after another, off screen, with one camera.
+    """Generate the pictures of film frames, drawn off screen with the same camera.
 
     Parameters
     ----------
-    shots : iterable of Shot
+    film_frames : iterable of FilmFrame
     look : Look
     size : (width, height)
-        In pixels, caption and colour bar included.
+        Size of the film in pixels, including caption and colour bar.
     view : str or vector
-        The direction to look from, where no camera is given.
+        View direction if there is no camera.
     camera : vtkCamera, optional
-        To be looked through.
     movement : Displacement, optional
-        Of the moment that every picture is compared with, where the look shows a movement; one since the iteration
-        before is since the picture before.
+        Movement with the reference state of all frames, if the look shows a movement; a movement since the last
+        iteration refers to the last frame instead.
     chart : bool
         Draw a histogram of the coloured values.
     """
     width, height = size
     strip = strip_height(size)
     chart = chart and strip > 0 and not look.neutral
-    aside = round(_CHART * width) if chart else 0
-    with Stage((width - aside, height - (1 if look.neutral else 2) * strip)) as stage:
+    chart_width = round(_CHART * width) if chart else 0
+    with Stage((width - chart_width, height - (1 if look.neutral else 2) * strip)) as stage:
         viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
-        seen_last: ReferenceState | None = None
-        for shot in shots:
-            mesh, figures = shot.state.mesh, shot.state.figures
+        last: ReferenceState | None = None
+        for film_frame in film_frames:
+            mesh, figures = film_frame.state.mesh, film_frame.state.figures
             if movement is not None:
-                before = seen_last if look.traces.since is Since.ITERATION else movement.before
-                now = ReferenceState(mesh.points, figures, "the picture before")
-                movement = Displacement(movement.mesh, before or now, mesh.points, figures)
-                seen_last = now
+                before = last if look.traces.since is Since.ITERATION else movement.before
+                current = ReferenceState(mesh.points, figures, "the last frame")
+                movement = Displacement(movement.mesh, before or current, mesh.points, figures)
+                last = current
             first = viewport.frame is None
             viewport.draw(Frame(mesh, figures, movement, look))
             if first:
@@ -90,25 +89,25 @@ def pictures(
             viewport.still()
             viewport.shade()
             viewport.layers[0].ResetCameraClippingRange()
-            yield _framed(Image.fromarray(stage.picture()), shot, viewport, size, strip)
+            yield _compose(Image.fromarray(stage.picture()), film_frame.caption, viewport, size, strip)
 
 
-def _framed(seen: Image.Image, shot: FilmFrame, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:
-    """Add a caption above, a colour bar below if there are colours, and a histogram if there is space."""
-    whole = paper(size, seen.mode)
-    whole.paste(seen, (0, strip))
-    aside = size[0] - seen.width
-    if aside:
-        colours = viewport.colours
-        neighbour = histogram(
-            colours.values, colours.kinds, viewport.colouring, (aside, seen.height), strip / 30, seen.mode
-        )
-        whole.paste(neighbour, (seen.width, strip))
+def _compose(
+    picture: Image.Image, caption: str, viewport: Viewport, size: tuple[int, int], strip: int
+) -> Image.Image:
+    """Add a caption above a picture, a histogram on its right if the picture leaves space, and a colour bar below."""
+    whole = paper(size, picture.mode)
+    whole.paste(picture, (0, strip))
+    colours, chart_width = viewport.colours, size[0] - picture.width
+    if chart_width:
+        chart_size = chart_width, picture.height
+        chart = histogram(colours.values, colours.kinds, viewport.colouring, chart_size, strip / 30, picture.mode)
+        whole.paste(chart, (picture.width, strip))
     if strip:
-        at = (round(0.3 * strip), strip / 2)
-        ImageDraw.Draw(whole).text(at, shot.caption, INK, letters(0.42 * strip), anchor="lm")
+        position = (round(0.3 * strip), strip / 2)
+        ImageDraw.Draw(whole).text(position, caption, INK, letters(0.42 * strip), anchor="lm")
     if strip and not viewport.frame.look.neutral:
-        bar = colour_bar(viewport.colouring, viewport.colours.special_counts, (size[0], strip), seen.mode)
+        bar = colour_bar(viewport.colouring, colours.special_counts, (size[0], strip), picture.mode)
         whole.paste(bar, (0, size[1] - strip))
     return whole
 
@@ -120,18 +119,18 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
     ----------
     path : Path
     frames : sequence of Image
-        At least one.
+        At least one frame.
     rate : float
-        Frames a second.
+        Frames per second.
 
     Raises
     ------
     FileError
-        For a suffix that is none of `FORMATS`, or where the file cannot be written.
+        For a suffix that is not in `FORMATS`, or if the file cannot be written.
     """
     format = format_of(path)
     lengths = [1] * len(frames)
-    lengths[0] = lengths[-1] = _STAND
+    lengths[0] = lengths[-1] = _PAUSE
     if format == "GIF":
         frames = _with_one_palette(frames)
     with atomic_write(path) as temporary:
@@ -141,7 +140,7 @@ def write_film(path: Path, frames: Sequence[Image.Image], rate: float) -> None:
         first, *others = frames
         first.save(
             temporary, format=format, save_all=True, append_images=others,
-            duration=[round(1000 / rate) * one for one in lengths],
+            duration=[round(1000 / rate) * length for length in lengths],
             loop=0, optimize=True,
         )  # fmt: skip
 
@@ -152,7 +151,7 @@ def format_of(path: Path) -> str:
     Raises
     ------
     FileError
-        For another suffix, or where what writes it is not installed.
+        For another suffix, or if the library for the format is not installed.
     """
     format = FORMATS[suffix_for(path, "a film", FORMATS)]
     if format == "MP4":
@@ -161,42 +160,43 @@ def format_of(path: Path) -> str:
 
 
 def _with_one_palette(frames: Sequence[Image.Image]) -> list[Image.Image]:
-    """Reduce all frames to one palette, so that unchanged areas take no space."""
-    some = [np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)]
+    """Reduce all frames to a common palette, so that unchanged areas take no space."""
+    sample = [np.asarray(frames[k].convert("RGB")) for k in (0, len(frames) // 2, -1)]
     strip = strip_height(frames[0].size)
-    table = _colours([one[: len(one) - strip] for one in some], _COLOURS)
+    table = _main_colours([pixels[: len(pixels) - strip] for pixels in sample], _COLOURS)
     if strip:
-        table += _along(some[-1][-strip:][strip // 4])
-        low, corner = len(some[-1]) - strip, 3 * strip
-        table += _colours([some[-1][low - corner : low, :corner]], _AXES)
-    return [_by_palette(one, table) for one in frames]
+        last = sample[-1]
+        table += _colours_along(last[-strip:][strip // 4])
+        low, corner = len(last) - strip, 3 * strip
+        table += _main_colours([last[low - corner : low, :corner]], _AXES)
+    return [_apply_palette(frame, table) for frame in frames]
 
 
-def _by_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Image.Image:
-    """Map a frame to the nearest colours of a table; Pillow's search confuses neighbours in a gradient."""
+def _apply_palette(frame: Image.Image, table: Sequence[tuple[int, ...]]) -> Image.Image:
+    """Map a frame to the nearest colours of a table; the search of Pillow is inexact in gradients."""
     from scipy.spatial import KDTree
 
     pixels = np.asarray(frame.convert("RGB")).astype(np.uint32)
-    packed, where = np.unique(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], return_inverse=True)
+    packed, index = np.unique(pixels[..., 0] << 16 | pixels[..., 1] << 8 | pixels[..., 2], return_inverse=True)
     unpacked = np.stack([packed >> 16, packed >> 8 & 255, packed & 255], axis=1)
     _, nearest = KDTree(np.array(table)).query(unpacked)
-    answer = Image.fromarray(nearest.astype(np.uint8)[where].reshape(pixels.shape[:2]), "P")
-    answer.putpalette([part for colour in table for part in colour])
-    return answer
+    indexed = Image.fromarray(nearest.astype(np.uint8)[index].reshape(pixels.shape[:2]), "P")
+    indexed.putpalette([part for colour in table for part in colour])
+    return indexed
 
 
-def _colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
-    """Return at most `most` colours that represent those of pictures (h, w, 3) best."""
+def _main_colours(parts: Sequence[np.ndarray], most: int) -> list[tuple[int, ...]]:
+    """Return at most `most` colours that best represent pictures, each (h, w, 3) uint8."""
     colours, counts = count_colours(np.concatenate([part.reshape(-1, 3) for part in parts]))
-    # By the root of how often they are seen: or the ground would leave no colours to the mesh.
+    # Weight colours by the root of their count; otherwise most of the palette would go to the background.
     weighted = np.repeat(colours, np.ceil(np.sqrt(counts)).astype(int), axis=0)
     chosen = Image.fromarray(weighted[None]).quantize(most, method=Image.Quantize.MEDIANCUT).convert("RGB")
-    return [tuple(one) for one in count_colours(np.asarray(chosen))[0].tolist()]
+    return [tuple(colour) for colour in count_colours(np.asarray(chosen))[0].tolist()]
 
 
-def _along(line: np.ndarray) -> list[tuple[int, ...]]:
-    """Sample the colours along a line of pixels (w, 3), such as a colour bar with swatches."""
-    through = Counter(map(tuple, line.tolist()))
-    order = list(through)
-    steps = [order[round(at)] for at in np.linspace(0, len(order) - 1, min(_BAR, len(order)))]
-    return list(dict.fromkeys([*steps, *(colour for colour, count in through.most_common(4))]))
+def _colours_along(line: np.ndarray) -> list[tuple[int, ...]]:
+    """Sample the colours along a line of pixels, (w, 3), for example through a colour bar with swatches."""
+    counts = Counter(map(tuple, line.tolist()))
+    in_order = list(counts)
+    sample = [in_order[round(i)] for i in np.linspace(0, len(in_order) - 1, min(_BAR, len(in_order)))]
+    return list(dict.fromkeys([*sample, *(colour for colour, _ in counts.most_common(4))]))

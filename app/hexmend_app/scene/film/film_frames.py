@@ -1,4 +1,4 @@
-"""Frames of a film of a run: iterations spread evenly over it."""
+"""Frames of a film of a run: evenly spaced iterations."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from hexmend_app.state.mesh.history import History, RunRecord
 
 @dataclass(frozen=True, eq=False)
 class FilmFrame:
-    """A frame: a mesh with its texts.
+    """Frame of a film: a state of the mesh with a caption.
 
     Parameters
     ----------
     caption : str
     state : State
-        Of the same mesh in all frames, but for where its nodes are.
+        State of the mesh; frames differ in positions of nodes only.
     """
 
     caption: str
@@ -27,19 +27,19 @@ class FilmFrame:
 
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:
-    """Choose the iterations of a film with a limited number of frames: the first, the last, and some between."""
-    kept = history.kept(record)
-    places = np.linspace(0, len(kept) - 1, min(frames, len(kept)))
-    return kept[np.unique(places.round().astype(int))].tolist()
+    """Return the numbers of at most `frames` recorded iterations, including the first and the last."""
+    recorded = history.kept(record)
+    positions = np.linspace(0, len(recorded) - 1, min(frames, len(recorded)))
+    return recorded[np.unique(positions.round().astype(int))].tolist()
 
 
 def film_frames(record: RunRecord, numbers: Sequence[int], state: Callable[[int], State]) -> Iterator[FilmFrame]:
     """Generate the frames of iterations; `state` returns the state of an iteration by its number."""
     for number in numbers:
-        at = state(number)
-        inverted = at.summary.inverted
+        shown = state(number)
+        inverted = shown.summary.inverted
         yield FilmFrame(
-            f"{record.title}, iteration {number} of {record.newest}: q min {at.summary.q_min:.4f}, "
+            f"{record.title}, iteration {number} of {record.newest}: q min {shown.summary.q_min:.4f}, "
             f"{f'{inverted:,}' if inverted else 'none'} inverted",
-            at,
+            shown,
         )

@@ -1,4 +1,4 @@
-"""Parts of film frames: colour bar and fonts, drawn fast."""
+"""Parts of film frames: colour bar and fonts, drawn with Pillow for speed."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ from hexmend_app.scene.page.fonts import font_file
 
 INK = (31, 38, 48)
 
-#: Height of a picture up to which thin lines are a pixel wide.
+#: Height in pixels of pictures up to which thin lines are one pixel wide.
 _ONE_PIXEL = 900
 
-#: Width and height in pixels below which there is no room for the colour bar.
+#: Minimum width and height in pixels of pictures with a colour bar.
 _SMALLEST_WITH_BAR = (320, 160)
 
 
 def paper(size: tuple[int, int], mode: str) -> Image.Image:
-    """Return an empty picture of a size in pixels: white, or transparent in the mode RGBA."""
+    """Return an empty picture with a size in pixels: white, or transparent in the mode RGBA."""
     return Image.new(mode, size, (255, 255, 255, 0) if mode == "RGBA" else (255, 255, 255))
 
 
 def pixel_ratio_of(size: tuple[int, int]) -> float:
-    """Return the width of a thin line for a picture size, in pixels: in print, all sizes look alike."""
+    """Return the width of a thin line in pixels for a picture size; printed pictures of all sizes look the same."""
     width, height = size
     return max(1.0, min(height, width * 5 / 8) / _ONE_PIXEL)
 
 
 def strip_height(size: tuple[int, int]) -> int:
-    """Return the height of the colour bar for a picture size, in pixels; 0 if it does not fit."""
+    """Return the height of the colour bar in pixels for a picture size; 0 if it does not fit."""
     width, height = size
-    space = width >= _SMALLEST_WITH_BAR[0] and height >= _SMALLEST_WITH_BAR[1]
-    return max(30, round(0.075 * min(height, width * 5 / 8))) if space else 0
+    fits = width >= _SMALLEST_WITH_BAR[0] and height >= _SMALLEST_WITH_BAR[1]
+    return max(30, round(0.075 * min(height, width * 5 / 8))) if fits else 0
 
 
 def colour_bar(
@@ -43,17 +43,17 @@ def colour_bar(
     size: tuple[int, int],
     mode: str = "RGB",
 ) -> Image.Image:
-    """Draw the gradient from the lowest value to the highest, ticks, and swatches of special colours.
+    """Draw a colour bar: gradient from the lowest to the highest value, ticks, and swatches of special colours.
 
     Parameters
     ----------
     colouring : Colouring
-    apart : sequence of (name, number of elements or None, colour)
-        None leaves the number out.
+    special : sequence of (name, number of hexes or None, colour)
+        Special colours; None omits the number.
     size : (width, height)
-        In pixels.
+        Size in pixels.
     mode : str
-        Of the picture: RGB or RGBA.
+        Mode of the picture: RGB or RGBA.
     """
     width, height = size
     image = paper(size, mode)
@@ -81,5 +81,5 @@ def colour_bar(
 
 
 def letters(size: float) -> ImageFont.FreeTypeFont:
-    """Return the font of pictures in a height in pixels."""
+    """Return the font of pictures for a height in pixels."""
     return ImageFont.truetype(font_file(), max(8, round(size)))

@@ -1,4 +1,4 @@
-"""Films as MP4 (H.264), which presentation programs play; PyAV writes them."""
+"""Films as MP4 (H.264), which presentation programs play, written with PyAV."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from PIL import Image
 
 from hexmend.errors import FileError
 
-#: The quality of x264's constant rate: 18 is hard to tell from the picture itself.
+#: Constant rate factor of x264; 18 is visually almost lossless.
 _QUALITY = "18"
 
-#: What players take for granted of the colours of a film (ITU-T H.273), in the words of PyAV: the one of HDTV.
-_HDTV = 1
+#: Code of the colour space that players assume (ITU-T H.273): BT.709, as in HDTV.
+_BT709 = 1
 
 
 def check_installed(path: Path) -> None:
@@ -34,12 +34,12 @@ def write_movie(path: Path, frames: Sequence[Image.Image], lengths: Sequence[int
     Parameters
     ----------
     path : Path
-        Path of the file; the caller replaces an existing file atomically.
+        Path of a temporary file; the caller replaces an existing file atomically.
     frames : sequence of Image
     lengths : sequence of int
-        Duration of each, in frames.
+        Duration of each frame, in frames.
     rate : float
-        Frames a second.
+        Frames per second.
     """
     import av
 
@@ -49,7 +49,7 @@ def write_movie(path: Path, frames: Sequence[Image.Image], lengths: Sequence[int
         stream.width, stream.height, stream.pix_fmt = width, height, "yuv420p"
         stream.options = {"crf": _QUALITY, "preset": "medium"}
         codec = stream.codec_context
-        codec.colorspace = codec.color_primaries = codec.color_trc = codec.color_range = _HDTV
+        codec.colorspace = codec.color_primaries = codec.color_trc = codec.color_range = _BT709
         for image, length in zip(frames, lengths, strict=True):
             whole = Image.new("RGB", (width, height), "white")
             whole.paste(image.convert("RGB"), (0, 0))

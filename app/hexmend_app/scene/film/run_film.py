@@ -1,4 +1,4 @@
-"""Film of a recorded run, off screen: for scripts that repeat what a window has drawn."""
+"""Off-screen film of a recorded run, for scripts that reproduce films of a window."""
 
 from __future__ import annotations
 
@@ -37,28 +37,28 @@ def write_run_film(
     Parameters
     ----------
     path : path-like
-        Its suffix is one of `hexmend_app.scene.film.film.FORMATS`.
+        Path with a suffix of `hexmend_app.scene.film.film.FORMATS`.
     scene : Scene
-        Its camera, cut, filters and colours.
-    run : Record
-        It knows where the nodes were at these iterations.
+        Scene whose camera, cut, filters and colours are used.
+    run : RunRecord
+        Record of the positions of the nodes at these iterations.
     mesh : Mesh
-        Data of its iterations besides the points.
+        Mesh of the run; its points are replaced by those of the iterations.
     numbers : sequence of int
-        Of the iterations.
+        Numbers of the iterations.
     size : (width, height)
-        In pixels.
+        Size in pixels.
     rate : float
-        Frames a second.
+        Frames per second.
     histogram : bool
         Draw a histogram.
     opened, since, since_name
-        As for `hexmend_app.scene.page.still_picture.write_picture`, where the scene shows a movement.
+        As for `hexmend_app.scene.page.still_picture.write_picture`, if the scene shows a movement.
 
     Raises
     ------
     HexmendError
-        If nothing can be drawn here, or the file cannot be written.
+        If drawing is impossible on this machine, or the file cannot be written.
     """
     path = Path(path)
     format_of(path)
@@ -66,6 +66,6 @@ def write_run_film(
     movement = None if since is None else movement_since(since, since_name, mesh, opened or mesh)
     camera = vtkCamera()
     aim(camera, scene.camera, mesh.points, size[0] / size[1])
-    taken = film_frames(run, numbers, lambda number: State.of(mesh.with_points(run.points(number))))
-    frames = pictures(taken, scene.look(mesh), size, camera=camera, movement=movement, chart=histogram)
-    write_film(path, [*frames], rate)
+    frames = film_frames(run, numbers, lambda number: State.of(mesh.with_points(run.points(number))))
+    images = pictures(frames, scene.look(mesh), size, camera=camera, movement=movement, chart=histogram)
+    write_film(path, [*images], rate)

@@ -8,14 +8,14 @@ from vtkmodules.vtkFiltersCore import vtkBinnedDecimation
 
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
 
-#: Faces from which a coarse skin is worth making: they take 50 ms a frame without a graphics card.
+#: Number of faces above which a skin is decimated while the camera moves; they take 50 ms a frame in software rendering.
 MANY = 30_000
 
-_DIVISIONS = 64  # of each side of the skin's box: a cell is some ten pixels wide
+_DIVISIONS = 64  # of each side of the bounding box, so that a grid cell is about ten pixels wide
 
 
 def decimated(skin: pv.PolyData) -> pv.PolyData:
-    """Cluster a surface into triangles of about a grid cell; each has the colour of a face there.
+    """Cluster a surface into triangles of about the size of a grid cell, each in the colour of one of its faces.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def decimated(skin: pv.PolyData) -> pv.PolyData:
     bins.ProduceCellDataOn()
     bins.ProducePointDataOff()
     bins.Update()
-    rough = pv.wrap(bins.GetOutput())
-    faces = np.asarray(rough.cell_data["face"]).astype(np.int64)
-    rough.clear_data()
-    return coloured(rough, colours_of(skin)[faces], hexes_of(skin)[faces])
+    coarse = pv.wrap(bins.GetOutput())
+    faces = np.asarray(coarse.cell_data["face"]).astype(np.int64)
+    coarse.clear_data()
+    return coloured(coarse, colours_of(skin)[faces], hexes_of(skin)[faces])

@@ -1,6 +1,6 @@
 """Ambient occlusion: faces deep in a cut are darker than exposed ones.
 
-It is worked out on the scene itself and not in its picture, so that it stays as the camera turns.
+Occlusion is computed in the scene, not in screen space, so it does not change with the camera.
 """
 
 from __future__ import annotations
@@ -13,29 +13,29 @@ import numpy as np
 from hexmend.kernels import occlusion
 from hexmend_app.scene.cutting.polygons import Polygons
 
-#: Directions that light comes from. Half of them reach a face at best.
+#: Number of light directions. At most half of them reach a face.
 DIRECTIONS = 64
 
-#: Directions between which whoever waits for the answer can be asked whether he still does.
-_AT_ONCE = 16
+#: Number of directions that are computed between checks for cancellation.
+_BATCH = 16
 
-#: Darkest shade: colours must stay distinguishable there too.
+#: Smallest brightness, at which colours are still distinguishable.
 DARKEST = 0.55
 
-#: Pixels that an edge of an element is to have in the pictures from the light, and the sides that these may have.
+#: Desired length of hex edges in depth maps, in pixels, and the smallest and largest side of depth maps.
 _PIXELS, _SIDES = 5.0, (384, 768)
 
 
 @cache
 def directions(count: int = DIRECTIONS) -> np.ndarray:
-    """Return evenly spread directions on a spiral over the sphere, (count, 3) float64 of length 1."""
+    """Return unit vectors, (count, 3) float64, spread evenly on a spiral over the sphere."""
     steps = np.arange(count)
     z = 1 - (2 * steps + 1) / count
-    around = np.pi * (3 - np.sqrt(5)) * steps
-    flat = np.sqrt(1 - z * z)
-    answer = np.column_stack([flat * np.cos(around), flat * np.sin(around), z])
-    answer.flags.writeable = False
-    return answer
+    angle = np.pi * (3 - np.sqrt(5)) * steps
+    radius = np.sqrt(1 - z * z)
+    vectors = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), z])
+    vectors.flags.writeable = False
+    return vectors
 
 
 def light(polygons: Polygons, wanted: Callable[[], bool] = lambda: True) -> np.ndarray | None:
@@ -44,44 +44,44 @@ def light(polygons: Polygons, wanted: Callable[[], bool] = lambda: True) -> np.n
     Parameters
     ----------
     polygons : Polygons
-        Everything that stands in the light; counter-clockwise from where they are seen.
+        All polygons of the scene, counter-clockwise as seen from outside.
     wanted : callable
-        Asked now and then; False ends the work.
+        Called repeatedly; returns False to cancel.
 
     Returns
     -------
     (start[-1],) float64, optional
-        From 0 for what is shut in to 1 for what nothing is before; None where it is no longer wanted.
+        0 for enclosed corners, 1 for fully exposed corners; None if cancelled.
     """
     corners = len(polygons.places)
     if not corners:
         return np.ones(0)
-    side, steps = _side(polygons), len(directions()) // _AT_ONCE
-    reached, whole, along = np.zeros(corners), np.zeros(corners), normals(polygons)
-    for some in np.array_split(directions(), steps):
+    side, batches = _depth_map_side(polygons), len(directions()) // _BATCH
+    received, total, face_normals = np.zeros(corners), np.zeros(corners), normals(polygons)
+    for batch in np.array_split(directions(), batches):
         if not wanted():
             return None
-        occlusion.shine(polygons.points, polygons.start, polygons.places, along, some, side, reached, whole)
-    return np.divide(reached, whole, out=np.ones(corners), where=whole > 0)
+        occlusion.shine(polygons.points, polygons.start, polygons.places, face_normals, batch, side, received, total)
+    return np.divide(received, total, out=np.ones(corners), where=total > 0)
 
 
 def normals(polygons: Polygons) -> np.ndarray:
-    """Return the normals of the mean planes of polygons, (k, 3) float64 of length 1: no diagonal is visible."""
-    answer = np.empty((len(polygons), 3))
-    occlusion.normals(polygons.points, polygons.start, polygons.places, answer)
-    return answer
+    """Return the unit normals of the mean planes of polygons, (k, 3) float64, which hide diagonals of warped quads."""
+    unit_normals = np.empty((len(polygons), 3))
+    occlusion.normals(polygons.points, polygons.start, polygons.places, unit_normals)
+    return unit_normals
 
 
 def brightness(light: np.ndarray) -> np.ndarray:
-    """Return the factor of colours under a share of ambient light, from `DARKEST` to 1."""
+    """Return the brightness of colours, from `DARKEST` to 1, under a fraction of the ambient light."""
     return DARKEST + (1 - DARKEST) * light
 
 
-def _side(polygons: Polygons) -> int:
-    """Return the side of the depth picture in which the edge of a hex has enough pixels."""
-    some = polygons.start[:-1][:: max(1, len(polygons) // 2000)]
-    ends = polygons.points[polygons.places[some]], polygons.points[polygons.places[some + 1]]
+def _depth_map_side(polygons: Polygons) -> int:
+    """Return the side of depth maps in pixels, in which edges of hexes have enough pixels."""
+    sample = polygons.start[:-1][:: max(1, len(polygons) // 2000)]
+    ends = polygons.points[polygons.places[sample]], polygons.points[polygons.places[sample + 1]]
     edge = float(np.median(np.linalg.norm(ends[1] - ends[0], axis=1)))
     extent = float(np.linalg.norm(np.ptp(polygons.points[polygons.places], axis=0)))
-    least, most = _SIDES
-    return int(np.clip(_PIXELS * extent / edge, least, most)) if edge > 0 else most
+    smallest, largest = _SIDES
+    return int(np.clip(_PIXELS * extent / edge, smallest, largest)) if edge > 0 else largest

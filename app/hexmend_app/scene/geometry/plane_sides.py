@@ -1,4 +1,4 @@
-"""Sides of planes on which hexes lie; single-threaded, because the window's thread calls it."""
+"""Sides of planes on which hexes lie, computed in a single thread because the UI thread waits for the result."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend.mesh.validation import as_hexes, as_points, as_reals
 def centres_kept(
     points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets: np.ndarray, notch: bool
 ) -> np.ndarray:
-    """Return True for each hex whose centre is not cut away, (m,) bool.
+    """Return True for hexes whose centres are not cut away, (m,) bool.
 
     Parameters
     ----------
@@ -20,14 +20,14 @@ def centres_kept(
     hexes : (m, 8) int32
     normals : (k, 3) float64
     offsets : (k,) float64
-        A point lies beyond a plane where x . normal > offset.
+        A point x lies beyond a plane if x . normal > offset.
     notch : bool
-        Cut away what lies beyond all planes; else what lies beyond one of them.
+        Cut away points beyond all planes instead of points beyond any plane.
 
     Raises
     ------
     MeshError
-        For arrays of another shape or type, and for a node that does not exist.
+        If an array has a wrong shape or type, or a hex has a node that does not exist.
     """
     points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
     kept = np.empty(len(hexes), bool)
@@ -36,18 +36,18 @@ def centres_kept(
 
 
 def touched(points: np.ndarray, hexes: np.ndarray, normals: np.ndarray, offsets: np.ndarray, notch: bool) -> np.ndarray:
-    """Return the planes that visibly cross or touch each hex, (m, k) bool.
+    """Return True for pairs of a hex and a plane that visibly cross or touch, (m, k) bool.
 
-    A plane through nodes has hexes that only touch it on either side, and by rounding a node may lie here or there.
-    Those of both sides are named, so that whoever cuts them can decide for each node once. A section is seen as far as
-    the other planes leave it open: not where a hex lies wholly beyond one of them, or, with `notch`, wholly before.
+    If a plane contains nodes, the hexes on both sides touch it, because rounding decides the side of these nodes; the
+    caller must treat each node consistently. Pairs whose section the other planes cut away are False: the hex lies
+    entirely beyond another plane or, with `notch`, entirely in front of another plane.
 
     Parameters are those of `centres_kept`.
     """
     points, hexes, normals, offsets = _checked(points, hexes, normals, offsets)
-    answer = np.empty((len(hexes), len(offsets)), bool)
-    clip_planes.touched(points, hexes, normals, offsets, notch, answer.ravel())
-    return answer
+    touching = np.empty((len(hexes), len(offsets)), bool)
+    clip_planes.touched(points, hexes, normals, offsets, notch, touching.ravel())
+    return touching
 
 
 def _checked(

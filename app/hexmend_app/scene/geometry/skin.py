@@ -1,4 +1,4 @@
-"""The skin: the faces of a mesh, or of its shown part, that are visible from outside."""
+"""Skin of a mesh or of its shown part: the faces that are visible from outside."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from hexmend.kernels import skin
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_bools, as_points, check_node_numbers
 
-#: Elements up to which all are drawn where they are shrunk; of more, those in sight. So many take 50 ms a frame without
-#: a graphics card.
+#: Maximum number of shrunk hexes that are drawn with all faces; of more hexes, only visible faces are drawn. They take
+#: 50 ms a frame in software rendering.
 WHOLE = 4_000
 
 
@@ -22,15 +22,16 @@ class Faces:
     Parameters
     ----------
     nodes : (u,) int32
-        The mesh's nodes that the quads use.
+        Nodes of the mesh that the quads use.
     quads : (k, 4) int32
-        Places in `nodes`, counter-clockwise from outside.
+        Indices into `nodes`, counter-clockwise as seen from outside.
     hexes : (k,) int32
-        The hex that each quad belongs to.
+        Hex of each quad.
     shrink : float
-        If not 0, the nodes are those of whole hexes, eight by eight, moved towards their mean by this share.
+        Fraction by which nodes are moved towards the mean of their hex; if it is not 0, `nodes` lists the eight nodes
+        of each hex.
     many : bool
-        True for many shrunk hexes, whose hidden sides are omitted in fast frames.
+        True if more than `WHOLE` hexes are shrunk; fast frames omit their hidden faces.
     """
 
     nodes: np.ndarray
@@ -40,7 +41,7 @@ class Faces:
     many: bool = False
 
     def places(self, points: np.ndarray) -> np.ndarray:
-        """Return the drawn positions of the nodes, (u, 3), given the points of the mesh, (n, 3) float64."""
+        """Return the drawn positions of the nodes, (u, 3), from the points of the mesh, (n, 3) float64."""
         if not self.shrink:
             return points[self.nodes]
         places, points = np.empty((len(self.nodes), 3)), as_points(points)
@@ -50,7 +51,7 @@ class Faces:
 
 
 class Skin:
-    """Finds the visible faces of any part of a mesh, by its table of face neighbours.
+    """Finds the visible faces of parts of a mesh.
 
     Parameters
     ----------
@@ -69,15 +70,16 @@ class Skin:
         Parameters
         ----------
         keep : (m,) bool, optional
-            None keeps all.
+            True for kept hexes; None for all.
         """
         keep = self._kept(keep)
         return Faces(*skin.visible(self._n_nodes, self._hexes, self._neighbours, keep))
 
     def shrunk(self, shrink: float, keep: np.ndarray | None = None, fine: bool = True) -> Faces:
-        """Return the faces of hexes that are drawn smaller.
+        """Return the faces of hexes that are drawn shrunk.
 
-        All faces; of more than `WHOLE` hexes, those of hexes with a visible face or, unless `fine`, visible faces.
+        All faces of up to `WHOLE` hexes; of more hexes, all faces of hexes with a visible face or, unless `fine`,
+        visible faces only.
         """
         keep = self._kept(keep)
         if np.count_nonzero(keep) <= WHOLE:
@@ -87,15 +89,15 @@ class Skin:
         return Faces(*self._faces_of(keep, outer, fine), shrink, True)
 
     def opened(self, faces: Faces, keep: np.ndarray | None = None) -> np.ndarray:
-        """Return True for faces inside the mesh, whose neighbour is hidden, (k,) bool.
+        """Return True for faces inside the mesh, whose adjacent hex is hidden, (k,) bool.
 
         Parameters
         ----------
         faces : Faces
-            As `visible` or `shrunk` has found them, for the same `keep`.
+            Result of `visible` or `shrunk` for the same `keep`.
         keep : (m,) bool, optional
         """
-        # They come hex by hex, and in the order of a hex's faces.
+        # Faces are sorted by hex, and by their number in the hex.
         hexes = faces.hexes[np.flatnonzero(np.diff(faces.hexes, prepend=-1))]
         behind = self._neighbours[hexes]
         inside = behind >= 0
@@ -105,7 +107,7 @@ class Skin:
         return inside[~(inside & keep[behind])]
 
     def _kept(self, keep: np.ndarray | None) -> np.ndarray:
-        """Return a byte for each hex; raise `MeshError` for another length."""
+        """Return the mask of kept hexes, (m,) bool; raise `MeshError` if its length is wrong."""
         return self._all if keep is None else as_bools(keep, "keep", len(self._hexes))
 
     def _faces_of(self, keep: np.ndarray, chosen: np.ndarray, hidden: bool) -> tuple[np.ndarray, ...]:

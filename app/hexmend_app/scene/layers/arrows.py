@@ -1,4 +1,4 @@
-"""Arrows from former to present positions of nodes."""
+"""Arrows from previous to current positions of nodes."""
 
 from __future__ import annotations
 
@@ -15,38 +15,39 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
-#: Largest number of arrows, the longest first: they cost 20 ms of a fast frame without a graphics card.
+#: Maximum number of arrows; the longest are drawn. They take 20 ms of a fast frame in software rendering.
 MOST = 5_000
 
-#: Arrows up to which they have a rim: of more, that would be all that is seen.
-_MANY = 1_000
+#: Maximum number of arrows with a rim; the rims of more arrows would cover everything else.
+_MAX_RIMMED = 1_000
 
 _INK, _RIM = "#11151c", "#ffffff"
 
-#: Length of a head as a share of its arrow and in mean edge lengths at most, and its half width as a share of that.
-_HEAD, _LONGEST, _WIDTH = 0.4, 0.35, 0.36
+#: Length of an arrowhead as a fraction of its arrow, its maximum length in mean edge lengths, and its half width as a
+#: fraction of its length.
+_HEAD, _MAX_HEAD, _HALF_WIDTH = 0.4, 0.35, 0.36
 
-#: Widths of the rim around a shaft, and of the shaft, in pixels.
+#: Line widths of the rim around a shaft and of the shaft, in pixels.
 _RIM_WIDTH, _SHAFT_WIDTH = 3.0, 1.75
 
-#: How strongly arrows are drawn where something hides them.
-_HIDDEN = 0.3
+#: Opacity of arrows that are hidden by the mesh.
+_HIDDEN_OPACITY = 0.3
 
-# Of one arrow: start, neck, four corners of its head around the neck, tip.
+# Points of an arrow: start, neck, four corners of the head around the neck, tip.
 _POINTS = 7
 _SHAFT = np.array([[2, 0, 1]])
 _FACES = np.array([[3, 6, 2, 3], [3, 6, 3, 4], [3, 6, 4, 5], [3, 6, 5, 2]])
 
 
 class ArrowLayer:
-    """Draws arrows, dark with a light rim, so that they are visible on every colour.
+    """Draws dark arrows with a light rim, which are visible on every colour.
 
     Attributes
     ----------
     drawn, moved : int
-        Arrows, and nodes that could have one.
+        Number of drawn arrows, and of nodes that have moved.
     lines : pv.PolyData
-        Seven points of each arrow, where it begins first.
+        Shafts; its points are those of `arrows`, seven per arrow.
 
     Parameters
     ----------
@@ -67,19 +68,19 @@ class ArrowLayer:
 
     @property
     def layer(self) -> vtkRenderer:
-        """The renderer of arrows inside the mesh."""
+        """Renderer of the arrows inside the mesh."""
         return self._inside
 
-    def draw(self, frame: Frame, keep: np.ndarray | None, body: MeshLayer) -> None:
-        """Draw the arrows that the look of a frame selects.
+    def draw(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer) -> None:
+        """Draw the arrows selected by the look of a frame.
 
         Parameters
         ----------
         frame : Frame
         keep : (m,) bool, optional
-            Hexes that are shown, in whole or in part; None for all.
-        body : MeshLayer
-            Knows which nodes are in sight.
+            True for hexes shown whole or in part; None for all.
+        mesh_layer : MeshLayer
+            Layer of the drawn hexes, which determines the visible nodes.
         """
         mesh, traces = frame.mesh, frame.look.traces
         if traces.arrows is Arrows.NONE or frame.movement is None:
@@ -90,18 +91,18 @@ class ArrowLayer:
             nodes = np.zeros(mesh.n_nodes, bool)
             nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
         else:
-            nodes = body.nodes_in_sight(mesh)
+            nodes = mesh_layer.visible_nodes(mesh)
         self.show(frame.movement, nodes & uncut(frame.look, mesh.points), traces.factor, through)
 
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide all arrows."""
         self.drawn = self.moved = 0
         self._inside.DrawOff()
         for actor in self._front_actors:
             actor.VisibilityOff()
 
     def show(self, movement: Displacement, nodes: np.ndarray, factor: float, through: bool) -> None:
-        """Draw the longest of the arrows of some nodes.
+        """Draw arrows of nodes, the longest if there are too many.
 
         Parameters
         ----------
@@ -109,9 +110,9 @@ class ArrowLayer:
         nodes : (n,) bool
             Nodes that may have an arrow.
         factor : float
-            Factor of the length of arrows.
+            Scale of the arrow lengths.
         through : bool
-            As strongly where something hides them.
+            Draw hidden arrows as opaque as visible ones.
         """
         distances = movement.distances
         chosen = np.flatnonzero(nodes & (distances > ROUNDING * movement.unit))
@@ -122,36 +123,36 @@ class ArrowLayer:
         if moved > MOST:
             chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MOST)[moved - MOST :]])
         start = movement.before.points[chosen]
-        places = arrows(start, factor * (movement.points[chosen] - start), _LONGEST * movement.unit)
+        vertices = arrows(start, factor * (movement.points[chosen] - start), _MAX_HEAD * movement.unit)
         if chosen.size == self.drawn:
-            set_points(self.lines, places)
+            set_points(self.lines, vertices)
         else:
-            self.lines, heads = _polys(places)
+            self.lines, heads = _polys(vertices)
             for rim, shaft, head in (self._front_actors, self._inside_actors):
                 rim.GetMapper().SetInputData(self.lines)
                 shaft.GetMapper().SetInputData(self.lines)
                 head.GetMapper().SetInputData(heads)
         self.drawn, self.moved = chosen.size, moved
         self._through = through
-        self._fit()
+        self._update_style()
 
     def set_fast(self, fast: bool) -> None:
-        """Omit rims and pale arrows, which cost twice the rest, or draw everything again."""
+        """Omit rims and hidden arrows, which take two thirds of the time, or draw everything again."""
         self._fast = fast
         if self.drawn:
-            self._fit()
+            self._update_style()
 
-    def _fit(self) -> None:
+    def _update_style(self) -> None:
         through, fine = self._through, not self._fast
-        rimmed = fine and self.drawn <= _MANY
+        rimmed = fine and self.drawn <= _MAX_RIMMED
         rim, shaft, head = self._front_actors
         for actor in (shaft, head):
             actor.SetVisibility(not through)
         rim.SetVisibility(not through and rimmed)
         self._inside.SetDraw(through or fine)
         for actor in self._inside_actors:
-            actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN)
-        self._inside_actors[0].SetVisibility(through and rimmed)  # around what is pale it would be all that is seen
+            actor.GetProperty().SetOpacity(1.0 if through else _HIDDEN_OPACITY)
+        self._inside_actors[0].SetVisibility(through and rimmed)  # rims would cover pale arrows
         for _, shaft, head in (self._front_actors, self._inside_actors):
             shaft.GetProperty().SetLineWidth(self._pixel_ratio * (_SHAFT_WIDTH if fine else 1.0))
             head.GetProperty().SetEdgeVisibility(rimmed)
@@ -162,48 +163,54 @@ def arrows(start: np.ndarray, path: np.ndarray, longest: float) -> np.ndarray:
 
     Parameters
     ----------
-    start, way : (k, 3) float64
-        No way is 0.
+    start : (k, 3) float64
+    path : (k, 3) float64
+        Nonzero vectors from start to tip.
     longest : float
-        Heads are no longer than this.
+        Maximum length of a head.
     """
     length = np.sqrt(np.square(path).sum(axis=1))[:, None]
-    ahead = path / length
-    aside = np.cross(ahead, np.eye(3)[np.abs(ahead).argmin(axis=1)])
-    aside /= np.sqrt(np.square(aside).sum(axis=1))[:, None]
-    upwards = np.cross(ahead, aside)
+    forward = path / length
+    sideways = np.cross(forward, np.eye(3)[np.abs(forward).argmin(axis=1)])
+    sideways /= np.sqrt(np.square(sideways).sum(axis=1))[:, None]
+    upwards = np.cross(forward, sideways)
     head = np.minimum(_HEAD * length, longest)
     tip = start + path
-    neck = tip - head * ahead
-    wide = _WIDTH * head
-    corners = [neck + wide * aside, neck + wide * upwards, neck - wide * aside, neck - wide * upwards]
+    neck = tip - head * forward
+    half_width = _HALF_WIDTH * head
+    corners = [
+        neck + half_width * sideways,
+        neck + half_width * upwards,
+        neck - half_width * sideways,
+        neck - half_width * upwards,
+    ]
     return np.stack([start, neck, *corners, tip], axis=1).reshape(-1, 3)
 
 
-def _polys(places: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
-    """Build shafts and heads, which share their points."""
-    first = np.arange(0, len(places), _POINTS)[:, None, None]
+def _polys(vertices: np.ndarray) -> tuple[pv.PolyData, pv.PolyData]:
+    """Build shafts and heads, which share their points (7 k, 3)."""
+    first = np.arange(0, len(vertices), _POINTS)[:, None, None]
     lines, faces = ((part[None] + first * (np.arange(part.shape[1]) > 0)).ravel() for part in (_SHAFT, _FACES))
-    shafts, heads = pv.PolyData(places, lines=lines), pv.PolyData(places, faces=faces)
+    shafts, heads = pv.PolyData(vertices, lines=lines), pv.PolyData(vertices, faces=faces)
     heads.SetPoints(shafts.GetPoints())
     return shafts, heads
 
 
 def _actors(renderer: vtkRenderer, pixel_ratio: float) -> tuple[vtkActor, vtkActor, vtkActor]:
     """Make the actors of rims, shafts, and heads."""
-    lines = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
-    rim, shaft, head = (_actor(renderer, colour, pixel_ratio * width, before) for colour, width, before in lines)
+    styles = (_RIM, _RIM_WIDTH, -40.0), (_INK, _SHAFT_WIDTH, -80.0), (_INK, 1.0, -80.0)
+    rim, shaft, head = (_actor(renderer, colour, pixel_ratio * width, depth) for colour, width, depth in styles)
     head.GetProperty().SetEdgeColor(rgb(_RIM))
     head.GetProperty().SetEdgeOpacity(0.6)
     return rim, shaft, head
 
 
-def _actor(renderer: vtkRenderer, colour: str, width: float, before: float) -> vtkActor:
+def _actor(renderer: vtkRenderer, colour: str, width: float, depth: float) -> vtkActor:
     mapper = vtkPolyDataMapper()
     mapper.SetScalarVisibility(False)
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, before)
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, before)
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, depth)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, depth)
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.PickableOff()

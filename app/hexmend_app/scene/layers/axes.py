@@ -1,4 +1,4 @@
-"""The axes in a corner of a view."""
+"""Orientation axes in a corner of a view."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from vtkmodules.vtkRenderingCore import vtkTextProperty
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import AXES, rgb
 
-#: Where they are, x low, y low, x high, y high as shares of a window that is one view.
-_PLACE = (0.0, 0.0, 0.13, 0.18)
+#: Position of the axes in a window with a single view: x low, y low, x high, y high as fractions of the window.
+_VIEWPORT = (0.0, 0.0, 0.13, 0.18)
 
-#: Pixels of their height and width below which their letters lie over one another.
-_LEAST = 80
+#: Minimum width and height in pixels, below which letters would overlap.
+_MIN_SIZE = 80
 
 #: Colours of X, Y and Z.
 _COLOURS = {"X": "#ff6347", "Y": "#2e8b57", "Z": "#0000ff"}
 
 
 class AxesLayer:
-    """Draws X, Y and Z as the camera sees them.
+    """Draws the X, Y and Z axes in the orientation of the camera.
 
     Attributes
     ----------
@@ -50,17 +50,17 @@ class AxesLayer:
         self.widget.SetDefaultRenderer(pane.renderer)
         self.widget.EnabledOn()
         self.widget.InteractiveOff()
-        self.widget.SetViewport(*_PLACE)
+        self.widget.SetViewport(*_VIEWPORT)
 
     def _text(self, letter: str) -> vtkTextProperty:
         return getattr(self._actor, f"Get{letter}AxisCaptionActor2D")().GetCaptionTextProperty()
 
     def set_dark(self, dark: bool) -> None:
-        """Colour the letters for the dark theme, or for the light one."""
+        """Use the letter colour of the dark or of the light theme."""
         for letter in _COLOURS:
             self._text(letter).SetColor(rgb(AXES.of(dark)))
 
     def fit(self) -> None:
-        """Keep the size of a single view, and the letters legible."""
-        pixels = np.maximum(np.multiply(_PLACE[2:], self._pane.window.GetSize()), _LEAST)
+        """Give the axes the size that they have in a single view."""
+        pixels = np.maximum(np.multiply(_VIEWPORT[2:], self._pane.window.GetSize()), _MIN_SIZE)
         self.widget.SetViewport(0, 0, *np.minimum(pixels / np.maximum(self._pane.renderer.GetSize(), 1), 1))

@@ -1,4 +1,4 @@
-"""The layers of a view besides the hexes; one that fails is left out, and the others are drawn."""
+"""Layers of a view besides the hexes; a layer that fails is hidden, and the others are drawn."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from hexmend_app.scene.views.pane import Pane
 
 
 def raise_error(error: Exception) -> None:
-    """Raise the error of a layer: for pictures that are written to files."""
+    """Raise the error of a layer; used for pictures that are written to files."""
     raise error
 
 
 class ExtraLayers:
     """Draws ghosts, the outline, the structure, arrows, the selection and the optional layers.
 
-    A layer that raises is reported, and hidden until another mesh is drawn; the other layers are drawn all the same.
+    A layer that raises is reported and hidden until another mesh is drawn; the other layers are not affected.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class ExtraLayers:
     ----------
     ghosts : Ghosts
     outline : Silhouette or None
-        Outline of the whole mesh behind a part of it; None before there is a mesh.
+        Outline of the whole mesh while part of it is hidden; None before a mesh is set.
     structure : StructureLayers
     arrows : ArrowLayer
     selection : SelectionLayer
@@ -57,7 +57,7 @@ class ExtraLayers:
         self._failed: set[str] = set()
         self.ghosts = Ghosts(pane, pixel_ratio)
         self.optional: dict[str, OptionalLayer] = {
-            one.name: one.drawn_by(pane, pixel_ratio) for one in ordered_layers() if one.drawn_by is not None
+            switch.name: switch.drawn_by(pane, pixel_ratio) for switch in ordered_layers() if switch.drawn_by
         }
         self.outline: Silhouette | None = None
         self.structure = StructureLayers(pane, pixel_ratio)
@@ -66,7 +66,7 @@ class ExtraLayers:
 
     @property
     def renderers(self) -> tuple[vtkRenderer, ...]:
-        """The renderers over that of the hexes, from the bottom up."""
+        """Renderers in front of the renderer of the hexes, from back to front."""
         optional = [renderer for layer in self.optional.values() for renderer in layer.renderers]
         return self.structure.layer, self.arrows.layer, *self.selection.layers, *optional
 
@@ -76,14 +76,14 @@ class ExtraLayers:
         return np.concatenate([self.ghosts.places, *(layer.places for layer in self.optional.values())])
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._dark = dark
         for layer in (self.selection, self.ghosts, *self.optional.values(), self.outline):
             if layer is not None:
                 layer.set_dark(dark)
 
     def set_fast(self, fast: bool) -> None:
-        """Draw less in fast frames, or everything again."""
+        """Omit details in fast frames, or draw everything again."""
         self._attempt("structure", self.structure.set_fast, fast)
         self._attempt("arrows", self.arrows.set_fast, fast)
 
@@ -99,8 +99,8 @@ class ExtraLayers:
         self.outline = Silhouette(self._pane.renderer, frame.mesh, self._pixel_ratio)
         self.outline.set_dark(self._dark)
 
-    def follow(self, frame: Frame, moved: bool, pinned: bool, classed: bool) -> None:
-        """Take changes of the same mesh: positions of nodes, pinned nodes, classes of boundary nodes."""
+    def update(self, frame: Frame, moved: bool, pinned: bool, classed: bool) -> None:
+        """Update positions, pinned nodes or classes of boundary nodes of the same mesh, if they have changed."""
         if moved:
             self._attempt("selection", self.selection.move, frame.mesh)
         if pinned:
@@ -117,38 +117,38 @@ class ExtraLayers:
                 layer.hide()
 
     def rebuild(
-        self, frame: Frame, keep: np.ndarray | None, body: MeshLayer, ghosts: Callable[[Frame], np.ndarray | None]
+        self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer, ghosts: Callable[[Frame], np.ndarray | None]
     ) -> None:
-        """Draw the layers of the hexes that are shown now.
+        """Draw the layers that depend on the shown hexes.
 
         Parameters
         ----------
         frame : Frame
         keep : (m,) bool, optional
-            Hexes that are shown, in whole or in part; None for all.
-        body : MeshLayer
-            Has drawn the hexes.
+            True for hexes shown whole or in part; None for all.
+        mesh_layer : MeshLayer
+            Layer of the drawn hexes.
         ghosts : callable
             Returns the hexes that are drawn as ghosts, (m,) bool, or None.
         """
         look, points = frame.look, frame.mesh.points
         self._attempt("ghosts", lambda: self.ghosts.draw(frame, ghosts(frame), keep))
-        self._attempt("arrows", self.arrows.draw, frame, keep, body)
+        self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
         if self.outline is not None:
             self._attempt("outline", self.outline.show, look, points, keep)
-        self._attempt("structure", self.structure.choose, look, points, frame.figures, body.faces, keep)
+        self._attempt("structure", self.structure.rebuild, look, points, frame.figures, mesh_layer.faces, keep)
 
-    def move(self, frame: Frame, keep: np.ndarray | None, body: MeshLayer) -> None:
-        """Draw the same layers at the present positions of the nodes; parameters are those of `rebuild`."""
+    def move(self, frame: Frame, keep: np.ndarray | None, mesh_layer: MeshLayer) -> None:
+        """Draw the same layers at the current positions of the nodes; parameters are those of `rebuild`."""
         points = frame.mesh.points
         self._attempt("ghosts", self.ghosts.move, frame)
-        self._attempt("arrows", self.arrows.draw, frame, keep, body)
+        self._attempt("arrows", self.arrows.draw, frame, keep, mesh_layer)
         if self.outline is not None:
             self._attempt("outline", self.outline.move, points)
         self._attempt("structure", self.structure.move, points, frame.figures)
 
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide all layers."""
         if self.outline is not None:
             self.outline.close()
             self.outline = None
@@ -161,7 +161,7 @@ class ExtraLayers:
             return
         try:
             draw(*values)
-        except Exception as error:  # whatever it is, the other layers are drawn
+        except Exception as error:  # the other layers are drawn after any error
             self._failed.add(name)
             layer = self.optional[name] if name in self.optional else getattr(self, name)
             if layer is not None:

@@ -6,13 +6,13 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 
 def flat_actor(renderer: vtkRenderer, width: float = 1.0, opacity: float = 1.0) -> vtkActor:
-    """Make a hidden actor without data, which is not picked.
+    """Add a hidden, unpickable actor without data to a renderer, and return it.
 
     Parameters
     ----------
     renderer : vtkRenderer
     width : float
-        Of its lines, in pixels.
+        Line width in pixels.
     opacity : float
     """
     mapper = vtkPolyDataMapper()

@@ -1,4 +1,4 @@
-"""Ghosts: translucent hexes around the isolated ones."""
+"""Ghosts: translucent hexes around isolated hexes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend_app.theme.palette import GHOST
 
 
 class Ghosts(TranslucentSurface):
-    """Draws the outer faces of a patch of hexes, without the hexes in its middle, in one pale colour."""
+    """Draws the outer faces of the rings of hexes around isolated hexes, in one pale colour."""
 
     colour, face_opacity, edge_opacity = GHOST, 0.14, 0.4
 
@@ -29,9 +29,9 @@ class Ghosts(TranslucentSurface):
         ----------
         frame : Frame
         ghosts : (m,) bool, optional
-            None for none.
-        keep : (m,) bool, optional
-            Hexes that are shown opaque.
+            True for ghosts; None if there are none.
+        keep : (m,) bool
+            True for hexes that are shown opaque.
         """
         if ghosts is None or not ghosts.any():
             self.hide()
@@ -43,6 +43,6 @@ class Ghosts(TranslucentSurface):
         self.show()
 
     def move(self, frame: Frame) -> None:
-        """Draw the same ghosts at the present positions of their nodes."""
+        """Draw the same ghosts at the current positions of their nodes."""
         if self.shown:
             set_points(self.poly, self._faces.places(frame.mesh.points))

@@ -1,4 +1,4 @@
-"""Highlight of one hex: its edges over everything else, and a figure at each corner."""
+"""Highlight of a hex: its edges in front of everything else, and a value at each corner."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ from hexmend_app.theme.palette import rgb
 _LINE, _HALO, _ARROW = "#ffffff", "#11151c", "#ff8c00"
 _LINES = np.column_stack([np.full(12, 2), EDGES]).ravel()
 
-#: Radius of a hex in pixels from which on there is room for figures at its corners.
-_SPACE = 45
+#: Minimum radius of a hex in pixels at which values are shown at its corners.
+_MIN_RADIUS = 45
 
 
 class Highlight:
-    """Draws the edges of one hex, light on dark, in front of everything else.
+    """Draws the edges of a hex, light with a dark rim, in front of everything else.
 
     Attributes
     ----------
     box : pyvista.PolyData
-        The edges.
+        Edges of the hex.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Highlight:
 
     @property
     def layer(self) -> vtkRenderer:
-        """The renderer in front of everything else."""
+        """Renderer in front of everything else."""
         return self._layer
 
     def _lines(self, colour: str, width: int) -> vtkActor:
@@ -82,13 +82,13 @@ class Highlight:
         return actor
 
     def show(self, corners: np.ndarray, values: np.ndarray | None = None) -> None:
-        """Mark the hex with these corners.
+        """Highlight the hex with these corners.
 
         Parameters
         ----------
         corners : (8, 3) float64
         values : (8,) float64, optional
-            Written beside the corners.
+            Values shown at the corners.
         """
         self.box.points = corners
         self._with_values = values is not None
@@ -100,29 +100,28 @@ class Highlight:
                 text.SetPosition(*outside[k])
 
     def show_node(self, point: np.ndarray | None, arrow: np.ndarray | None = None) -> None:
-        """Mark a node besides the hex, and an arrow (3,) from it; None removes the mark."""
+        """Mark a node, (3,), with an optional arrow, (3,), from it; None removes the mark."""
         self._point.SetVisibility(point is not None)
         self._arrow.SetVisibility(point is not None and arrow is not None)
         if point is not None:
             self._point.GetMapper().SetInputData(pv.PolyData(point[None]))
             if arrow is not None:
-                drawn = pv.Arrow(
-                    start=point, direction=arrow, tip_radius=0.09, shaft_radius=0.03, scale=float(np.linalg.norm(arrow))
-                )
-                self._arrow.GetMapper().SetInputData(drawn)
+                length = float(np.linalg.norm(arrow))
+                solid = pv.Arrow(start=point, direction=arrow, tip_radius=0.09, shaft_radius=0.03, scale=length)
+                self._arrow.GetMapper().SetInputData(solid)
 
     def _fit_texts(self, *_: object) -> None:
-        """Show the figures if the hex is large enough for them."""
-        on = self._with_values and self._pixels() > self._pixel_ratio * _SPACE
+        """Show the values if the hex is large enough in the picture."""
+        on = self._with_values and self._radius() > self._pixel_ratio * _MIN_RADIUS
         for text in self._texts:
             text.SetVisibility(on)
 
-    def _pixels(self) -> float:
+    def _radius(self) -> float:
         """Return the radius of the hex in pixels."""
         corners = self.box.points
         centre = corners.mean(axis=0)
         return pixels(self._layer, np.sqrt(np.square(corners - centre).sum(axis=1).max()), centre)
 
     def hide(self) -> None:
-        """Draw nothing."""
-        self._layer.DrawOff()  # costs nothing then
+        """Hide the highlight."""
+        self._layer.DrawOff()

@@ -1,4 +1,4 @@
-"""Lines and points on nodes of a mesh, with a dark rim, so that they are visible on every colour."""
+"""Lines and points at nodes of a mesh, with a dark rim that makes them visible on every colour."""
 
 from __future__ import annotations
 
@@ -12,41 +12,41 @@ from hexmend_app.theme.palette import rgb
 _RIM = "#11151c"
 _COLOURS = "colours"
 
-#: How far marks are drawn before the surface that they lie on, in VTK's units of depth: the rim, and what it is around.
-_LINES_BEFORE = (-20.0, -40.0)
-_POINTS_BEFORE = (-60.0, -120.0)
+#: Depth offsets of marks in front of their surface, in VTK's units: of the rim, and of the mark itself.
+_LINE_DEPTHS = (-20.0, -40.0)
+_POINT_DEPTHS = (-60.0, -120.0)
 
 
 class Marks:
-    """Marks of one kind in one renderer, which follow the nodes.
+    """Marks of one kind in a renderer, which move with the nodes.
 
     Attributes
     ----------
     poly : pv.PolyData
-        The lines or points, with a colour each.
+        Lines or points, each with a colour.
     nodes : (k,) int
-        Of the mesh, at the points of `poly`.
+        Node of the mesh at each point of `poly`.
     filled : vtkActor
-        Draws them without their rims.
+        Actor of the marks without their rims.
 
     Parameters
     ----------
     renderer : vtkRenderer
     size : float
-        Width of the lines or side of the points where there is room, in pixels.
+        Full width of lines or side of points, in pixels.
     rim : float
-        Width of the dark rim on either side, in pixels.
+        Width of the dark rim on each side, in pixels.
     pixel_ratio : float
         Width of a thin line, in pixels.
     """
 
     def __init__(self, renderer: vtkRenderer, size: float, rim: float, pixel_ratio: float = 1.0):
-        self._size, self._rim, self._pixel_ratio = size, rim, pixel_ratio
+        self._size, self._rim_width, self._pixel_ratio = size, rim, pixel_ratio
         self.poly = pv.PolyData()
         self.nodes = np.empty(0, np.int64)
-        self._around = self._actor(renderer, coloured=False)
+        self._rims = self._actor(renderer, coloured=False)
         self.filled = self._actor(renderer, coloured=True)
-        self.fit(1.0)
+        self.scale(1.0)
         self.hide()
 
     def _actor(self, renderer: vtkRenderer, coloured: bool) -> vtkActor:
@@ -57,8 +57,8 @@ class Marks:
         mapper.SelectColorArray(_COLOURS)
         mapper.SetColorModeToDirectScalars()
         mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, _LINES_BEFORE[coloured])
-        mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_POINTS_BEFORE[coloured])
+        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(-1.0, _LINE_DEPTHS[coloured])
+        mapper.SetRelativeCoincidentTopologyPointOffsetParameter(_POINT_DEPTHS[coloured])
         actor = vtkActor()
         actor.SetMapper(mapper)
         actor.PickableOff()
@@ -69,57 +69,57 @@ class Marks:
 
     @property
     def shown(self) -> bool:
-        """True while something is drawn."""
+        """True while marks are drawn."""
         return bool(self.filled.GetVisibility())
 
     @property
     def count(self) -> int:
-        """Number of marks that are drawn."""
+        """Number of marks."""
         return self.poly.n_cells
 
     def show(self, cells: np.ndarray, colours: np.ndarray, points: np.ndarray, opacity: float = 1.0) -> None:
-        """Draw other marks.
+        """Replace the marks.
 
         Parameters
         ----------
         cells : (k, 2) or (k, 1) int
-            Nodes of lines, or of points.
+            Nodes of lines or of points.
         colours : (k, 3) uint8
         points : (n, 3) float64
-            Of all nodes.
+            Positions of all nodes.
         opacity : float
         """
         if not len(cells):
             self.hide()
             return
-        self.nodes, places = np.unique(cells, return_inverse=True)
+        self.nodes, index = np.unique(cells, return_inverse=True)
         width = cells.shape[1]
-        rows = np.column_stack([np.full(len(cells), width), places.reshape(cells.shape)]).ravel()
+        rows = np.column_stack([np.full(len(cells), width), index.reshape(cells.shape)]).ravel()
         self.poly = pv.PolyData(points[self.nodes], **{"lines" if width == 2 else "verts": rows})
         self.poly.cell_data[_COLOURS] = colours
-        for actor in (self._around, self.filled):
+        for actor in (self._rims, self.filled):
             actor.GetMapper().SetInputData(self.poly)
             actor.GetProperty().SetOpacity(opacity)
         self.filled.VisibilityOn()
         self.show_rims(True)
 
     def show_rims(self, on: bool) -> None:
-        """Draw the rims or not; translucent marks never have any."""
-        self._around.SetVisibility(on and self.shown and self.filled.GetProperty().GetOpacity() == 1)
+        """Show or hide the rims; translucent marks have none."""
+        self._rims.SetVisibility(on and self.shown and self.filled.GetProperty().GetOpacity() == 1)
 
     def move(self, points: np.ndarray) -> None:
-        """Move with the nodes, (n, 3) float64."""
+        """Move the marks to the positions of the nodes, (n, 3) float64."""
         if self.shown:
             set_points(self.poly, points[self.nodes])
 
-    def fit(self, share: float) -> None:
+    def scale(self, factor: float) -> None:
         """Scale the marks by a factor from 0 to 1, for dense meshes."""
-        size, rim = max(1.0, share * self._size), max(0.5, share * self._rim)
-        for actor, width in ((self.filled, size), (self._around, size + 2 * rim)):
+        size, rim = max(1.0, factor * self._size), max(0.5, factor * self._rim_width)
+        for actor, width in ((self.filled, size), (self._rims, size + 2 * rim)):
             actor.GetProperty().SetLineWidth(self._pixel_ratio * width)
             actor.GetProperty().SetPointSize(self._pixel_ratio * width)
 
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide the marks."""
         self.filled.VisibilityOff()
-        self._around.VisibilityOff()
+        self._rims.VisibilityOff()

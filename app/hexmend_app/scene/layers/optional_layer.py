@@ -1,4 +1,4 @@
-"""Base of the layers that users switch on and off, and their registration."""
+"""Base class of the layers that users switch on and off, and their registration."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import Role
 
-#: An entry of the panel: colour of its mark (None for a remark), True for a line instead of a point, text.
+#: Legend entry in the panel: colour of its mark (None for a remark), True for a line instead of a point, text.
 LegendEntry = tuple[str | Role | None, bool, str]
 
 
 class OptionalLayer(ABC):
-    """Draws something over or around the hexes of a view while it is switched on.
+    """Layer that users switch on and off.
 
-    A subclass is registered by `@layer(...)` in a module of `hexmend_app.scene.layers.optional`.
+    Subclasses are registered by `@layer(...)` in the modules of `hexmend_app.scene.layers.optional`.
 
     Parameters
     ----------
     pane : Pane
-        Its renderer draws the actors of the layer.
+        Pane whose renderer draws the layer.
     pixel_ratio : float
         Width of a thin line, in pixels.
     """
@@ -45,15 +45,15 @@ class OptionalLayer(ABC):
         ----------
         frame : Frame
         keep : (m,) bool, optional
-            Hexes that are shown, in whole or in part; None for all.
+            True for hexes shown whole or in part; None for all.
         """
 
     @abstractmethod
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide the layer."""
 
     def set_dark(self, dark: bool) -> None:  # noqa: B027 -- most layers look the same in both themes
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
 
     @property
     def places(self) -> np.ndarray:
@@ -62,17 +62,17 @@ class OptionalLayer(ABC):
 
     @property
     def renderers(self) -> tuple[vtkRenderer, ...]:
-        """Further renderers, made by `Pane.overlay`."""
+        """Additional renderers, created by `Pane.overlay`."""
         return ()
 
     @classmethod
     def legend(cls, mesh: Mesh) -> list[LegendEntry]:
-        """Return the entries of the panel for a mesh; none if there is nothing to draw."""
+        """Return the legend of a mesh in the panel; empty if there is nothing to draw."""
         return [(None, False, "")]
 
 
 def layer(name: str, **texts: Any) -> Callable[[type[OptionalLayer]], type[OptionalLayer]]:
-    """Register a class as the layer of a name; `texts` are the fields of `LayerSwitch`."""
+    """Return a decorator that registers a layer under a name; `texts` are fields of its `LayerSwitch`."""
 
     def register(drawn_by: type[OptionalLayer]) -> type[OptionalLayer]:
         LAYERS.add(name, LayerSwitch(name, drawn_by=drawn_by, **texts))
@@ -82,7 +82,7 @@ def layer(name: str, **texts: Any) -> Callable[[type[OptionalLayer]], type[Optio
 
 
 def load_layers() -> None:
-    """Import every module of the folder of optional layers."""
+    """Import all modules of `hexmend_app.scene.layers.optional`, which registers their layers."""
     package = import_module("hexmend_app.scene.layers.optional")
     for module in pkgutil.iter_modules(package.__path__):
         import_module(f"{package.__name__}.{module.name}")

@@ -1,4 +1,4 @@
-"""Marks of the selection: a hex and a node of it, or the step of a node."""
+"""Marks of the selection: a hex and one of its nodes, or the step of a node."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from hexmend_app.scene.views.pane import Pane
 
 
 class SelectionLayer:
-    """Marks one hex and a node of it, or the step of a node, and follows the nodes.
+    """Marks a hex and one of its nodes, or the step of a node; the marks move with the nodes.
 
     Attributes
     ----------
     hex : int or None
-        The hex that is marked.
+        The marked hex.
     highlight : Highlight
 
     Parameters
@@ -38,25 +38,25 @@ class SelectionLayer:
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
-        """The renderers over the mesh."""
+        """Renderers in front of the mesh."""
         return self.highlight.layer, *self._node_step.layers
 
     @property
     def node_step(self) -> NodeStep | None:
-        """The drawn step of a node."""
+        """The drawn step of a node; None if there is none."""
         return self._node_step.step
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._node_step.set_dark(dark)
 
     def set_mesh(self, mesh: Mesh) -> None:
-        """Replace the mesh; nothing is marked."""
+        """Replace the mesh and clear all marks."""
         self.hide()
         self._mesh = mesh
 
     def hide(self) -> None:
-        """Draw nothing until `set_mesh`."""
+        """Clear all marks; none are drawn until `set_mesh` is called."""
         self._mesh, self.hex = None, None
         self._node_step.hide()
         self.highlight.hide()
@@ -69,7 +69,7 @@ class SelectionLayer:
         self._node_step.move(mesh.points)
 
     def select(self, h: int | None, corners: bool, node: NodeDetails | None) -> None:
-        """Mark a hex, with or without the qualities of its corners, and one of its nodes; None marks nothing."""
+        """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
         if self._mesh is None:
             return
         self.hex, self._with_corners = h, corners
@@ -86,15 +86,15 @@ class SelectionLayer:
         self._show_hex()
 
     def _mark_node(self, node: NodeDetails | None) -> None:
-        """Mark a node and, if it may move, the direction of descent of the energy around it."""
+        """Mark a node and, if it is free, the direction of steepest descent of the energy of its patch."""
         if node is None:
             self.highlight.show_node(None)
             return
         steepness = float(np.linalg.norm(node.downhill))
         corners = self._mesh.points[self._mesh.hexes[self.hex]]
         length = np.sqrt(np.square(corners - corners.mean(axis=0)).sum(axis=1).max())
-        goes = node.kind == "free" and steepness > 0
-        self.highlight.show_node(node.point, node.downhill * (length / steepness) if goes else None)
+        moves = node.kind == "free" and steepness > 0
+        self.highlight.show_node(node.point, node.downhill * (length / steepness) if moves else None)
 
     def _show_hex(self) -> None:
         if self.hex is None or self.node_step is not None:

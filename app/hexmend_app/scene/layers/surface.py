@@ -1,4 +1,4 @@
-"""Polygons with a colour each."""
+"""Surfaces of polygons, each with a colour."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend_app.theme.palette import rgb
 _COLOURS = "colours"
 _HEX = "hex"
 
-#: The colours of the points of polygons that are drawn finely.
+#: Name of the point colours of fine polygons.
 SHADED = "shaded"
 
 
@@ -37,42 +37,42 @@ class Surface:
         prop.SetLineWidth(pixel_ratio)
         prop.SetAmbient(0.58)
         prop.SetDiffuse(0.47)
-        prop.SetInterpolationToPhong()  # of polygons that have normals
+        prop.SetInterpolationToPhong()  # applies to polygons with normals
         tone_edges(self.actor)
         renderer.AddActor(self.actor)
-        self._simple, self._fine = vtkPolyDataMapper(), vtkPolyDataMapper()
-        self._simple.SetScalarModeToUseCellFieldData()
+        self._flat, self._fine = vtkPolyDataMapper(), vtkPolyDataMapper()
+        self._flat.SetScalarModeToUseCellFieldData()
         self._fine.SetScalarModeToUsePointFieldData()
-        for mapper, colours in ((self._simple, _COLOURS), (self._fine, SHADED)):
+        for mapper, colours in ((self._flat, _COLOURS), (self._fine, SHADED)):
             mapper.SelectColorArray(colours)
             mapper.SetColorModeToDirectScalars()
             mapper.ScalarVisibilityOn()
-        self._fit_edges()
+        self._update_edges()
         self.actor.SetVisibility(False)
 
     def replace(self, poly: pv.PolyData) -> None:
-        """Replace the polygons; they carry their colours (see `coloured`)."""
+        """Replace the polygons, whose cell data contain their colours (see `coloured`)."""
         self.poly = poly
-        self._simple.SetInputData(poly)
-        self.actor.SetMapper(self._simple)
+        self._flat.SetInputData(poly)
+        self.actor.SetMapper(self._flat)
         self.actor.SetVisibility(poly.GetNumberOfCells() > 0)
 
     def show_proxy(self, poly: pv.PolyData | None) -> None:
-        """Draw a proxy of the polygons, without edges; None draws the polygons themselves again."""
-        self._simple.SetInputData(self.poly if poly is None else poly)
-        self.actor.SetMapper(self._simple)
+        """Draw other polygons instead, without edges; None draws the polygons themselves again."""
+        self._flat.SetInputData(self.poly if poly is None else poly)
+        self.actor.SetMapper(self._flat)
         self._without_edges = poly is not None
-        self._fit_edges()
+        self._update_edges()
 
     def refine(self, poly: pv.PolyData) -> None:
-        """Set the fine polygons, which `hexmend_app.scene.geometry.shaded_surface.shaded_surface` makes."""
+        """Set the fine polygons, as made by `hexmend_app.scene.geometry.shaded_surface.shaded_surface`."""
         self._fine.SetInputData(poly)
 
     def show_fine(self) -> None:
-        """Draw the fine polygons until others are set."""
+        """Draw the fine polygons until other polygons are set."""
         self.actor.SetMapper(self._fine)
         self._without_edges = False
-        self._fit_edges()
+        self._update_edges()
 
     @property
     def corners(self) -> int:
@@ -80,54 +80,54 @@ class Surface:
         return self.poly.GetPolys().GetNumberOfConnectivityIds()
 
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide the surface."""
         self.actor.SetVisibility(False)
 
     @property
     def shown(self) -> bool:
-        """True while something is drawn."""
+        """True while the surface is drawn."""
         return bool(self.actor.GetVisibility())
 
     def cull(self, on: bool) -> None:
-        """Cull back faces, or not."""
+        """Turn culling of back faces on or off."""
         self.actor.GetProperty().SetBackfaceCulling(on)
 
     def show_edges(self, on: bool) -> None:
-        """Draw the polygons' edges or not."""
+        """Show or hide the edges of the polygons."""
         self._edges = on
-        self._fit_edges()
+        self._update_edges()
 
-    def _fit_edges(self) -> None:
+    def _update_edges(self) -> None:
         self.actor.GetProperty().SetEdgeVisibility(self._edges and not self._without_edges)
 
 
 def quads(points: np.ndarray, faces: np.ndarray, colours: np.ndarray, hexes: np.ndarray) -> pv.PolyData:
-    """Build quads: points (u, 3), faces (k, 4), their colours (k, 3) uint8 and hexes (k,) int32."""
+    """Build quads from points (u, 3), faces (k, 4), and colours (k, 3) uint8 and hexes (k,) int32 of the faces."""
     return coloured(pv.PolyData.from_regular_faces(points, faces), colours, hexes)
 
 
 def coloured(data: pv.DataSet, colours: np.ndarray, hexes: np.ndarray) -> pv.DataSet:
-    """Set the colours of cells, (k, 3) uint8, and the hexes that they show, (k,) int32."""
-    if len(colours):  # VTK takes no empty array
+    """Set the colours of cells, (k, 3) uint8, and the hexes that they belong to, (k,) int32; return the dataset."""
+    if len(colours):  # VTK rejects empty arrays
         data.cell_data[_COLOURS] = colours
         data.cell_data[_HEX] = hexes.astype(np.int32, copy=False)
     return data
 
 
 def recoloured(poly: pv.PolyData, colours: np.ndarray) -> pv.PolyData:
-    """Return the polygons in other colours, (k, 3) uint8; nothing else is copied."""
-    answer = poly.copy(deep=False)
-    answer.cell_data[_COLOURS] = colours
-    return answer
+    """Return a shallow copy of polygons in other colours, (k, 3) uint8."""
+    copy = poly.copy(deep=False)
+    copy.cell_data[_COLOURS] = colours
+    return copy
 
 
 def hex_of(data: pv.DataSet, cell: int) -> int:
-    """Return the hex that a cell shows."""
+    """Return the hex that a cell belongs to."""
     return int(data.cell_data[_HEX][cell])
 
 
 def hexes_of(poly: pv.PolyData) -> np.ndarray:
-    """Return the hexes that polygons show, (k,) int32."""
+    """Return the hexes that polygons belong to, (k,) int32."""
     return np.asarray(poly.cell_data[_HEX])
 
 
@@ -137,7 +137,7 @@ def colours_of(poly: pv.PolyData) -> np.ndarray:
 
 
 def set_points(data: pv.DataSet, points: np.ndarray) -> None:
-    """Write the points in place and notify VTK."""
+    """Overwrite the points in place and notify VTK."""
     if not len(points):
         return
     data.points[:] = points
@@ -146,7 +146,7 @@ def set_points(data: pv.DataSet, points: np.ndarray) -> None:
 
 
 def set_colours(data: pv.DataSet, colours: np.ndarray) -> None:
-    """Write the colours of cells in place and notify VTK."""
+    """Overwrite the colours of cells in place and notify VTK."""
     if not len(colours):
         return
     data.cell_data[_COLOURS][:] = colours

@@ -1,4 +1,4 @@
-"""Faces and their edges in one translucent colour, for what is not the mesh itself."""
+"""Faces and their edges in one translucent colour."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from hexmend_app.theme.palette import Role, rgb
 
 
 class TranslucentSurface:
-    """Base of layers that draw a surface and lines on it, by two actors without light.
+    """Base class of layers that draw a translucent surface and lines on it.
 
-    One colour and no light make the order of drawing irrelevant.
+    Its two actors have one colour and no lighting, so that the drawing order of faces does not matter.
 
     Parameters
     ----------
@@ -25,9 +25,9 @@ class TranslucentSurface:
     Attributes
     ----------
     poly : pyvista.PolyData
-        The surface; empty if there is none.
+        The surface; may be empty.
     actors : tuple of vtkActor
-        The actor of the faces and the one of the lines.
+        Actors of the faces and of the lines.
     """
 
     colour: Role
@@ -43,16 +43,16 @@ class TranslucentSurface:
 
     @property
     def shown(self) -> bool:
-        """True while it is drawn."""
+        """True while the surface is drawn."""
         return bool(self.actors[0].GetVisibility())
 
     @property
     def places(self) -> np.ndarray:
-        """The points of the surface, (k, 3); none while it is not drawn."""
+        """Points of the surface, (k, 3); empty while it is hidden."""
         return np.asarray(self.poly.points) if self.shown else np.empty((0, 3))
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         for actor in self.actors:
             actor.GetProperty().SetColor(rgb(self.colour.of(dark)))
 
@@ -63,7 +63,7 @@ class TranslucentSurface:
             actor.GetMapper().SetInputData(data)
 
     def set_quads(self, points: np.ndarray, quads: np.ndarray) -> None:
-        """Replace the surface by quads, (k, 4) rows of points (u, 3), with lines along their edges."""
+        """Replace the surface by quads, (k, 4) indices of points (u, 3), with lines along their edges."""
         if not len(quads):
             self.set_data(pv.PolyData(), pv.PolyData())
             return
@@ -73,11 +73,11 @@ class TranslucentSurface:
         self.set_data(poly, lines)
 
     def show(self) -> None:
-        """Draw the surface, if it is not empty."""
+        """Draw the surface unless it is empty."""
         self._set_visible(bool(self.poly.n_cells))
 
     def hide(self) -> None:
-        """Draw nothing."""
+        """Hide the surface."""
         self._set_visible(False)
 
     def _set_visible(self, on: bool) -> None:
@@ -86,11 +86,11 @@ class TranslucentSurface:
 
 
 def edges_of(*faces: np.ndarray) -> np.ndarray:
-    """Return the edges of polygons, each array (k, corners), once each as (e, 2)."""
-    ends = [np.stack([one, np.roll(one, 1, axis=1)], axis=-1).reshape(-1, 2) for one in faces]
+    """Return the unique edges, (e, 2), of arrays of polygons, each (k, corners)."""
+    ends = [np.stack([polygons, np.roll(polygons, 1, axis=1)], axis=-1).reshape(-1, 2) for polygons in faces]
     return np.unique(np.sort(np.concatenate(ends), axis=1), axis=0)
 
 
 def with_lengths(rows: np.ndarray) -> np.ndarray:
-    """Return cells of equal length in VTK's layout: each row behind its length, flat."""
+    """Return cells, (k, width), in VTK's flat layout: each row is preceded by its length."""
     return np.column_stack([np.full(len(rows), rows.shape[1]), rows]).ravel()

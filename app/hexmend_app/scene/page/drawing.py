@@ -1,4 +1,4 @@
-"""Lines and texts on a page: drawn by matplotlib, in pixels from the upper left corner."""
+"""Lines and texts on a page, drawn with matplotlib in pixels from the upper left corner."""
 
 from __future__ import annotations
 
@@ -13,36 +13,36 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from PIL import Image
 
-#: Letters and lines on bright paper, and on dark.
+#: Colours of letters and lines on a bright and on a dark background.
 _DARK, _BRIGHT = "#1f2630", "#e3e7ed"
 
 
 class Drawing:
-    """Drawing functions of a page.
+    """Draws lines, texts and pictures on a page.
 
     Parameters
     ----------
     axes : Axes
-        Of matplotlib, all over the page, in pixels from its upper left corner.
+        Matplotlib axes that cover the page, in pixels from its upper left corner.
     layout : Layout
     """
 
     def __init__(self, axes: Axes, layout: Layout):
         self._axes = axes
         self.letters = layout.letters
-        self._points = PT_PER_INCH / layout.scene.page.resolution  # a pixel's
+        self._points = PT_PER_INCH / layout.scene.page.resolution  # size of a pixel in pt
         self.colour = _BRIGHT if layout.scene.page.dark else _DARK
         #: Width of a line, in pixels.
         self.line = max(1.0, self.letters.height / 14)
 
     def image(self, image: Image.Image, box: Rectangle) -> None:
-        """Place a picture into a rectangle of its size."""
+        """Draw a picture in a rectangle of its size."""
         from matplotlib.image import AxesImage
 
         extent = (box.left, box.left + box.width, box.top + box.height, box.top)
-        drawn = AxesImage(self._axes, extent=extent, origin="upper", interpolation="none", zorder=0)
-        drawn.set_data(image)
-        self._axes.add_image(drawn)
+        artist = AxesImage(self._axes, extent=extent, origin="upper", interpolation="none", zorder=0)
+        artist.set_data(image)
+        self._axes.add_image(artist)
 
     def text(
         self,
@@ -56,19 +56,20 @@ class Drawing:
         turned: bool = False,
         colour: str | None = None,
     ) -> None:
-        """Write a text.
+        """Draw a text.
 
         Parameters
         ----------
         x, y : float
         text : str
-            Nothing in it is a formula.
+            Plain text; math is not parsed.
         anchor : str
-            Anchor: left, middle or right, and top, middle or bottom, by first letters.
+            Two letters: l, m or r for left, middle or right, then t, m or b for top, middle or bottom.
         share : float
-            Of the height of the page's letters.
-        bold, turned : bool
-            Turned, it is read from below.
+            Size as a fraction of the font size of the page.
+        bold : bool
+        turned : bool
+            Rotate the text by 90° counter-clockwise.
         colour : str, optional
         """
         self._axes.text(
@@ -87,36 +88,37 @@ class Drawing:
             zorder=4,
         )
 
-    def lines(self, *ends: tuple[float, float, float, float], colour: str | None = None, wide: float = 1.0) -> None:
-        """Draw lines, each from (x, y) to (x, y); `width` is a multiple of the usual one."""
+    def lines(self, *ends: tuple[float, float, float, float], colour: str | None = None, width: float = 1.0) -> None:
+        """Draw lines from (x, y) to (u, v), given as (x, y, u, v); `width` is a multiple of the default width."""
         from matplotlib.collections import LineCollection
 
         paths = [((x, y), (u, v)) for x, y, u, v in ends]
-        width = wide * self.line * self._points
+        points = width * self.line * self._points
         self._axes.add_collection(
-            LineCollection(paths, colors=colour or self.colour, linewidths=width, capstyle="round", zorder=3),
+            LineCollection(paths, colors=colour or self.colour, linewidths=points, capstyle="round", zorder=3),
             autolim=False,
         )
 
     def fill(
         self, corners: Sequence[tuple[float, float]], colour: str | Sequence[float], alpha: float | None = None
     ) -> None:
-        """Fill a polygon."""
+        """Fill the polygon with these corners."""
         from matplotlib.patches import Polygon
 
         self._axes.add_patch(Polygon(corners, closed=True, facecolor=colour, edgecolor="none", alpha=alpha, zorder=3))
 
     def gradient(self, box: Rectangle, colours: Sequence[Sequence[float]], *, upright: bool) -> None:
-        """Draw colours from left to right, or from bottom to top, without seams.
+        """Draw a gradient from left to right, or from bottom to top.
 
-        Each reaches to the end of the whole and is covered by the next: nothing behind them shows between two.
+        The area of each colour extends to the end of the gradient and is covered by the next, which avoids seams.
 
         Parameters
         ----------
-        box : Box
+        box : Rectangle
         colours : (k, 3) float
             Red, green and blue from 0 to 1.
         upright : bool
+            Draw from bottom to top.
         """
         from matplotlib.collections import PolyCollection
 

@@ -14,23 +14,23 @@ from hexmend_app.picture import Captions, PicturePanel, Scene, TextPlace
 from hexmend_app.scene.page.lettering import Lettering
 from hexmend_app.scene.page.page_mesh import PageMesh
 
-#: In heights of a letter: of captions, between panels, of a strip with the colour bar below, of a row of swatches, and
-#: of the strip at the right without its numbers.
+#: Sizes in font heights: height of captions, gap between panels, height of the strip of a colour bar below, height of a
+#: row of swatches, and width of the strip of a colour bar at the right without its numbers.
 _CAPTION, _GAP, _STRIP, _ROW, _SIDE = 1.8, 0.6, 3.4, 1.25, 4.2
 
-#: Width and height in letters below which a page has no room for the colour bar.
-_SPACE = (24.0, 12.0)
+#: Minimum width and height of a page with a colour bar, in font heights.
+_MIN_SIZE = (24.0, 12.0)
 
-#: Pixels that a panel has at least.
-_LEAST = 16
+#: Minimum side of a panel, in pixels.
+_MIN_PANEL = 16
 
-#: The share of the bar's strip beyond which its title stands above it.
+#: Fraction of the page width above which the title is drawn above the colour bar.
 _LONG_TITLE = 0.22
 
 
 @dataclass(frozen=True)
 class Rectangle:
-    """A rectangle in pixels from the upper left corner of the page."""
+    """Rectangle in pixels from the upper left corner of the page."""
 
     left: int
     top: int
@@ -45,26 +45,26 @@ class Layout:
     Parameters
     ----------
     scene : Scene
-    subjects : sequence of Subject
+    meshes : sequence of PageMesh
     panel : (width, height)
-        Of each panel's picture.
+        Size of the picture of each panel.
     size : (width, height)
-        Of the page.
-    bar : Place
-        Position of the colour bar; none if it does not fit.
+        Size of the page.
+    bar : TextPlace
+        Position of the colour bar; NONE if it does not fit.
     captions : bool
         Draw a caption above each panel.
     """
 
     scene: Scene
-    subjects: Sequence[PageMesh]
+    meshes: Sequence[PageMesh]
     panel: tuple[int, int]
     size: tuple[int, int]
     bar: TextPlace
     captions: bool
 
     @classmethod
-    def of(cls, scene: Scene, subjects: Sequence[PageMesh]) -> Layout:
+    def of(cls, scene: Scene, meshes: Sequence[PageMesh]) -> Layout:
         """Lay out a page; a small one has no colour bar or captions.
 
         Raises
@@ -73,17 +73,17 @@ class Layout:
             If the panels do not fit.
         """
         width, height = scene.page.size
-        letter, panels = Lettering(scene.page).height, scene.panels_of(len(subjects))
-        space = width >= _SPACE[0] * letter and height >= _SPACE[1] * letter
-        bar = TextPlace.NONE if scene.colours.neutral or not space else scene.bar.place
+        letter, panels = Lettering(scene.page).height, scene.panels_of(len(meshes))
+        bar_fits = width >= _MIN_SIZE[0] * letter and height >= _MIN_SIZE[1] * letter
+        bar = scene.bar.place if bar_fits and not scene.colours.neutral else TextPlace.NONE
         captions = scene.page.captions is not Captions.NONE and (
             len(panels) > 1 or any(panel.caption or panel.wipe for panel in panels)
         )
         for place, lines in ((bar, captions), (TextPlace.NONE, captions), (TextPlace.NONE, False)):
-            layout = cls(scene, subjects, (0, 0), (width, height), place, lines)
-            around = layout.around
-            panel = (width - around[0]) // layout.columns, (height - around[1]) // layout.rows
-            if min(panel) >= _LEAST:
+            layout = cls(scene, meshes, (0, 0), (width, height), place, lines)
+            outside = layout.around
+            panel = (width - outside[0]) // layout.columns, (height - outside[1]) // layout.rows
+            if min(panel) >= _MIN_PANEL:
                 return replace(layout, panel=panel)
         raise ParameterError(
             f"the page has {width:,} × {height:,} pixels, too few for {len(panels)} panels: choose a larger page"
@@ -94,41 +94,40 @@ class Layout:
         extra = self.around
         width = panel[0] * self.columns + extra[0]
         if self.bar is TextPlace.BELOW:
-            width = max(width, min(self.size[0], round(_SPACE[0] * self.letters.height)))
+            width = max(width, min(self.size[0], round(_MIN_SIZE[0] * self.letters.height)))
         return replace(self, panel=panel, size=(width, panel[1] * self.rows + extra[1]))
 
     @cached_property
     def letters(self) -> Lettering:
-        """The lettering."""
+        """Lettering of the page."""
         return Lettering(self.scene.page)
 
     @cached_property
     def panels(self) -> tuple[PicturePanel, ...]:
-        """The panels, row by row."""
-        return self.scene.panels_of(len(self.subjects))
+        """Panels, row by row."""
+        return self.scene.panels_of(len(self.meshes))
 
     @property
     def columns(self) -> int:
-        """Panels in a row."""
+        """Number of panels in a row."""
         count = len(self.panels)
-        few = count if count <= 3 else int(np.ceil(np.sqrt(count)))
-        return min(self.scene.page.columns or few, count)
+        default = count if count <= 3 else int(np.ceil(np.sqrt(count)))
+        return min(self.scene.page.columns or default, count)
 
     @property
     def rows(self) -> int:
-        """Rows of panels."""
+        """Number of rows of panels."""
         return -(-len(self.panels) // self.columns)
 
     @cached_property
     def title(self) -> str:
         """Title of the colour bar."""
-        metric, movement = self.scene.colours.metric, self.subjects[0].movement
-        known = (
-            movement.title(metric)
-            if metric in DISPLACEMENT_QUANTITIES and movement is not None
-            else hex_quantity(metric).title
-        )
-        return self.scene.bar.title or known
+        metric, movement = self.scene.colours.metric, self.meshes[0].movement
+        if self.scene.bar.title:
+            return self.scene.bar.title
+        if metric in DISPLACEMENT_QUANTITIES and movement is not None:
+            return movement.title(metric)
+        return hex_quantity(metric).title
 
     @property
     def long_title(self) -> bool:
@@ -137,41 +136,41 @@ class Layout:
 
     @property
     def around(self) -> tuple[int, int]:
-        """Width and height of the page outside panels, in pixels."""
+        """Total width and height of the page outside its panels, in pixels."""
         letter, margin = self.letters.height, 2 * self.scene.page.pixels_of(self.scene.page.margin)
         gap = round(_GAP * letter)
-        wide, high = margin + gap * (self.columns - 1), margin + gap * (self.rows - 1) + self.rows * self.caption
+        width, height = margin + gap * (self.columns - 1), margin + gap * (self.rows - 1) + self.rows * self.caption
         if self.bar is TextPlace.BELOW:
-            high += self.strip
+            height += self.strip
         elif self.bar is TextPlace.RIGHT:
-            wide += self.strip
-        return wide, high
+            width += self.strip
+        return width, height
 
     @property
     def caption(self) -> int:
-        """Height of a line above a panel."""
+        """Height of a caption in pixels."""
         return round(_CAPTION * self.letters.height) if self.captions else 0
 
     @cached_property
     def strip(self) -> int:
-        """Height of the colour bar's strip below, or its width at the right."""
+        """Height of the strip of the colour bar below the panels, or its width at the right, in pixels."""
         swatches = 3 if self.scene.colours.metric == "q-change" else 1
         if self.bar is TextPlace.RIGHT:
-            wide = max(_SIDE + self.letters.em("0.0000"), 2 + self.letters.em("inverted (00,000)"))
-            return round(wide * self.letters.height)
+            width = max(_SIDE + self.letters.em("0.0000"), 2 + self.letters.em("inverted (00,000)"))
+            return round(width * self.letters.height)
         return round(max(_STRIP + 1.4 * self.long_title, _ROW * swatches + 0.8) * self.letters.height)
 
     def place(self, number: int) -> Rectangle:
-        """Return the rectangle of a panel's picture, by its number from 0."""
+        """Return the rectangle of the picture of a panel, by its number from 0."""
         row, column = divmod(number, self.columns)
         margin, gap = self.scene.page.pixels_of(self.scene.page.margin), round(_GAP * self.letters.height)
-        aside = (self.size[0] - self.around[0] - self.panel[0] * self.columns) // 2
-        left = margin + aside + column * (self.panel[0] + gap)
+        indent = (self.size[0] - self.around[0] - self.panel[0] * self.columns) // 2
+        left = margin + indent + column * (self.panel[0] + gap)
         return Rectangle(left, margin + row * (self.panel[1] + gap + self.caption) + self.caption, *self.panel)
 
     @property
     def bar_place(self) -> Rectangle:
-        """Rectangle of the colour bar."""
+        """Rectangle of the strip of the colour bar."""
         margin, (width, height) = self.scene.page.pixels_of(self.scene.page.margin), self.size
         if self.bar is TextPlace.RIGHT:
             return Rectangle(width - margin - self.strip, margin, self.strip, height - 2 * margin)

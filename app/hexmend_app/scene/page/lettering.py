@@ -1,4 +1,4 @@
-"""Lettering of a page: size of letters and width of texts."""
+"""Lettering of a page: font size and widths of texts."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from hexmend_app.picture import Page
 from hexmend_app.picture.page import PT_PER_INCH
 from hexmend_app.scene.page.fonts import font_file
 
-#: Pixels of the letters that texts are measured in.
-_MEASURED = 200
+#: Font size in pixels at which texts are measured.
+_MEASURED_SIZE = 200
 
-#: Pixels by which a letter is wider where it is drawn as pixels: what draws them rounds each to whole ones.
-_ROUNDED = 0.4
+#: Additional width of a letter in pixels when it is rasterised, because positions are rounded to whole pixels.
+_ROUNDING = 0.4
 
 
 class Lettering:
@@ -23,9 +23,9 @@ class Lettering:
     Attributes
     ----------
     points : float
-        Size in pt.
+        Font size in pt.
     height : float
-        The same in pixels.
+        Font size in pixels.
 
     Parameters
     ----------
@@ -37,14 +37,14 @@ class Lettering:
         self.height = page.letters / PT_PER_INCH * page.resolution
 
     def em(self, text: str, bold: bool = False) -> float:
-        """Return the width of a text, in heights of a letter."""
-        return _font(bold).getlength(text) / _MEASURED
+        """Return the width of a text, in font heights."""
+        return _font(bold).getlength(text) / _MEASURED_SIZE
 
     def width(self, text: str, bold: bool = False) -> float:
         """Return an upper bound of the width of a text, in pixels."""
-        return self.em(text, bold) * self.height + _ROUNDED * len(text)
+        return self.em(text, bold) * self.height + _ROUNDING * len(text)
 
 
 @cache
 def _font(bold: bool) -> ImageFont.FreeTypeFont:
-    return ImageFont.truetype(font_file(bold), _MEASURED)
+    return ImageFont.truetype(font_file(bold), _MEASURED_SIZE)

@@ -11,35 +11,35 @@ from hexmend_app.picture import Captions
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout
 
-#: Free space next to a caption, and between a name and its figures, in heights of a letter.
+#: Free space next to a caption, and between its name and its figures, in font heights.
 _GAP = 0.5
 
-#: Shares of the page's letters that are tried until a caption fits.
+#: Fractions of the font size that are tried until all captions fit.
 _SHARES = np.linspace(1.0, 0.5, 6)
 
 
 class _Caption(NamedTuple):
-    """A name with figures, and its position, in pixels from the upper left corner of the page."""
+    """A caption: position in pixels from the upper left corner of the page, available width, name and figures."""
 
     left: float
     middle: float
-    space: float
+    width: float
     name: str
-    sentence: str
+    figures: str
 
 
 def draw_captions(ink: Drawing, layout: Layout) -> None:
-    """Write a caption above each panel; above a wipe, one on each side of its edge.
+    """Draw a caption above each panel, and two above a wipe, on either side of its edge.
 
-    Letters have one size, at which all captions fit; one for which there is no such size is written as small as can be.
+    All captions have the largest size at which they fit; captions that do not fit at any size have the smallest size.
     """
     if not layout.captions:
         return
     captions = list(_captions(layout))
-    shares = [_share(ink, one) for one in captions]
+    shares = [_largest_share(ink, caption) for caption in captions]
     common = min((share for share in shares if share), default=0.0)
-    for one, share in zip(captions, shares, strict=True):
-        _write(ink, one, common if share else _SHARES[-1])
+    for caption, share in zip(captions, shares, strict=True):
+        _draw(ink, caption, common if share else _SHARES[-1])
     for number, panel in enumerate(layout.panels):
         if panel.wipe is not None:
             box = layout.place(number)
@@ -48,43 +48,44 @@ def draw_captions(ink: Drawing, layout: Layout) -> None:
 
 
 def _captions(layout: Layout) -> Iterator[_Caption]:
-    scene, subjects = layout.scene, layout.subjects
-    shown = {one for panel in layout.panels for one in (panel.mesh, panel.wipe.mesh if panel.wipe else panel.mesh)}
-    figures = scene.page.figures and len(shown) > 1
+    scene, meshes = layout.scene, layout.meshes
+    shown = {panel.mesh for panel in layout.panels} | {panel.wipe.mesh for panel in layout.panels if panel.wipe}
+    with_figures = scene.page.figures and len(shown) > 1
     for number, panel in enumerate(layout.panels):
         box = layout.place(number)
         letter = f"({_letter(number)})" if scene.page.captions is Captions.LETTERS else ""
-        first = subjects[panel.mesh - 1]
+        first = meshes[panel.mesh - 1]
         middle = box.top - layout.caption / 2
-        free_space = box.width if panel.wipe is None else panel.wipe.at * box.width
-        figures_text = first.text if figures else ""
-        yield _Caption(box.left, middle, free_space, f"{letter} {panel.caption or first.name}".strip(), figures_text)
+        width = box.width if panel.wipe is None else panel.wipe.at * box.width
+        name, figures = f"{letter} {panel.caption or first.name}".strip(), first.text if with_figures else ""
+        yield _Caption(box.left, middle, width, name, figures)
         if panel.wipe is not None:
-            other, edge = subjects[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
-            name, figures_text = panel.wipe.caption or other.name, other.text if figures else ""
-            yield _Caption(edge, middle, box.width - free_space, name, figures_text)
+            other, edge = meshes[panel.wipe.mesh - 1], box.left + round(panel.wipe.at * box.width)
+            name, figures = panel.wipe.caption or other.name, other.text if with_figures else ""
+            yield _Caption(edge, middle, box.width - width, name, figures)
 
 
-def _share(ink: Drawing, one: _Caption) -> float:
-    """Return the greatest share with which a caption fits, 0 if none does."""
-    return next((share for share in _SHARES if _fits(ink, one, share)), 0.0)
+def _largest_share(ink: Drawing, caption: _Caption) -> float:
+    """Return the largest fraction of the font size at which a caption fits, 0 if there is none."""
+    return next((share for share in _SHARES if _fits(ink, caption, share)), 0.0)
 
 
-def _fits(ink: Drawing, one: _Caption, share: float) -> bool:
+def _fits(ink: Drawing, caption: _Caption, share: float) -> bool:
     letters = ink.letters
-    wide = share * (letters.width(one.name, bold=True) + letters.width(one.sentence))
-    return wide + (3 if one.sentence else 2) * _GAP * letters.height <= one.space
+    width = share * (letters.width(caption.name, bold=True) + letters.width(caption.figures))
+    return width + (3 if caption.figures else 2) * _GAP * letters.height <= caption.width
 
 
-def _write(ink: Drawing, one: _Caption, share: float) -> None:
-    """Write a caption; if it does not fit, without figures and with a shortened name."""
-    gap, name = _GAP * ink.letters.height, one.name
-    message = one.sentence if _fits(ink, one, share) else ""
-    while name and share * ink.letters.width(name, bold=True) + 2 * gap > one.space:
+def _draw(ink: Drawing, caption: _Caption, share: float) -> None:
+    """Draw a caption; if it does not fit, without figures and with a shortened name."""
+    gap, name = _GAP * ink.letters.height, caption.name
+    figures = caption.figures if _fits(ink, caption, share) else ""
+    while name and share * ink.letters.width(name, bold=True) + 2 * gap > caption.width:
         name = f"{name.rstrip('…')[:-1]}…" if len(name) > 2 else ""
-    ink.text(one.left + gap, one.middle, name, bold=True, share=share)
-    if message:
-        ink.text(one.left + 2 * gap + share * ink.letters.width(name, bold=True), one.middle, message, share=share)
+    ink.text(caption.left + gap, caption.middle, name, bold=True, share=share)
+    if figures:
+        left = caption.left + 2 * gap + share * ink.letters.width(name, bold=True)
+        ink.text(left, caption.middle, figures, share=share)
 
 
 def _letter(number: int) -> str:

@@ -8,34 +8,34 @@ from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Layout, Rectangle
 from hexmend_app.scene.render.rasters import Rasters
 
-#: In heights of a letter: the gradient, a tick, what stays free at a side, between texts, and a swatch.
+#: Sizes in font heights: gradient, tick, padding at the sides, gap between texts, swatch.
 _THICK, _TICK, _PAD, _GAP, _SWATCH = 1.0, 0.25, 0.8, 0.6, 0.9
 
-#: How tall a digit is, and how far rows of swatches are apart.
+#: Height of a digit and distance of rows of swatches, in font heights.
 _DIGIT, _ROW = 0.73, 1.25
 
 
 def draw_bar(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
-    """Draw the colour bar at its place in the layout."""
+    """Draw the colour bar at its position in the layout."""
     if layout.bar is TextPlace.BELOW:
-        _below(ink, layout, drawn)
+        _draw_below(ink, layout, drawn)
     elif layout.bar is TextPlace.RIGHT:
-        _right(ink, layout, drawn)
+        _draw_right(ink, layout, drawn)
 
 
 def ticks(layout: Layout, drawn: Rasters, space: float) -> list[float]:
-    """Return the values at the bar, given the share of its length that each needs."""
-    wanted, colouring = layout.scene.bar.ticks, drawn.colouring
-    if isinstance(wanted, tuple):
-        return [value for value in wanted if colouring.low <= value <= colouring.high]
-    return ticks_with_ends(colouring.low, colouring.high, space, wanted)[: wanted if wanted < 2 else None]
+    """Return the tick values; `space` is the fraction of the bar that each needs."""
+    option, colouring = layout.scene.bar.ticks, drawn.colouring
+    if isinstance(option, tuple):
+        return [value for value in option if colouring.low <= value <= colouring.high]
+    return ticks_with_ends(colouring.low, colouring.high, space, option)[: option if option < 2 else None]
 
 
-def _below(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
+def _draw_below(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
     letter, box, colouring = ink.letters.height, layout.bar_place, drawn.colouring
     swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
-    wide = max(map(ink.letters.width, swatches)) + (_SWATCH + 0.4) * letter
-    left, right = box.left + _PAD * letter, box.left + box.width - _PAD * letter - wide - 2 * _GAP * letter
+    swatch_width = max(map(ink.letters.width, swatches)) + (_SWATCH + 0.4) * letter
+    left, right = box.left + _PAD * letter, box.left + box.width - _PAD * letter - swatch_width - 2 * _GAP * letter
     top = box.top + 0.5 * letter
     if layout.long_title:
         ink.text(left, top + letter / 2, layout.title)
@@ -48,19 +48,19 @@ def _below(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
     bar = Rectangle(round(left), round(top), max(round(right - left), 1), round(_THICK * letter))
     ink.gradient(bar, colouring.table / 255, upright=False)
     below = bar.top + bar.height
-    free_space = (max(ends) + letter) / bar.width
-    for value in ticks(layout, drawn, free_space):
+    space = (max(ends) + letter) / bar.width
+    for value in ticks(layout, drawn, space):
         x = bar.left + bar.width * (value - colouring.low) / (colouring.high - colouring.low)
         ink.lines((x, below, x, below + _TICK * letter))
         ink.text(x, below + (_TICK + 0.25 + _DIGIT / 2) * letter, colouring.label(value), anchor="mm")
-    side = box.left + box.width - _PAD * letter - wide
+    side = box.left + box.width - _PAD * letter - swatch_width
     first = top + _THICK * letter / 2
     if len(swatches) > 1:
         first = box.top + (box.height - _ROW * letter * (len(swatches) - 1)) / 2
     _swatches(ink, drawn, side, first, swatches)
 
 
-def _right(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
+def _draw_right(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
     letter, box, colouring = ink.letters.height, layout.bar_place, drawn.colouring
     swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
     left = box.left + _PAD * letter
@@ -74,14 +74,14 @@ def _right(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
         ink.lines((x, y, x + _TICK * letter, y))
         ink.text(x + (_TICK + 0.25) * letter, y, colouring.label(value))
         widest = max(widest, ink.letters.width(colouring.label(value)))
-    aside = x + (_TICK + 0.25 + 0.9) * letter + widest
+    title_x = x + (_TICK + 0.25 + 0.9) * letter + widest
     share = min(1.0, bar.height / max(ink.letters.width(layout.title), 1.0))
-    ink.text(aside, bar.top + bar.height / 2, layout.title, anchor="mm", turned=True, share=share)
+    ink.text(title_x, bar.top + bar.height / 2, layout.title, anchor="mm", turned=True, share=share)
     _swatches(ink, drawn, left, low + 1.2 * letter, swatches)
 
 
 def _swatches(ink: Drawing, drawn: Rasters, left: float, first: float, texts: list[str]) -> None:
-    """Draw the special colours, a row each, from the middle of the first row."""
+    """Draw one row for each special colour; `first` is the middle of the first row."""
     letter = ink.letters.height
     for row, ((_, _, colour), text) in enumerate(zip(drawn.special_colours, texts, strict=True)):
         middle, half = first + row * _ROW * letter, _SWATCH * letter / 2

@@ -1,4 +1,4 @@
-"""Mesh on a page."""
+"""Meshes of a page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend_app.scene.views.frame import Frame
 
 @dataclass(frozen=True, eq=False)
 class PageMesh:
-    """Mesh on a page with its quality, movement and name.
+    """Mesh of a page with its quality, movement and name.
 
     Parameters
     ----------
@@ -23,9 +23,9 @@ class PageMesh:
         Name in the caption.
     mesh : Mesh
     figures : ElementQuality
-        Of the mesh.
+        Quality of the mesh.
     movement, original, kinds
-        As in a `Frame`; of the first of several, with whose movement the others compare.
+        As in `Frame`; set for the first of several meshes only, whose reference state the others use.
     """
 
     name: str
@@ -37,7 +37,7 @@ class PageMesh:
 
     @classmethod
     def of(cls, mesh: Mesh, name: str = "") -> PageMesh:
-        """Measure a mesh; the default name is its own."""
+        """Return a mesh with its measured quality; the default name is that of the mesh."""
         return cls(name or mesh.name, mesh, measure(mesh.points, mesh.hexes))
 
     @classmethod
@@ -46,11 +46,11 @@ class PageMesh:
         return cls(name, frame.mesh, frame.figures, frame.movement, frame.original, frame.kinds)
 
     def frame(self, look: Look) -> Frame:
-        """Return the frame of the mesh under a look."""
+        """Return the frame of the mesh with a look."""
         return Frame(self.mesh, self.figures, self.movement, look, self.original, self.kinds)
 
     @property
     def text(self) -> str:
-        """Figures of the caption."""
+        """Figures of the caption: smallest q and number of inverted hexes."""
         inverted = self.figures.n_inverted
         return f"q min {self.figures.q.min():.4f}, {f'{inverted:,}' if inverted else 'none'} inverted"

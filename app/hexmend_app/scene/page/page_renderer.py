@@ -1,4 +1,4 @@
-"""Page of a scene: pictures of the panels, and lines and texts over them."""
+"""Pages of scenes: pictures of the panels, with lines and texts over them."""
 
 from __future__ import annotations
 
@@ -27,24 +27,24 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from vtkmodules.vtkRenderingCore import vtkProp
 
-#: What a page can be written as, by suffix.
+#: Formats of page files, by suffix.
 FORMATS = {".png": "PNG", ".tif": "TIFF", ".tiff": "TIFF", ".pdf": "pdf", ".svg": "svg"}
 
-#: Vectors that are the same for the same page, with texts that stay texts.
+#: Settings of vector formats: reproducible files, in which texts remain texts.
 _VECTORS = {"svg.hashsalt": "hexmend", "svg.fonttype": "none", "pdf.fonttype": 42, "image.composite_image": False}
 _DATES = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
-#: Difference from the background, in steps of brightness, from which a pixel counts as drawn.
-_SEEN = 3
+#: Difference from the background above which a pixel counts as drawn, 0 to 255.
+_THRESHOLD = 3
 
 
 class PageRenderer:
-    """Drawn page.
+    """A drawn page, which can be returned as an image or written to a file.
 
     Attributes
     ----------
     size : (width, height)
-        In pixels: as the page asks for, or smaller where it is cropped.
+        Size in pixels; smaller than the page of the scene if the page is cropped.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class PageRenderer:
         self.size = layout.size
 
     def image(self) -> Image.Image:
-        """Return the page in pixels: RGB, or RGBA with a transparent background."""
+        """Return the page as an image: RGB, or RGBA with a transparent background."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         layout, ground = self._layout, self._layout.scene.page.ground
@@ -65,7 +65,7 @@ class PageRenderer:
         for number, image in enumerate(self._drawn.images):
             box = layout.place(number)
             page.paste(image, (box.left, box.top))
-        # Lines and letters on nothing, laid over that: an image in a figure takes matplotlib ten times its memory.
+        # Draw lines and letters separately: an image in a figure takes ten times its memory in matplotlib.
         canvas = FigureCanvasAgg(self._figure(pictures=False))
         canvas.draw()
         page.alpha_composite(Image.fromarray(np.asarray(canvas.buffer_rgba())))
@@ -77,14 +77,14 @@ class PageRenderer:
         Parameters
         ----------
         path : Path
-            Its suffix is one of `FORMATS`, or there is none, which stands for PNG.
+            Path with a suffix of `FORMATS`; without a suffix, the format is PNG.
         texts : mapping, optional
-            Texts that a PNG carries, by keyword.
+            Text metadata of a PNG, by keyword.
 
         Raises
         ------
         FileError
-            For another suffix, or where the file cannot be written; the one that was there stays.
+            For another suffix, or if the file cannot be written; an existing file is left unchanged.
         """
         kind = format_of(path)
         with atomic_write(path) as temporary:
@@ -115,11 +115,11 @@ class PageRenderer:
             figure.savefig(path, format=kind, dpi=figure.dpi, facecolor=ground, metadata=_DATES[kind])
 
     def _figure(self, pictures: bool) -> Figure:
-        """Draw the page with matplotlib, with background and pictures of panels, or without both."""
+        """Draw the page with matplotlib, with or without the pictures of its panels."""
         from matplotlib.figure import Figure
 
         layout, page = self._layout, self._layout.scene.page
-        # A hair more than whole pixels, which rounding would else take one of.
+        # Slightly more than whole pixels, so that rounding does not drop a pixel.
         inches = [(side + 1e-3) / page.resolution for side in layout.size]
         figure = Figure(figsize=inches, dpi=page.resolution, facecolor="none")
         axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
@@ -131,8 +131,7 @@ class PageRenderer:
                 ink.image(image, layout.place(number))
             if layout.scene.axes.show and panel.camera not in cameras:
                 cameras.add(panel.camera)
-                seen = self._drawn.axes[number]
-                draw_axes(ink, layout.place(number), seen, layout.scene.axes.place, page)
+                draw_axes(ink, layout.place(number), self._drawn.axes[number], layout.scene.axes.place, page)
         draw_captions(ink, layout)
         draw_bar(ink, layout, self._drawn)
         return figure
@@ -140,33 +139,32 @@ class PageRenderer:
 
 def draw_page(
     scene: Scene,
-    subjects: Sequence[PageMesh],
+    meshes: Sequence[PageMesh],
     *,
     filters: Filters | None = None,
     node_step: NodeStep | None = None,
     props: Callable[[float], list[vtkProp]] | None = None,
 ) -> PageRenderer:
-    """Draw a scene of meshes, off screen.
+    """Draw the page of a scene off screen.
 
     Parameters
     ----------
     scene : Scene
-    subjects : sequence of Subject
-        At least one; the panels name them by number from 1.
+    meshes : sequence of PageMesh
+        At least one mesh; panels refer to them by number from 1.
     filters : Filters, optional
-        Those of a view of the first mesh, whose elements are drawn: a cut by whole elements is made where the nodes are
-        as a plane comes, not where they are now.
+        Filters of a view of the first mesh, which store the result of a cut by whole hexes.
     node_step : NodeStep, optional
-        A node's step that is drawn in the first mesh.
+        Node step to draw in the first mesh.
     props : callable, optional
-        Returns further props for the views of the first mesh, from the width in pixels of a thin line.
+        Returns additional props for the views of the first mesh, from the width of a thin line in pixels.
 
     Raises
     ------
     ParameterError
         If the scene names hexes or meshes that do not exist, or its page is too small for its panels.
     """
-    layout = Layout.of(scene, subjects)
+    layout = Layout.of(scene, meshes)
     drawn = rasters(layout, filters=filters, node_step=node_step, props=props)
     return PageRenderer(*_cropped(layout, drawn)) if scene.page.crop else PageRenderer(layout, drawn)
 
@@ -183,19 +181,19 @@ def format_of(path: Path) -> str:
 
 
 def _cropped(layout: Layout, drawn: Rasters) -> tuple[Layout, Rasters]:
-    """Crop the margins that are empty in all panels; an empty page is not cropped."""
-    seen = np.logical_or.reduce([_seen(image, layout.scene.page.ground) for image in drawn.images])
-    if not seen.any():
+    """Crop margins that are empty in all panels; an empty page is not cropped."""
+    mask = np.logical_or.reduce([_drawn_pixels(image, layout.scene.page.ground) for image in drawn.images])
+    if not mask.any():
         return layout, drawn
-    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     box = int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
     images = [image.crop(box) for image in drawn.images]
     return layout.cropped(images[0].size), replace(drawn, images=images)
 
 
-def _seen(image: Image.Image, ground: str | None) -> np.ndarray:
+def _drawn_pixels(image: Image.Image, ground: str | None) -> np.ndarray:
     """Return True for drawn pixels, (height, width) bool."""
     pixels = np.asarray(image).astype(np.int16)
     if ground is None:
         return pixels[..., 3] > 0
-    return np.abs(pixels - np.frombuffer(bytes.fromhex(ground[1:]), np.uint8)).max(axis=2) > _SEEN
+    return np.abs(pixels - np.frombuffer(bytes.fromhex(ground[1:]), np.uint8)).max(axis=2) > _THRESHOLD

@@ -1,4 +1,4 @@
-"""Pictures of meshes under a scene, off screen: for commands, and for scripts that repeat what a window drew."""
+"""Off-screen pictures of meshes, for commands and for scripts that reproduce pictures of a window."""
 
 from __future__ import annotations
 
@@ -31,74 +31,73 @@ def write_picture(
     since_name: str = "",
     recipe: Recipe | None = None,
 ) -> PageRenderer:
-    """Draw a scene and write it; needs neither a window nor an X server.
+    """Draw a scene and write it to a file; requires neither a window nor an X server.
 
     Parameters
     ----------
     path : path-like
-        Its suffix is one of `hexmend_app.scene.page.page_renderer.FORMATS`; a PNG carries the scene.
+        Path with a suffix of `hexmend_app.scene.page.page_renderer.FORMATS`; a PNG contains the scene as metadata.
     scene : Scene
     meshes : sequence of Mesh
-        At least one; the scene's panels name them by number from 1.
+        At least one mesh; panels refer to them by number from 1.
     names : sequence of str
-        Names in the captions; by default those of the meshes.
+        Names in the captions; by default the names of the meshes.
     files : sequence of path-like
-        Files of the meshes, which the metadata name.
+        Files of the meshes, for the metadata.
     opened : Mesh, optional
-        The first mesh as it was opened, whose boundary and whose edge lengths the scene may want.
+        The first mesh as opened, which defines the original surface and the unit of movements.
     since : Mesh, optional
-        The first mesh as it was when the movement began that the scene shows; by default, of several, the first itself.
+        Reference state of movements of the first mesh; by default, the first of several meshes.
     since_name : str
         Text after "since".
     recipe : Recipe, optional
-        Methods that ran on the mesh since it was opened; part of the metadata.
+        Methods that were run on the mesh since it was opened, for the metadata.
 
     Raises
     ------
     HexmendError
-        If nothing can be drawn here, the scene does not fit the meshes, or the file cannot be written.
+        If drawing is impossible on this machine, the scene does not fit the meshes, or the file cannot be written.
     """
     prepare_off_screen()
     path, first = Path(path), meshes[0]
-    named = zip(names or [one.name for one in meshes], meshes, strict=True)
-    subjects = [PageMesh(name, mesh, measure(mesh.points, mesh.hexes)) for name, mesh in named]
-    subjects[0] = replace(
-        subjects[0],
-        movement=_movement(scene, subjects, opened or first, since, since_name),
+    named = zip(names or [mesh.name for mesh in meshes], meshes, strict=True)
+    page_meshes = [PageMesh(name, mesh, measure(mesh.points, mesh.hexes)) for name, mesh in named]
+    page_meshes[0] = replace(
+        page_meshes[0],
+        movement=_movement(scene, page_meshes, opened or first, since, since_name),
         original=None if opened is None or not scene.structure.original else opened.points,
     )
-    sheet = draw_page(scene, subjects)
-    known = files or [""] * len(meshes)
-    shown = [
+    page = draw_page(scene, page_meshes)
+    pictured = [
         PicturedMesh.of(opened or mesh, mesh, Path(file) if file else None, path)
-        for mesh, file in zip(meshes, known, strict=True)
+        for mesh, file in zip(meshes, files or [""] * len(meshes), strict=True)
     ]
-    sheet.write(path, with_metadata(scene, shown, recipe))
-    return sheet
+    page.write(path, with_metadata(scene, pictured, recipe))
+    return page
 
 
 def moving(scene: Scene) -> bool:
-    """Return True if a scene shows the movement of a mesh."""
+    """Return True if a scene shows the movement of a mesh, by colours or by arrows."""
     return scene.colours.metric in DISPLACEMENT_QUANTITIES or scene.movement.arrows is not Arrows.NONE
 
 
 def movement_since(since: Mesh, name: str, mesh: Mesh, opened: Mesh) -> Displacement:
-    """Return the movement of a mesh, in edge lengths of the mesh as it was opened."""
-    then = ReferenceState(since.points, measure(since.points, since.hexes), name)
-    return Displacement(opened, then, mesh.points, measure(mesh.points, mesh.hexes))
+    """Return the movement of a mesh since an earlier state, in edge lengths of the mesh as opened."""
+    reference = ReferenceState(since.points, measure(since.points, since.hexes), name)
+    return Displacement(opened, reference, mesh.points, measure(mesh.points, mesh.hexes))
 
 
 def _movement(
-    scene: Scene, subjects: Sequence[PageMesh], opened: Mesh, since: Mesh | None, name: str
+    scene: Scene, meshes: Sequence[PageMesh], opened: Mesh, since: Mesh | None, name: str
 ) -> Displacement | None:
     """Return the movement of the first mesh, if the scene shows it."""
     if not moving(scene):
         return None
-    first = subjects[0]
+    first = meshes[0]
     if since is not None:
         return movement_since(since, name, first.mesh, opened)
-    if len(subjects) == 1:
-        raise ParameterError("the scene shows how a mesh has moved: name the mesh before that, and then the mesh")
+    if len(meshes) == 1:
+        raise ParameterError("the scene shows the movement of a mesh: name the mesh before the movement first, then the mesh")
     return Displacement(
         opened, ReferenceState(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures
     )

@@ -1,4 +1,4 @@
-"""The axes in a corner of a panel, in lines and letters."""
+"""Orientation axes in a corner of a panel."""
 
 from __future__ import annotations
 
@@ -8,38 +8,38 @@ from hexmend_app.picture import Corner, Page
 from hexmend_app.scene.page.drawing import Drawing
 from hexmend_app.scene.page.layout import Rectangle
 
-#: Colours of X, Y and Z on bright paper, and on dark.
+#: Colours of X, Y and Z on a bright and on a dark background.
 _COLOURS = (("#d1342f", "#ff7a66"), ("#2e8b57", "#5fd394"), ("#1f4fd8", "#7fa6ff"))
 
-#: In heights of a letter: an axis, a letter's place beyond its end, a tip's length and half its width, what stays free.
+#: Sizes in font heights: axis, distance of the letter from its end, length and half width of its tip, free margin.
 _ARM, _BEYOND, _TIP, _HALF, _FREE = 2.2, 0.65, 0.75, 0.27, 0.6
 
 #: Halo behind an axis, in line widths; halo behind a letter, in letter heights; opacity of both.
-_RIM, _DISC, _BEHIND = 4.0, 0.55, 0.7
+_HALO, _DISC, _HALO_OPACITY = 4.0, 0.55, 0.7
 
-#: The share of a panel's side that the axes take at most.
+#: Maximum size of the axes, as a fraction of the shorter side of a panel.
 _MOST = 0.3
 
 
 def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, page: Page) -> None:
-    """Draw X, Y and Z as the camera sees them.
+    """Draw the X, Y and Z axes in the orientation of the camera.
 
     Parameters
     ----------
-    ink : Ink
-    box : Box
-        The panel.
+    ink : Drawing
+    box : Rectangle
+        Rectangle of the panel.
     axes : (3, 3) float64
         Each axis in camera coordinates: right, up, and towards the viewer.
     corner : Corner
     page : Page
-        Of its paper there is a rim around axes and letters, so that they are seen over the mesh too.
+        Page whose background colour is used for a halo, which makes the axes visible in front of the mesh.
     """
     letter = ink.letters.height
     reach = _ARM + _BEYOND + 0.45
     if 2 * (reach + _FREE) * letter > 2 * _MOST * min(box.width, box.height) / 0.6:
-        return  # no room for them beside the mesh
-    # As much room as they take in this direction, so that they stand in the corner.
+        return  # the panel is too small
+    # Extent of the axes in this orientation, for placing them in the corner.
     flat = axes[:, :2] * (1, -1)
     low, high = np.minimum(flat.min(axis=0), 0), np.maximum(flat.max(axis=0), 0)
     low, high = (low * (_ARM + _BEYOND) - 0.45) * letter, (high * (_ARM + _BEYOND) + 0.45) * letter
@@ -47,7 +47,7 @@ def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, pa
     free = _FREE * letter
     x = box.left + free - low[0] if across == "left" else box.left + box.width - free - high[0]
     y = box.top + free - low[1] if down == "upper" else box.top + box.height - free - high[1]
-    for axis in np.argsort(axes[:, 2]):  # what is nearer covers what is farther
+    for axis in np.argsort(axes[:, 2]):  # nearer axes are drawn over farther axes
         colour = _COLOURS[axis][page.dark]
         along = flat[axis]
         length = float(np.linalg.norm(along))
@@ -55,23 +55,23 @@ def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, pa
         if length > 0.12:
             unit = along / length
             tip = min(_TIP, _ARM * length) * letter
-            aside = _HALF * letter * np.array([-unit[1], unit[0]])
+            sideways = _HALF * letter * np.array([-unit[1], unit[0]])
             base = end - tip * unit
             place = end + _BEYOND * letter * unit
             if page.ground is not None:
-                ink.lines((x, y, *end), colour=page.ground, wide=_RIM)
-                ink.fill(_ring(*place, _DISC * letter), page.ground, alpha=_BEHIND)
-            ink.lines((x, y, *base), colour=colour, wide=1.6)
-            ink.fill([tuple(end), tuple(base + aside), tuple(base - aside)], colour)
+                ink.lines((x, y, *end), colour=page.ground, width=_HALO)
+                ink.fill(_circle(*place, _DISC * letter), page.ground, alpha=_HALO_OPACITY)
+            ink.lines((x, y, *base), colour=colour, width=1.6)
+            ink.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colour)
         else:
-            ink.fill(_ring(x, y, 0.16 * letter), colour)
+            ink.fill(_circle(x, y, 0.16 * letter), colour)
             if axes[axis, 2] < 0:
-                continue  # its end is behind
+                continue  # its end points away from the viewer
             place = np.array([x - 0.55 * letter, y + 0.6 * letter])
         ink.text(*place, "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
 
 
-def _ring(x: float, y: float, radius: float) -> list[tuple[float, float]]:
+def _circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:
     """Return a circle as a polygon."""
-    turn = np.linspace(0, 2 * np.pi, 24, endpoint=False)
-    return [*zip((x + radius * np.cos(turn)).tolist(), (y + radius * np.sin(turn)).tolist(), strict=True)]
+    angle = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    return [*zip((x + radius * np.cos(angle)).tolist(), (y + radius * np.sin(angle)).tolist(), strict=True)]

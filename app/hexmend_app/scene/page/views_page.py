@@ -1,4 +1,4 @@
-"""Page of the views of a window."""
+"""Pages of the views of a window."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from hexmend_app.scene.views.panes import Panes
 def scene_of(
     panes: Panes, names: Sequence[str] = (), page: Page | None = None, cameras: Mapping[str, Camera] | None = None
 ) -> Scene:
-    """Return the scene of views, with their camera.
+    """Return a scene that describes views and their camera.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def scene_of(
         Names in the captions of several views.
     page : Page, optional
     cameras : mapping, optional
-        Further cameras of the scene, by name.
+        Additional cameras of the scene, by name.
     """
     pose = pose_of(panes.first.camera, panes.eye.up)
     tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
@@ -34,8 +34,8 @@ def scene_of(
     return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), pose, **tables)
 
 
-def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
-    """Return the meshes of views, with the names of their captions."""
+def page_meshes(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
+    """Return the meshes of views, with the names for their captions."""
     named = names if len(panes.all) > 1 else [""]
     return [PageMesh.shown(view.frame, name) for view, name in zip(panes.all, named, strict=True)]
 
@@ -43,13 +43,10 @@ def subjects_of(panes: Panes, names: Sequence[str] = ()) -> list[PageMesh]:
 def draw_views(
     scene: Scene, panes: Panes, names: Sequence[str] = (), props: Callable[[float], list[vtkProp]] | None = None
 ) -> PageRenderer:
-    """Draw a scene of views, with the hexes that their cut has left and the step of a node.
-
-    `props` is that of `draw_page`.
-    """
+    """Draw a scene of views, with the result of their cut by whole hexes and their node step; see `draw_page`."""
     step = panes.first.extras.selection.node_step
     filters = panes.first.filters.copied()
-    return draw_page(scene, subjects_of(panes, names), filters=filters, node_step=step, props=props)
+    return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step, props=props)
 
 
 def _panels(panes: Panes, names: Sequence[str]) -> tuple[PicturePanel, ...]:

@@ -15,7 +15,7 @@ def count_colours(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     Returns
     -------
     colours : (k, 3) uint8
-        Each once, by red, then green, then blue.
+        Unique colours, sorted by red, then green, then blue.
     counts : (k,) int64
 
     >>> colours, counts = count_colours(np.array([[9, 0, 0], [1, 2, 3], [9, 0, 0]], np.uint8))
@@ -23,5 +23,5 @@ def count_colours(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     ([[1, 2, 3], [9, 0, 0]], [1, 2])
     """
     red, green, blue = np.moveaxis(pixels.reshape(-1, 3).astype(np.uint32), 1, 0)
-    colours, counts = np.unique(red << 16 | green << 8 | blue, return_counts=True)  # rows take thirty times as long
+    colours, counts = np.unique(red << 16 | green << 8 | blue, return_counts=True)  # thirty times faster than unique rows
     return np.stack([colours >> 16, colours >> 8 & 255, colours & 255], axis=1).astype(np.uint8), counts

@@ -1,4 +1,4 @@
-"""Check for OpenGL: without a usable one VTK ends the process, and this module reports that first."""
+"""Check for a usable OpenGL, without which VTK would terminate the process."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexmend.errors import HexmendError
 
 
 class GraphicsError(HexmendError):
-    """Nothing can be drawn on this machine."""
+    """Drawing is impossible on this machine."""
 
 
 @cache
@@ -21,11 +21,11 @@ def prepare_off_screen() -> None:
     Raises
     ------
     GraphicsError
-        If a library is missing; names the Debian package that contains it.
+        If a library is missing; the message names the Debian package that contains it.
     """
     if not sys.platform.startswith("linux"):
         return
-    # EGL needs no server; VTK would try X first and complain.
+    # EGL requires no X server; by default VTK would try X first and print errors.
     os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     try:
         egl = ctypes.CDLL("libEGL.so.1")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import vtkmodules.vtkRenderingFreeType
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  both bring what VTK draws with
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  both register VTK's implementations
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkRenderWindow, vtkWindowToImageFilter
 from vtkmodules.vtkRenderingUI import vtkGenericRenderWindowInteractor
@@ -13,17 +13,17 @@ from hexmend.signal_guard import uninterrupted
 
 
 class Stage:
-    """Off-screen window; close it, for example by `with`.
+    """Off-screen render window, to be closed or used as a context manager.
 
     Attributes
     ----------
     window : vtkRenderWindow
-        For `hexmend_app.scene.views.pane.Pane`, one or several.
+        Window for `hexmend_app.scene.views.pane.Pane`.
 
     Parameters
     ----------
     size : (width, height)
-        In pixels.
+        Size in pixels.
     """
 
     def __init__(self, size: tuple[int, int]):
@@ -31,7 +31,7 @@ class Stage:
         self.window.SetOffScreenRendering(True)
         self.window.SetMultiSamples(0)
         self.window.SetSize(*size)
-        vtkGenericRenderWindowInteractor().SetRenderWindow(self.window)  # VTK's widgets are in none without
+        vtkGenericRenderWindowInteractor().SetRenderWindow(self.window)  # VTK widgets require an interactor
 
     def __enter__(self) -> Stage:
         return self
@@ -39,17 +39,17 @@ class Stage:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    @uninterrupted  # VTK ends the process where its callbacks raise KeyboardInterrupt
+    @uninterrupted  # VTK terminates the process if a callback raises KeyboardInterrupt
     def picture(self, transparent: bool = False) -> np.ndarray:
-        """Draw and return the pixels, (height, width, 3) uint8, or (height, width, 4) without background."""
+        """Render and return the pixels, (height, width, 3) uint8, or (height, width, 4) if `transparent`."""
         self.window.Render()
-        seen = vtkWindowToImageFilter()
-        seen.SetInput(self.window)
-        seen.ShouldRerenderOff()
-        seen.ReadFrontBufferOn()  # edges are smooth in it already, as they are on the screen
-        (seen.SetInputBufferTypeToRGBA if transparent else seen.SetInputBufferTypeToRGB)()
-        seen.Update()
-        image = seen.GetOutput()
+        grabber = vtkWindowToImageFilter()
+        grabber.SetInput(self.window)
+        grabber.ShouldRerenderOff()
+        grabber.ReadFrontBufferOn()  # antialiased, as on the screen
+        (grabber.SetInputBufferTypeToRGBA if transparent else grabber.SetInputBufferTypeToRGB)()
+        grabber.Update()
+        image = grabber.GetOutput()
         width, height, _ = image.GetDimensions()
         rows = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)
         return np.ascontiguousarray(rows[::-1])

@@ -1,4 +1,4 @@
-"""Tiles of a picture that is too large to be drawn at once."""
+"""Tiles of a picture that is too large to be rendered at once."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from math import atan, ceil, degrees, isqrt, radians, tan
 
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-#: Pixels of a picture that are drawn at once, and of one of its sides.
-AT_ONCE, _MOST_SIDE = 2**24, 16384
+#: Maximum number of pixels, and maximum side in pixels, of a picture that is rendered at once.
+AT_ONCE, _MAX_SIDE = 2**24, 16384
 
-#: Widths of a thin line that tiles overlap by: what is drawn about a place in the next tile, such as figures at a
-#: corner, does not end at the seam.
+#: Overlap of tiles in widths of a thin line, so that marks and texts near a seam, for example values at a corner, are
+#: complete.
 _OVERLAP = 24
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A part of a picture, in its pixels from the upper left corner."""
+    """Part of a picture, in pixels from its upper left corner."""
 
     left: int
     top: int
@@ -33,13 +33,13 @@ class Tiles:
     Parameters
     ----------
     size : (width, height)
-        Of the picture, in pixels.
+        Size of the picture, in pixels.
     fine : int
-        Pixels along each side that are drawn for one.
+        Supersampling: rendered pixels along each side of a pixel.
     inner : (width, height)
-        Of what each tile gives to the picture.
+        Size of a tile without its margin, in pixels.
     around : int
-        Pixels that are drawn on all sides of that, and cut away.
+        Margin of a tile in pixels, which is cropped.
     """
 
     size: tuple[int, int]
@@ -54,22 +54,22 @@ class Tiles:
         Parameters
         ----------
         size, fine
-            As above.
+            As for `Tiles`.
         pixel_ratio : float
-            Width of a thin line, in drawn pixels.
+            Width of a thin line, in rendered pixels.
         at_once : int
-            Largest number of pixels that can be drawn at once.
+            Maximum number of pixels that are rendered at once.
         """
-        if fine * max(size) <= _MOST_SIDE and fine * fine * size[0] * size[1] <= at_once:
+        if fine * max(size) <= _MAX_SIDE and fine * fine * size[0] * size[1] <= at_once:
             return cls(size, fine, size, 0)
-        space = max(4, min(_MOST_SIDE, isqrt(at_once)) // fine)
-        around = min(ceil(_OVERLAP * pixel_ratio / fine), space // 4)
-        inner = tuple(ceil(side / ceil(side / (space - 2 * around))) for side in size)
+        side = max(4, min(_MAX_SIDE, isqrt(at_once)) // fine)
+        around = min(ceil(_OVERLAP * pixel_ratio / fine), side // 4)
+        inner = tuple(ceil(length / ceil(length / (side - 2 * around))) for length in size)
         return cls(size, fine, inner, around)
 
     @property
     def drawn(self) -> tuple[int, int]:
-        """Width and height of one drawn tile, in its pixels."""
+        """Width and height of a rendered tile with its margin, in rendered pixels."""
         width, height = self.inner
         return self.fine * (width + 2 * self.around), self.fine * (height + 2 * self.around)
 
@@ -79,7 +79,7 @@ class Tiles:
                 yield Tile(left, top, min(self.inner[0], self.size[0] - left), min(self.inner[1], self.size[1] - top))
 
     def aim(self, camera: vtkCamera, whole: vtkCamera, tile: Tile) -> None:
-        """Set a camera to a tile and its margin in the picture of another camera."""
+        """Set a camera to a tile, with its margin, of the picture of the camera `whole`."""
         camera.DeepCopy(whole)
         if self.inner == self.size:
             return

@@ -1,1 +1,1 @@
-"""Views of a render window."""
+"""Views in a render window."""

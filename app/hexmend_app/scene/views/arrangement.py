@@ -24,17 +24,19 @@ def columns(views: int) -> int:
 
 
 def grid(views: int) -> list[Rectangle]:
-    """Return the rectangles of a grid of views, x low, y low, x high, y high as shares of the window, by rows.
+    """Return the rectangles of a grid of views, row by row: x low, y low, x high, y high as fractions of the window.
 
     >>> grid(2)
     [(0.0, 0.0, 0.5, 1.0), (0.5, 0.0, 1.0, 1.0)]
     >>> grid(4)[1]
     (0.5, 0.5, 1.0, 1.0)
     """
-    wide = columns(views)
-    high = views // wide
-    places = (divmod(k, wide) for k in range(views))
-    return [(at / wide, 1 - (row + 1) / high, (at + 1) / wide, 1 - row / high) for row, at in places]
+    n_columns = columns(views)
+    n_rows = views // n_columns
+    return [
+        (column / n_columns, 1 - (row + 1) / n_rows, (column + 1) / n_columns, 1 - row / n_rows)
+        for row, column in (divmod(k, n_columns) for k in range(views))
+    ]
 
 
 class Arrangement:
@@ -48,19 +50,19 @@ class Arrangement:
 
     Attributes
     ----------
-    head : int
-        Pixels of the window that are left free above each of several views side by side, for what is said of it.
+    caption_height : int
+        Height in pixels that is reserved for the caption above each of several views side by side.
     """
 
     def __init__(self, window: vtkRenderWindow, pixel_ratio: float = 1.0):
         self._window, self._pixel_ratio = window, pixel_ratio
         self._size = (0, 0)
-        self._wiped = False
-        self._seen: Sequence[Viewport] = ()
-        self._centres: dict[Viewport, float] = {}  # of the wipe's halves
-        self._borders: list[tuple[vtkRenderer, vtkActor2D]] = []
+        self._is_wipe = False
+        self._visible: Sequence[Viewport] = ()
+        self._centres: dict[Viewport, float] = {}  # window centres of the two views of a wipe
+        self._separators: list[tuple[vtkRenderer, vtkActor2D]] = []
         self._dark = False
-        self.head = 0
+        self.caption_height = 0
 
     @property
     def outdated(self) -> bool:
@@ -71,96 +73,96 @@ class Arrangement:
     def aspect(self) -> float:
         """Aspect ratio of a view, or of the two views of a wipe."""
         width, height = self._window.GetSize()
-        left, low, right, high = (0, 0, 1, 1) if self._wiped else self._side_by_side(max(len(self._seen), 1))[0]
-        return (right - left) * width / max((high - low) * height, 1) if width else 1.0  # before it is laid out
+        left, low, right, high = (0, 0, 1, 1) if self._is_wipe else self._side_by_side(max(len(self._visible), 1))[0]
+        return (right - left) * width / max((high - low) * height, 1) if width else 1.0  # before the window is laid out
 
     def _side_by_side(self, views: int) -> list[Rectangle]:
         """Return the rectangles of views side by side, below their captions."""
-        head = self.head / max(self._window.GetSize()[1], 1) if views > 1 else 0.0
-        return [(left, low, right, max(high - head, low)) for left, low, right, high in grid(views)]
+        caption = self.caption_height / max(self._window.GetSize()[1], 1) if views > 1 else 0.0
+        return [(left, low, right, max(high - caption, low)) for left, low, right, high in grid(views)]
 
-    def arrange(self, views: Sequence[Viewport], seen: Sequence[Viewport], wipe: Wipe | None) -> None:
-        """Place all views in the present window, and the edge of a wipe at a whole pixel.
+    def arrange(self, views: Sequence[Viewport], visible: Sequence[Viewport], wipe: Wipe | None) -> None:
+        """Place all views in the window at its current size; the edge of a wipe is at a whole pixel.
 
         Parameters
         ----------
         views : sequence of Viewport
-            All, the first before those beside it.
-        seen : sequence of Viewport
+            All views, starting with the first view.
+        visible : sequence of Viewport
             The visible views.
         wipe : Wipe, optional
-            Between the two that are seen.
+            Wipe between the two visible views.
         """
-        self._size, self._seen, self._wiped = self._window.GetSize(), seen, wipe is not None
+        self._size, self._visible, self._is_wipe = self._window.GetSize(), visible, wipe is not None
         width = max(self._size[0], 2)
         if wipe is None:
-            places, self._centres = self._side_by_side(len(seen)), {}
+            rectangles, self._centres = self._side_by_side(len(visible)), {}
         else:
             edge = min(max(round(wipe.at * width), 1), width - 1) / width
-            places = [(0.0, 0.0, edge, 1.0), (edge, 0.0, 1.0, 1.0)]
-            # Each half is what is left of the whole's picture: its frustum lies aside of the camera's axis.
-            self._centres = dict(zip(seen, (1 - 1 / edge, edge / (1 - edge)), strict=True))
+            rectangles = [(0.0, 0.0, edge, 1.0), (edge, 0.0, 1.0, 1.0)]
+            # Each view shows its part of the same picture: its frustum is not centred on the camera axis.
+            self._centres = dict(zip(visible, (1 - 1 / edge, edge / (1 - edge)), strict=True))
         for view in views:
             for layer in view.layers:
-                shown = view in seen
+                shown = view in visible
                 if shown:
-                    layer.SetViewport(*places[seen.index(view)])
+                    layer.SetViewport(*rectangles[visible.index(view)])
                 if shown != bool(self._window.HasRenderer(layer)):
                     (self._window.AddRenderer if shown else self._window.RemoveRenderer)(layer)
-        if views[0] in seen:
+        if views[0] in visible:
             views[0].axes.fit()
-        self._part()
+        self._draw_separators()
 
     def set_dark(self, dark: bool) -> None:
-        """Draw separators for the dark theme, or for the light one."""
+        """Use the separator colour of the dark or of the light theme."""
         self._dark = dark
-        self._part()
+        self._draw_separators()
 
-    def _part(self) -> None:
-        """Draw lines between views side by side."""
-        for renderer, line in self._borders:
+    def _draw_separators(self) -> None:
+        """Draw separators between views side by side."""
+        for renderer, line in self._separators:
             renderer.RemoveViewProp(line)
-        self._borders.clear()
-        for view in () if self._wiped else self._seen:
+        self._separators.clear()
+        for view in () if self._is_wipe else self._visible:
             renderer = view.layers[0]
-            sides = _inner(renderer.GetViewport())
+            sides = _inner_sides(renderer.GetViewport())
             if sides:
                 line = _line(sides, LINE.of(self._dark), self._pixel_ratio)
                 renderer.AddViewProp(line)
-                self._borders.append((renderer, line))
+                self._separators.append((renderer, line))
 
     def at(self, x: float, y: float) -> Viewport:
         """Return the view at a position in pixels of the window, from its lower left corner."""
         width, height = self._window.GetSize()
-        for view in self._seen:
+        for view in self._visible:
             left, low, right, high = view.layers[0].GetViewport()
             if left * width <= x < right * width and low * height <= y < high * height:
                 return view
-        return self._seen[0]
+        return self._visible[0]
 
     def centre_of(self, view: Viewport) -> float:
-        """Return the offset of a view's part of the picture from the camera axis."""
+        """Return the horizontal window centre of the camera for a view, as defined by `vtkCamera.SetWindowCenter`."""
         return self._centres.get(view, 0.0)
 
 
-#: The ends of a view's left side and of its lower one, as shares of it.
+#: End points of the left and the lower side of a view, in normalised viewport coordinates.
 _LEFT, _LOWER = ((0.0, 1.0, 0.0), (0.0, 0.0, 0.0)), ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
 
 
-def _inner(place: Rectangle) -> list[tuple]:
-    """Return the sides at which a view borders on a neighbour."""
-    return [side for side, share in ((_LEFT, place[0]), (_LOWER, place[1])) if share > 0]
+def _inner_sides(rectangle: Rectangle) -> list[tuple]:
+    """Return the left and lower sides of a view that border on another view."""
+    return [side for side, low in ((_LEFT, rectangle[0]), (_LOWER, rectangle[1])) if low > 0]
 
 
 def _line(sides: list[tuple], colour: str, width: float) -> vtkActor2D:
-    """Build a line along sides of a view, with a width in pixels."""
-    shares = vtkCoordinate()
-    shares.SetCoordinateSystemToNormalizedViewport()
+    """Build lines along sides of a view, `width` in pixels."""
+    coordinates = vtkCoordinate()
+    coordinates.SetCoordinateSystemToNormalizedViewport()
     mapper = vtkPolyDataMapper2D()
     mapper.SetInputData(pv.line_segments_from_points(np.reshape(sides, (-1, 3))))
-    mapper.SetTransformCoordinate(shares)
+    mapper.SetTransformCoordinate(coordinates)
     actor = vtkActor2D()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(rgb(colour))
-    actor.GetProperty().SetLineWidth(2 * width)  # half of it lies beyond the view
+    actor.GetProperty().SetLineWidth(2 * width)  # the viewport clips half of it
     return actor

@@ -1,4 +1,4 @@
-"""Frames: everything that a view draws of a mesh, as one value."""
+"""Frames: all data that a view draws of a mesh."""
 
 from __future__ import annotations
 
@@ -14,24 +14,23 @@ from hexmend_app.picture.appearance import Look
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A mesh with the data and the look that it is drawn with.
+    """A mesh with its data and the look that it is drawn with.
 
-    What draws frames compares each with the last one: the mesh's arrays, the figures and the movement by identity, the
-    look by what it says.
+    Views compare each frame with the last one: arrays of the mesh, figures and movement by identity, looks by value.
 
     Parameters
     ----------
     mesh : Mesh
     figures : ElementQuality
-        Of the mesh.
+        Quality of the mesh.
     movement : Displacement, optional
         Movement for colours and arrows; None if the look shows none.
     look : Look
     original : (n, 3) float64, optional
-        Positions of the nodes when the mesh was opened, for the layer that shows that boundary.
+        Positions of the nodes when the mesh was opened, for the layer of the original surface.
     kinds : (n,) uint8, optional
-        Class of each node on the boundary, see `hexmend_app.state.tasks.boundary_classifier.node_kinds`, if the look
-        shows it; found if absent.
+        Class of each boundary node, see `hexmend_app.state.tasks.boundary_classifier.node_classes`; None computes the
+        classes if the look shows them.
     """
 
     mesh: Mesh
@@ -42,25 +41,23 @@ class Frame:
     kinds: np.ndarray | None = None
 
     def is_of(self, other: Frame | None) -> bool:
-        """Return True if both frames show the same hexes, with nodes at any positions."""
+        """Return True if both frames share their array of hexes; positions of nodes may differ."""
         return other is not None and self.mesh.hexes is other.mesh.hexes
 
-    def neighbour(self, first: Frame) -> Frame:
-        """Return the frame of this mesh under the look of another frame, for a view beside it.
-
-        It compares with the same moment.
-        """
+    def matching(self, first: Frame) -> Frame:
+        """Return a frame of this mesh with the look and the reference state of movement of the first view's frame."""
         movement = first.movement
         if not same_hexes(first.mesh, self.mesh):
             return Frame(self.mesh, self.figures, None, first.look)
         if movement is not None:
-            known = self.movement
-            then = movement.before
-            alike = known is not None and known.before.points is then.points and known.before.name == then.name
-            movement = known if alike else movement.updated(self.mesh.points, self.figures)
+            known, reference = self.movement, movement.before
+            unchanged = known is not None and (
+                known.before.points is reference.points and known.before.name == reference.name
+            )
+            movement = known if unchanged else movement.updated(self.mesh.points, self.figures)
         return Frame(self.mesh, self.figures, movement, first.look, first.original, first.kinds)
 
 
-def same_hexes(one: Mesh, other: Mesh) -> bool:
-    """Return True if two meshes have equal hexes, so that numbers of hexes mean the same in both."""
-    return one.hexes is other.hexes or np.array_equal(one.hexes, other.hexes)
+def same_hexes(mesh: Mesh, other: Mesh) -> bool:
+    """Return True if two meshes have equal hexes, so that hex numbers are valid in both."""
+    return mesh.hexes is other.hexes or np.array_equal(mesh.hexes, other.hexes)

@@ -1,4 +1,4 @@
-"""Part of a render window with a renderer of its content."""
+"""Part of a render window with its renderer."""
 
 from __future__ import annotations
 
@@ -6,24 +6,25 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkLight, vtkRenderer, vtkRen
 
 from hexmend_app.theme.palette import rgb
 
-_LIGHT = (-0.12, 0.25, 1.0)  # from over the viewer's left shoulder
+#: Position of the light in camera coordinates, above the viewer's left shoulder.
+_LIGHT = (-0.12, 0.25, 1.0)
 
 
 class Pane:
-    """Renderer with one light: a light kit of five doubles the time of a frame.
+    """Renderer with a single light; a light kit of five lights would double the frame time.
 
     Attributes
     ----------
     window : vtkRenderWindow
     renderer : vtkRenderer
-        All over the window until it is given another place.
+        Covers the whole window unless its viewport is set.
 
     Parameters
     ----------
     window : vtkRenderWindow
-        With an interactor.
+        Window with an interactor.
     camera : vtkCamera, optional
-        Camera of another pane, to be shared.
+        Camera of another pane to share; None creates a camera.
     """
 
     def __init__(self, window: vtkRenderWindow, camera: vtkCamera | None = None):
@@ -39,11 +40,11 @@ class Pane:
 
     @property
     def camera(self) -> vtkCamera:
-        """The camera."""
+        """Camera of the renderer."""
         return self.renderer.GetActiveCamera()
 
     def overlay(self) -> vtkRenderer:
-        """Return a renderer over the existing ones, with the same camera; nothing hides its content."""
+        """Add a renderer in front of the others, with the same camera, and return it."""
         layer = vtkRenderer()
         layer.SetLayer(1)
         layer.InteractiveOff()
@@ -53,5 +54,5 @@ class Pane:
         return layer
 
     def set_background(self, colour: str) -> None:
-        """Set the background colour."""
+        """Set the background colour, #rrggbb."""
         self.renderer.SetBackground(rgb(colour))

@@ -1,4 +1,4 @@
-"""Several views in one window, side by side or as a wipe."""
+"""Several views in a window, side by side or as a wipe."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ class Panes:
     pane : Pane
         Pane of the first view.
     wipe : Wipe or None
-        None for views side by side.
+        None if the views are side by side.
     eye : CameraController
 
     Parameters
     ----------
     window : vtkRenderWindow
-        With an interactor.
+        Window with an interactor.
     filters : Filters, optional
-        Filters of another window's view, which apply if the mesh has the same hexes.
+        Filters of a view in another window, which are reused if the mesh has the same hexes.
     pixel_ratio : float
         Width of a thin line, in pixels.
     on_failure : callable, optional
-        Called with the exception of a layer that fails, which is then left out; without it, the exception is raised.
+        Called with the exception of a layer that fails, which is then hidden; by default the exception is raised.
     """
 
     def __init__(
@@ -60,35 +60,35 @@ class Panes:
         self._arrangement = Arrangement(self._window, pixel_ratio)
         self.eye = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
         self.arrange()
-        self._watch(self.first)
-        # The hand may grasp what stands in the first view.
+        self._observe(self.first)
+        # Widgets that are dragged are in the first view.
         self._window.AddObserver("EndEvent", lambda *_: self._aim(self.first))
 
-    # What is shown
+    # Content
 
     @property
     def all(self) -> list[Viewport]:
-        """All views, the first one first."""
+        """All views, starting with the first view."""
         return [self.first, *(view for _, view in self._others)]
 
     @property
     def seen(self) -> list[Viewport]:
-        """The visible views; of a wipe, both."""
+        """The visible views; both views of a wipe."""
         return self.all if self.wipe is None else [self.all[self.wipe.left], self.all[self.wipe.right]]
 
     def draw(self, frame: Frame) -> None:
         """Draw a frame in the first view, and update the others to its look and movement.
 
-        Another mesh is drawn alone, and seen whole from a corner.
+        Another mesh closes the other views and resets the camera.
         """
-        another = not frame.is_of(self.first.frame)
-        if another:
+        new_mesh = not frame.is_of(self.first.frame)
+        if new_mesh:
             self.show([])
         self.first.draw(frame)
         for _, view in self._others:
-            view.draw(view.frame.neighbour(frame))
+            view.draw(view.frame.matching(frame))
         self.share_colour_range()
-        if another:
+        if new_mesh:
             self.eye.look_along("iso")
 
     def clear(self) -> None:
@@ -97,22 +97,21 @@ class Panes:
         self.first.clear()
 
     def show(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
-        """Show frames beside the first view; for equal hexes, a cut leaves the same ones.
+        """Show other meshes besides that of the first view; filters are shared with meshes that have equal hexes.
 
         Parameters
         ----------
         others : sequence of (Mesh, ElementQuality)
-            One that is shown already stays as it is.
+            Views of meshes that are shown already are reused.
         wipe : Wipe, optional
-            None shows all side by side.
+            None shows all views side by side.
         """
         aspect, fitted = self._arrangement.aspect, self.eye.fitted
-        before = self._others
-        known = {id(mesh): view for mesh, view in before}
+        previous = self._others
+        known = {id(mesh): view for mesh, view in previous}
         self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
-        stay = {id(view) for _, view in self._others}
-        for _, view in before:
-            if id(view) not in stay:
+        for _, view in previous:
+            if view not in self.all:
                 view.close()
         self.wipe = wipe
         self.arrange()
@@ -124,41 +123,41 @@ class Panes:
         pane = Pane(self._window, self.first.camera)
         view = Viewport(pane, False, self.first.filters, self._pixel_ratio, self._on_failure)
         view.set_dark(self._dark)
-        view.draw(Frame(mesh, figures).neighbour(self.first.frame))
-        self._watch(view)
+        view.draw(Frame(mesh, figures).matching(self.first.frame))
+        self._observe(view)
         return view
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one."""
+        """Use the colours of the dark or of the light theme."""
         self._dark = dark
         for view in self.all:
             view.set_dark(dark)
         self._arrangement.set_dark(dark)
 
     def share_colour_range(self) -> None:
-        """Extend a fitted colour range to all views."""
-        adjacent = None
+        """Extend a fitted colour range to the values of all views."""
         if self.first.frame is None:
             return
+        ends = None
         if self._others and declared_ends(self.first.frame.look.scale) is None:
             lows, highs = zip(*(view.colours.ends for view in self.all), strict=True)
-            adjacent = min(lows), max(highs)
+            ends = min(lows), max(highs)
         for view in self.all:
-            view.span(adjacent)
+            view.extend_range(ends)
 
-    # Where it is shown
+    # Arrangement
 
     def move_wipe(self, wipe: Wipe) -> None:
         """Move the edge of the wipe."""
         self.wipe = wipe
         self.arrange()
 
-    def leave_heads(self, pixels: int) -> None:
-        """Reserve a height in pixels above each of several views, for its caption."""
-        self._arrangement.head = pixels
+    def reserve_captions(self, pixels: int) -> None:
+        """Reserve space for a caption above each of several views, in pixels."""
+        self._arrangement.caption_height = pixels
 
     def arrange(self) -> None:
-        """Place all views in the present window."""
+        """Place all views in the window at its current size."""
         self._arrangement.arrange(self.all, self.seen, self.wipe)
 
     def at(self, x: float, y: float) -> Viewport:
@@ -166,15 +165,15 @@ class Panes:
         return self._arrangement.at(x, y)
 
     def pick(self, x: float, y: float) -> Hit | None:
-        """Pick at a position in pixels of the window; None outside the meshes."""
+        """Pick at a position in pixels of the window, from its lower left corner; None outside the meshes."""
         view = self.at(x, y)
         self._aim(view)
         hit = view.pick(x, y)
         self._aim(self.first)
         return hit
 
-    def _watch(self, view: Viewport) -> None:
-        """Observe the start of drawing of each layer of a view."""
+    def _observe(self, view: Viewport) -> None:
+        """Prepare the camera before each layer of a view is drawn."""
         for layer in view.layers:
             layer.AddObserver("StartEvent", lambda *_, view=view: self._begin(view))
 
@@ -189,7 +188,7 @@ class Panes:
         self._aim(view)
 
     def _aim(self, view: Viewport) -> None:
-        """Aim the camera at a view's part of the picture."""
+        """Set the window centre of the camera for a view."""
         self.first.camera.SetWindowCenter(self._arrangement.centre_of(view), 0.0)
 
     # Fast frames and fine ones

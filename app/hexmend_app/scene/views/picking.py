@@ -22,7 +22,7 @@ class Hit:
     ----------
     hex : int
     node : int
-        Of the hex, the one that is nearest to the place.
+        Node of the hex that is nearest to the picked point.
     place : (3,) float64
         Picked point.
     """
@@ -39,7 +39,7 @@ class Picker:
     ----------
     pane : Pane
     surfaces : sequence of Surface
-        On which hexes are found.
+        Surfaces whose polygons can be picked.
     """
 
     def __init__(self, pane: Pane, surfaces: Sequence[Surface]):
@@ -61,5 +61,5 @@ class Picker:
             return None
         h, place = hex_of(pv.wrap(self._picker.GetDataSet()), cell), np.array(self._picker.GetPickPosition())
         nodes = mesh.hexes[h]
-        away = np.square(mesh.points[nodes] - place).sum(axis=1)
-        return Hit(h, int(nodes[away.argmin()]), place)
+        squared_distances = np.square(mesh.points[nodes] - place).sum(axis=1)
+        return Hit(h, int(nodes[squared_distances.argmin()]), place)

@@ -1,4 +1,4 @@
-"""Copies of props for another render window, whose graphics memory they must not share."""
+"""Copies of VTK props for another render window; windows must not share props, which hold graphics resources."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkVolume,
 )
 
-#: Names of the textures that physically based rendering uses.
+#: Names of the textures of physically based rendering.
 _TEXTURES = ("albedoTex", "materialTex", "normalTex", "emissiveTex", "coatNormalTex", "anisotropyTex")
 
 
@@ -28,8 +28,8 @@ def copy_prop(prop: vtkProp, ratio: float = 1.0) -> vtkProp:
     """
     copy = prop.NewInstance()
     copy.ShallowCopy(prop)
-    simple = isinstance(prop, (vtkActor, vtkVolume)) or prop.GetClassName() == "vtkActor2D"
-    if simple and prop.GetMapper() is not None:  # text and legends make their own
+    has_mapper = isinstance(prop, (vtkActor, vtkVolume)) or prop.GetClassName() == "vtkActor2D"
+    if has_mapper and prop.GetMapper() is not None:  # texts and legends create their mappers themselves
         copy.SetMapper(_copy_mapper(prop.GetMapper()))
     if isinstance(prop, vtkActor):
         copy.SetProperty(_copy_property(prop.GetProperty(), ratio))
@@ -50,8 +50,8 @@ def _copy_mapper(mapper: vtkAbstractMapper) -> vtkAbstractMapper:
     copy = mapper.NewInstance()
     copy.ShallowCopy(mapper)
     for port in range(mapper.GetNumberOfInputPorts()):
-        for number in range(mapper.GetNumberOfInputConnections(port)):
-            copy.SetInputConnection(port, mapper.GetInputConnection(port, number))
+        for index in range(mapper.GetNumberOfInputConnections(port)):
+            copy.SetInputConnection(port, mapper.GetInputConnection(port, index))
     return copy
 
 

@@ -1,4 +1,4 @@
-"""The 3D view of one mesh, in a pane of a window, on or off screen."""
+"""3D view of a mesh in a pane of a window, on or off screen."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera, vtkRenderer
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.camera.fitting import bounds_of
 from hexmend_app.scene.colour.colouring import Colouring
-from hexmend_app.scene.colour.hex_colours import ElementColours
+from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.filters import Filters, same_mask
 from hexmend_app.scene.layers.axes import AxesLayer
@@ -23,17 +23,17 @@ from hexmend_app.theme.palette import BACKGROUND
 
 
 class Viewport:
-    """Draws frames of a mesh: its skin, coloured by quality, cut and filtered as the look says.
+    """Draws frames of a mesh: its skin, coloured, cut and filtered as specified by the look.
 
-    Nothing is rendered here: the caller does, once for several changes.
+    Methods do not render; the caller renders once after several changes.
 
     Attributes
     ----------
     frame : Frame or None
-        The drawn frame.
+        The drawn frame; None before a mesh is drawn.
     filters : Filters
-        Selection of the shown hexes.
-    colours : ElementColours
+        Filters that select the shown hexes.
+    colours : HexColours
     body : MeshLayer
     extras : ExtraLayers
         Layers besides the hexes.
@@ -44,11 +44,11 @@ class Viewport:
     axes : bool
         Draw the axes in a corner.
     filters : Filters, optional
-        Filters of another view, which apply here too if the mesh has the same hexes.
+        Filters of new_mesh view, which are reused if the mesh has the same hexes.
     pixel_ratio : float
         Width of a thin line, in pixels.
     on_failure : callable, optional
-        Called with the exception of a layer that fails, which is then left out; without it, the exception is raised.
+        Called with the exception of a layer that fails, which is then hidden; by default the exception is raised.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Viewport:
         self.filters = filters
         self._fast = False
         pane.window.SetMultiSamples(0)
-        self.colours = ElementColours()
+        self.colours = HexColours()
         self.body = MeshLayer(pane, pixel_ratio)
         self.extras = ExtraLayers(pane, pixel_ratio, on_failure)
         self._picker = Picker(pane, (self.body.skin, self.body.section))
@@ -72,28 +72,28 @@ class Viewport:
         self.set_dark(False)
 
     def set_dark(self, dark: bool) -> None:
-        """Draw for the dark theme, or for the light one, which pictures in reports have."""
+        """Use the colours of the dark or of the light theme."""
         self._pane.set_background(BACKGROUND.of(dark))
         if self.axes is not None:
             self.axes.set_dark(dark)
         self.extras.set_dark(dark)
 
-    def set_ground(self, colour: str) -> None:
-        """Set a background colour, #rrggbb, other than that of the theme."""
+    def set_background(self, colour: str) -> None:
+        """Set the background colour, #rrggbb, instead of that of the theme."""
         self._pane.set_background(colour)
 
-    # What is drawn
+    # Content
 
     def draw(self, frame: Frame) -> None:
-        """Draw a frame; work that it shares with the last one is not repeated.
+        """Draw a frame, and update only what differs from the last frame.
 
-        If the hexes of another mesh cannot be drawn, nothing is drawn; the previous mesh does not remain.
+        If drawing the hexes of new_mesh mesh fails, nothing is drawn, not even the previous mesh.
         """
-        another = not frame.is_of(self.frame)
+        new_mesh = not frame.is_of(self.frame)
         try:
-            self._draw(frame, another)
+            self._draw(frame, new_mesh)
         except Exception:
-            if another:
+            if new_mesh:
                 self.clear()
             raise
 
@@ -103,27 +103,27 @@ class Viewport:
         self.body.hide()
         self.extras.hide()
 
-    def _draw(self, frame: Frame, another: bool) -> None:
+    def _draw(self, frame: Frame, new_mesh: bool) -> None:
         last, self.frame = self.frame, frame
-        moved = another or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
-        pinned = not another and frame.mesh.pinned is not last.mesh.pinned
-        classed = another or frame.kinds is not last.kinds
-        looked = another or frame.look != last.look
-        measured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
-        if another:
-            self._take_mesh()
-        self.extras.follow(frame, moved and not another, pinned, classed)
-        if measured:
+        moved = new_mesh or frame.mesh.points is not last.mesh.points or frame.figures is not last.figures
+        pinned = not new_mesh and frame.mesh.pinned is not last.mesh.pinned
+        classed = new_mesh or frame.kinds is not last.kinds
+        restyled = new_mesh or frame.look != last.look
+        recoloured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
+        if new_mesh:
+            self._set_mesh()
+        self.extras.update(frame, moved and not new_mesh, pinned, classed)
+        if recoloured:
             self.colours.measure(frame)
         keep = self.kept()
         self.extras.draw_optional(frame, keep)
-        if looked or not same_mask(keep, self._keep):
+        if restyled or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
-        elif measured or pinned or classed:
+        elif recoloured or pinned or classed:
             self._move()
 
-    def _take_mesh(self) -> None:
+    def _set_mesh(self) -> None:
         self.extras.set_mesh(self.frame)
         mesh = self.frame.mesh
         if self.filters is None or not self.filters.suit(mesh):
@@ -131,7 +131,7 @@ class Viewport:
         self.body.set_mesh(mesh)
 
     def _rebuild(self) -> None:
-        """Find the visible faces anew."""
+        """Find the visible faces again."""
         self.body.rebuild(self.frame, self._keep, self.colours)
         self.extras.rebuild(self.frame, self._keep, self.body, self.filters.ghosts)
 
@@ -140,24 +140,24 @@ class Viewport:
         self.body.move(self.frame, self._keep, self.colours)
         self.extras.move(self.frame, self._keep, self.body)
 
-    def span(self, neighbour: tuple[float, float] | None) -> None:
-        """Extend a fitted colour range to values of other views."""
-        if self.colours.span(neighbour):
+    def extend_range(self, ends: tuple[float, float] | None) -> None:
+        """Extend a fitted colour range to these ends, the range of all views; None fits it to this view alone."""
+        if self.colours.extend_range(ends):
             self._move()
 
-    # Which elements are shown
+    # Shown hexes
 
     def kept(self) -> np.ndarray | None:
-        """Return the hexes that are shown whole or in part, (m,) bool; None for all."""
+        """Return True for hexes shown whole or in part, (m,) bool; None for all."""
         return None if self.frame is None else self.filters.kept(self.frame)
 
     def left(self) -> np.ndarray | None:
-        """Return the hexes that remain visible after a smooth cut, (m,) bool; None for all."""
+        """Return True for shown hexes that a smooth cut leaves at least in part, (m,) bool; None for all."""
         return None if self.frame is None else self.filters.left(self.frame)
 
     @property
     def shown(self) -> int:
-        """Number of hexes that are shown whole or in part, before a smooth cut; 0 where none is drawn."""
+        """Number of hexes shown whole or in part, before a smooth cut; 0 before a mesh is drawn."""
         if self.frame is None:
             return 0
         keep = self.kept()
@@ -165,34 +165,34 @@ class Viewport:
 
     @property
     def colouring(self) -> Colouring | None:
-        """The colouring of the mesh; None before there is one."""
+        """Colouring of the mesh; None before a mesh is drawn."""
         return self.colours.colouring
 
-    # What is pointed at
+    # Picking
 
     def pick(self, x: float, y: float) -> Hit | None:
         """Pick at a position in pixels of the picture, from its lower left corner; None outside the mesh."""
         if self.frame is None:
             return None
-        self._set_fast(False)  # what is drawn coarsely, or without its sides, is not what is pointed at
+        self._set_fast(False)  # fast frames omit faces
         self.body.show_fine()
         return self._picker.pick(x, y, self.frame.mesh)
 
-    # From where it is seen
+    # Camera
 
     @property
     def camera(self) -> vtkCamera:
-        """The camera."""
+        """Camera of the view."""
         return self._pane.camera
 
     @property
     def bounds(self) -> tuple[float, float, float, float, float, float]:
-        """x low, x high, y low, y high, z low, z high of the mesh, without unused nodes."""
+        """Bounds of the mesh without unused nodes: x low, x high, y low, y high, z low, z high."""
         return bounds_of(self.frame.mesh.points[self.frame.mesh.topology.used])
 
     @property
     def places(self) -> np.ndarray:
-        """Points that a fitted camera includes, (k, 3): of everything shown, or else of the mesh."""
+        """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown."""
         places = np.concatenate([self.body.places, self.extras.places])
         mesh = self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
@@ -201,7 +201,7 @@ class Viewport:
         """Show the mesh from a direction: a name of `VIEWS`, or a vector, with z up if possible."""
         CameraController.of(self).look_along(direction)
 
-    # Fast frames and fine ones
+    # Fast and fine frames
 
     def moving(self) -> None:
         """Prepare for fast frames."""
@@ -209,19 +209,19 @@ class Viewport:
         self._set_fast(True)
 
     def turning(self, views: int = 1) -> None:
-        """Prepare for fast frames in which only the camera moves; a frame consists of `views` views."""
+        """Prepare for fast frames in which only the camera moves; the window shows `views` views."""
         self.moving()
         if self.frame is not None:
             self.body.turn(views)
 
     def still(self) -> None:
-        """Prepare for a fine frame, with smooth edges."""
+        """Prepare for a fine frame, with antialiasing."""
         self._pane.window.SetMultiSamples(4)
         self._set_fast(False)
         self.body.come_to_rest()
 
     def shade(self) -> None:
-        """Compute the shading of a fine frame in this thread, if it is switched on and unknown."""
+        """Compute the shading of a fine frame in this thread, if necessary."""
         scene = self.body.needs_shading
         if scene is not None:
             self.body.apply_shading(scene, occlusion.light(scene))
@@ -240,7 +240,7 @@ class Viewport:
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
-        """The renderers of this view, from the bottom up."""
+        """Renderers of this view, from back to front."""
         return self._pane.renderer, *self.extras.renderers
 
     def close(self) -> None:

@@ -85,7 +85,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
         "kinds": False, "others": False, "original": True,
     }  # fmt: skip
     assert texts(panel, "irregular") == ["none"]
-    assert "four hexes share every edge" in panel.layers["irregular"].box.toolTip()
+    assert "shared by four hexes" in panel.layers["irregular"].box.toolTip()
     heard = []
     panel.structure_changed.connect(heard.append)
     press(panel.layers["irregular"].box)

@@ -69,7 +69,7 @@ def test_a_plane_beside_the_mesh_cuts_nothing():
 def test_behind_the_plane_is_the_rest_of_the_skin():
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
-    rest = cut.behind(skin, PlaneClip.at((1, 0, 0), (1.5, 0, 0), False))
+    rest = cut.remaining_skin(skin, PlaneClip.at((1, 0, 0), (1.5, 0, 0), False))
     assert rest.area == pytest.approx(6 + 2 * 1.5 * 3 + 2 * 1.5 * 2)
     assert rest.bounds[1] == pytest.approx(1.5)
 
@@ -92,7 +92,7 @@ BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
 def test_several_planes_leave_what_geometry_says(clip, skin_area, section_area):
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
-    assert cut.behind(skin, clip).area == pytest.approx(skin_area)
+    assert cut.remaining_skin(skin, clip).area == pytest.approx(skin_area)
     assert cut.sections(MESH.points, MESH.hexes, None, clip, COLOURS).area == pytest.approx(section_area)
 
 

@@ -46,7 +46,7 @@ def white_inside(side, size):
         pane = Pane(stage.window)
         poly = board(side, [(c, r) for c in range(side) for r in range(side)])
         halo = InvertedOutline(pane.renderer)
-        halo.follow(poly)
+        halo.outline(poly)
         pane.camera.SetPosition(0, 0, 1)
         pane.renderer.ResetCamera()
         seen = stage.picture().astype(int)

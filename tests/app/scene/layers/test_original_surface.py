@@ -81,7 +81,7 @@ def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
 
 def test_beside_it_stands_too_where_the_hexes_are_the_same():
     first = frame(MESH.points)
-    beside = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).neighbour(first)
+    beside = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).matching(first)
     assert beside.original is first.original
     other = grid(2)
-    assert Frame(other, measure(other.points, other.hexes)).neighbour(first).original is None
+    assert Frame(other, measure(other.points, other.hexes)).matching(first).original is None

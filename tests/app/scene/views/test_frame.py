@@ -114,12 +114,12 @@ def test_hexes_are_the_same_wherever_the_nodes_are():
 def test_beside_another_frame_the_look_and_the_moment_are_the_same():
     movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
     first = Frame(MESH, FIGURES, movement, Look(edges=False))
-    other = Frame(MESH.with_points(MESH.points * 2), FIGURES).neighbour(first)
+    other = Frame(MESH.with_points(MESH.points * 2), FIGURES).matching(first)
     assert other.look is first.look
     assert other.movement.before is movement.before
     np.testing.assert_array_equal(other.movement.points, 2 * MESH.points)
-    assert other.neighbour(dataclasses.replace(first, look=Look())).movement is other.movement  # measured once
+    assert other.matching(dataclasses.replace(first, look=Look())).movement is other.movement  # measured once
     renamed = dataclasses.replace(movement, before=dataclasses.replace(movement.before, name="later"))
-    assert other.neighbour(dataclasses.replace(first, movement=renamed)).movement.before.name == "later"
+    assert other.matching(dataclasses.replace(first, movement=renamed)).movement.before.name == "later"
     small = grid(2)
-    assert Frame(small, measure(small.points, small.hexes)).neighbour(first).movement is None
+    assert Frame(small, measure(small.points, small.hexes)).matching(first).movement is None

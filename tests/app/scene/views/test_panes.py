@@ -79,7 +79,7 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
 
 @pytest.mark.parametrize("views", [1, 2, 4])
 def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes, views):
-    panes.leave_heads(16)
+    panes.reserve_captions(16)
     panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
     expected = [(left, low, right, high - (0.1 if views > 1 else 0)) for left, low, right, high in grid(views)]
     for view, place in zip(panes.all, expected, strict=True):

@@ -1,1 +1,1 @@
-"""Layers that users switch on and off; every module here is imported, and registers what it defines in `LAYERS`."""
+"""Layers that users switch on and off; all modules are imported, and register their layers in `LAYERS`."""

@@ -1,4 +1,4 @@
-"""The boundary as it was when the mesh was opened: translucent, behind the present mesh."""
+"""The boundary of the mesh as opened, translucent, behind the current mesh."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import ORIGINAL
 
-#: Offsets of faces and edges behind their true depth, in VTK's units: they are hidden where the boundary is unchanged.
+#: Depth offsets of faces and edges, in VTK's units, which hide them where the boundary is unchanged.
 _FACES_BEHIND, _EDGES_BEHIND = 40.0, 400.0
 
 
 @layer(
     "original",
     title="Original surface",
-    help="The boundary as it was when the mesh was opened, see-through, where the boundary has left it.",
+    help="The translucent boundary of the mesh as opened, visible where the boundary has moved.",
     empty="None: the mesh has no boundary.",
     action="&Original surface",
-    action_help="Show the boundary as it was when the mesh was opened, see-through.",
+    action_help="Show the boundary of the mesh as opened, translucent.",
     keys="O",
     order=90,
 )
 class OriginalSurface(TranslucentSurface, OptionalLayer):
-    """Draws the boundary of a mesh as it was opened, wherever its nodes are now."""
+    """Draws the boundary of a mesh as opened."""
 
     colour, edge_opacity = ORIGINAL, 0.55
 
@@ -42,7 +42,7 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
             mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _EDGES_BEHIND)
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
-        """Draw the boundary faces of hexes that are shown; an unchanged surface is not built again."""
+        """Draw the original boundary faces of shown hexes; an unchanged surface is not rebuilt."""
         if frame.original is None:
             self.hide()
             return
@@ -57,5 +57,5 @@ class OriginalSurface(TranslucentSurface, OptionalLayer):
 
     @classmethod
     def legend(cls, mesh: Mesh) -> list[LegendEntry]:
-        """One entry if the mesh has a boundary."""
+        """Return one entry if the mesh has a boundary."""
         return [(ORIGINAL, True, "as opened")] if mesh.topology.boundary.any() else []

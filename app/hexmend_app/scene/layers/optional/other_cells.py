@@ -1,4 +1,4 @@
-"""Tetrahedra, pyramids and wedges of the mesh: their outer faces, grey and translucent."""
+"""Outer faces of tetrahedra, pyramids and wedges of the mesh, grey and translucent."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import OTHER_CELLS
 
-#: Corners of the faces of each kind, also of second order. The orientation of a face does not matter.
+#: Corners of the faces of each cell type, also of second order, in any orientation.
 FACES = {
     "tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
     "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
@@ -25,8 +25,8 @@ FACES = {
 @layer(
     "others",
     title="Other cells",
-    help="Tetrahedra, pyramids and wedges of the mesh: their outside, translucent. Their nodes are fixed.",
-    empty="None: the mesh has hexes alone.",
+    help="Outer faces of tetrahedra, pyramids and wedges, translucent. Their nodes are fixed.",
+    empty="None: the mesh consists of hexes only.",
     action="Other c&ells",
     action_help="Show tetrahedra, pyramids and wedges, grey and translucent.",
     keys="G",
@@ -34,9 +34,9 @@ FACES = {
     hidden_when_empty=True,
 )
 class OtherCells(TranslucentSurface, OptionalLayer):
-    """Draws the faces that no other cell and no hex shares.
+    """Draws the faces of non-hexahedral cells that no other cell shares.
 
-    A clip hides the cells whose centres it cuts away.
+    A cut hides the cells whose centres it removes.
     """
 
     colour, edge_opacity = OTHER_CELLS, 0.4
@@ -48,13 +48,13 @@ class OtherCells(TranslucentSurface, OptionalLayer):
         self._lines = pv.PolyData()
 
     def draw(self, frame: Frame, keep: np.ndarray | None) -> None:
-        """Draw the cells of a frame; an unchanged surface stays, or moves with its nodes."""
+        """Draw the cells of a frame; an unchanged surface is not rebuilt, but moves with its nodes."""
         mesh, clip = frame.mesh, frame.look.clip
         if not any(cells.dimension == 3 for cells in mesh.cells):
             self.hide()
             return
-        last, cut = self._drawn
-        if last is None or last.cells is not mesh.cells or last.hexes is not mesh.hexes or cut != clip:
+        last, last_clip = self._drawn
+        if last is None or last.cells is not mesh.cells or last.hexes is not mesh.hexes or last_clip != clip:
             self._build(mesh, clip)
         elif last.points is not mesh.points and self.poly.n_cells:
             self._move(mesh.points[self._nodes])
@@ -63,7 +63,7 @@ class OtherCells(TranslucentSurface, OptionalLayer):
 
     @classmethod
     def legend(cls, mesh: Mesh) -> list[LegendEntry]:
-        """The number of cells of each kind."""
+        """Return one entry for each cell type, with the number of cells."""
         return [
             (OTHER_CELLS, False, f"{len(cells.nodes):,} {cells.kind}") for cells in mesh.cells if cells.dimension == 3
         ]
@@ -77,7 +77,7 @@ class OtherCells(TranslucentSurface, OptionalLayer):
         if not len(edges):
             return
         self._move(mesh.points[self._nodes])
-        self.poly.faces = np.concatenate([with_lengths(np.searchsorted(self._nodes, one)) for one in faces])
+        self.poly.faces = np.concatenate([with_lengths(np.searchsorted(self._nodes, polygons)) for polygons in faces])
         self._lines.lines = with_lengths(np.searchsorted(self._nodes, edges))
 
     def _move(self, points: np.ndarray) -> None:
@@ -86,13 +86,13 @@ class OtherCells(TranslucentSurface, OptionalLayer):
 
 
 def outer_faces(mesh: Mesh, clip: Clip | None = None) -> tuple[np.ndarray, np.ndarray]:
-    """Return triangles (k, 3) and quadrilaterals (l, 4) of non-hexahedral cells that no other cell and no hex shares.
+    """Return triangles, (k, 3), and quads, (l, 4), of non-hexahedral cells that no other cell shares.
 
     Parameters
     ----------
     mesh : Mesh
     clip : PlaneClip or BoxClip, optional
-        Cells whose centre it cuts away are omitted, and their neighbours' faces are outer faces.
+        Omits the cells whose centre it cuts away, which exposes faces of their neighbours.
     """
     found: dict[int, list[np.ndarray]] = {3: [], 4: []}
     for cells in mesh.cells:
@@ -107,10 +107,10 @@ def outer_faces(mesh: Mesh, clip: Clip | None = None) -> tuple[np.ndarray, np.nd
 
 
 def _single(faces: np.ndarray, hexes: np.ndarray) -> np.ndarray:
-    """Select the faces that occur once and are not among the faces of hexes."""
+    """Return the faces, (k, corners), that occur once and are not among the faces of hexes."""
     rows = np.sort(np.concatenate([faces, hexes]), axis=1)
-    _, which, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
-    return faces[counts[which.ravel()[: len(faces)]] == 1]
+    _, group, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
+    return faces[counts[group.ravel()[: len(faces)]] == 1]
 
 
 def _uncut(points: np.ndarray, cells: Cells, clip: Clip | None) -> np.ndarray:

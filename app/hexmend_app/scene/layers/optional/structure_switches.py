@@ -1,4 +1,4 @@
-"""Switches of the layers that `structure.StructureLayers` draws: edges and nodes of the mesh's structure."""
+"""Switches of the layers drawn by `structure.StructureLayers`: edges and nodes of the mesh structure."""
 
 from hexmend.mesh.structure import SHARP_DEGREES as DEGREES
 from hexmend_app.picture.layer_switch import LAYERS, LayerSwitch
@@ -7,40 +7,40 @@ for _switch in (
     LayerSwitch(
         "irregular",
         "Irregular, inside",
-        "Edges inside the mesh that three, five or more hexes share, also called singular: with 120° or 72° between "
-        "faces at best, no method brings all hexes around them to quality 1. Drawn through the mesh, thick where "
-        "nothing hides them; points are nodes where they end or fork.",
-        "None: inside the mesh, four hexes share every edge.",
+        "Edges inside the mesh that are shared by three, five or more hexes instead of four, also called singular. The "
+        "faces around them form angles of 120° or 72° at best, so not all of their hexes can reach quality 1. Hidden "
+        "parts are drawn thin, visible parts thick; points mark nodes where these edges end or branch.",
+        "None: all edges inside the mesh are shared by four hexes.",
         action="I&rregular edges inside",
-        action_help="Show the singular edges: those inside the mesh that not four hexes share.",
+        action_help="Show edges inside the mesh that are not shared by exactly four hexes.",
         keys="S",
         order=10,
     ),
     LayerSwitch(
         "boundary",
         "Irregular, boundary",
-        "Edges of the boundary that not two hexes share although it is smooth there. One hex alone has an angle of up"
-        " to 180° there, three share it: neither reaches quality 1.",
-        "None: two hexes share every edge at which the boundary is smooth.",
+        "Edges where the boundary is smooth that do not belong to exactly two hexes. A single hex must span an angle of"
+        " up to 180° there, and three hexes must share it, so they cannot reach quality 1.",
+        "None: all edges where the boundary is smooth belong to two hexes.",
         action="Irregular edges on the &boundary",
-        action_help="Show edges of a smooth boundary that not two hexes share.",
+        action_help="Show edges where the boundary is smooth that do not belong to exactly two hexes.",
         keys="B",
         order=20,
     ),
     LayerSwitch(
         "sharp",
         "Sharp edges",
-        f"Edges at which the boundary turns by more than {DEGREES:g}°, or that more than two of its faces share.",
-        "None: the boundary is smooth all round.",
+        f"Edges where the boundary turns by more than {DEGREES:g}°, or where more than two boundary faces meet.",
+        "None: the boundary is smooth everywhere.",
         action="S&harp edges",
-        action_help="Show where the boundary has an edge.",
+        action_help="Show edges where the boundary has a sharp angle.",
         keys="H",
         order=30,
     ),
     LayerSwitch(
         "fixed",
         "Fixed nodes",
-        "Nodes that no method moves, of the hexes in sight: those of the boundary, and others that are pinned.",
+        "Visible nodes that no method moves: boundary nodes and pinned nodes.",
         "None: the mesh has no boundary.",
         action="Fixe&d nodes",
         action_help="Show nodes that no method moves.",
@@ -50,7 +50,7 @@ for _switch in (
     LayerSwitch(
         "free",
         "Free nodes",
-        "Nodes that methods may move, of the hexes in sight. They are inside: cut or peel the mesh to see them.",
+        "Nodes that methods may move. They lie inside the mesh: cut or peel it to see them.",
         "None: all nodes are on the boundary or pinned.",
         action="Free &nodes",
         action_help="Show nodes that methods may move.",
@@ -60,25 +60,25 @@ for _switch in (
     LayerSwitch(
         "locked",
         "Locked nodes",
-        "Nodes of inverted hexes that fixed nodes alone keep inverted: no method that leaves these where they are can"
-        " mend them. How many of them can be freed where the boundary slides is counted too: nothing holds these in "
-        "inversion then.",
-        "None: no hex is kept inverted by fixed nodes alone.",
+        "Nodes of hexes that are inverted because of their fixed nodes alone. No method can repair these hexes without"
+        " moving fixed nodes. The legend also counts the hexes that can be unlocked by a sliding boundary.",
+        "None: no hex is inverted because of fixed nodes alone.",
         action="&Locked nodes",
-        action_help="Show the nodes of hexes that fixed nodes alone keep inverted.",
+        action_help="Show nodes of hexes that are inverted because of fixed nodes alone.",
         keys="L",
         order=60,
     ),
     LayerSwitch(
         "kinds",
         "Kinds of nodes",
-        "What nodes of the boundary may do where it slides (boundary = slide), by the method's feature angle: pinned "
-        "nodes and corners stay, others slide along their curve or on their patch. Where that is not enough, Mend may"
-        " take nodes off the surface within its tolerance, corners found by the angle alone too. A whisker is a sharp"
-        " edge that ends amid a patch: its nodes slide on that. Shift+P pins the chosen node.",
+        "Boundary nodes by how they may move on a sliding boundary (boundary = slide), classified by the feature angle "
+        "of the method. Pinned nodes and corners are fixed; other nodes slide along their curve or on their patch. If "
+        "necessary, Mend moves nodes off the surface within its tolerance, including corners found by the angle alone. "
+        "A whisker is a sharp edge that ends inside a patch; its nodes slide on the patch. Shift+P pins the selected "
+        "node.",
         "None: the mesh has no boundary.",
         action="&Kinds of boundary nodes",
-        action_help="Show what nodes of the boundary may do where it slides.",
+        action_help="Show boundary nodes by how they may move on a sliding boundary.",
         keys="J",
         order=70,
         offered_early=True,
