@@ -1,4 +1,4 @@
-"""Opening meshes from a dialog, by drag and drop, from recent files or the demo; progress and result."""
+"""Commands that open meshes: by dialog, drag and drop, recent files or the demo mesh."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PySide6.QtGui import QDropEvent
 
 from hexmend.errors import FileError
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.open.opening_texts import lost, of_picture, stage_text
+from hexmend_app.features.open.opening_texts import missing_mesh_message, restored_message, stage_text
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.features.open.welcome import Welcome
 from hexmend_app.resources import demo_mesh
@@ -21,7 +21,7 @@ from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
 
 
 class FeatureOpen(Feature):
-    """Opens meshes, shows the progress, and stores the recent files."""
+    """Opens meshes, shows the progress and remembers the recent files."""
 
     order = 10
 
@@ -37,8 +37,8 @@ class FeatureOpen(Feature):
         self.welcome.demo_requested.connect(self.open_demo)
         self.welcome.recent_requested.connect(self.open)
         opener = self._opener
-        opener.began.connect(lambda path: self._tell(LoadProgress(LoadStage.READING, path)))
-        opener.progressed.connect(self._tell)
+        opener.began.connect(lambda path: self._show_progress(LoadProgress(LoadStage.READING, path)))
+        opener.progressed.connect(self._show_progress)
         opener.restored.connect(self._on_restored)
         opener.wanting.connect(self._on_wanting)
         opener.ended.connect(self._on_ended)
@@ -64,7 +64,7 @@ class FeatureOpen(Feature):
             ),
             Action(
                 id="open_demo",
-                text="Open the &demo mesh",
+                text="Open &demo mesh",
                 menu="File",
                 help="Open the demo mesh included with Hexmend.",
                 needs_mesh=False,
@@ -86,7 +86,7 @@ class FeatureOpen(Feature):
             self.session.commands.open(path)
 
     def ask(self) -> None:
-        """Ask for a mesh file and open it."""
+        """Show the dialog for a mesh file and open the file."""
         path = ask_mesh(self.host.dialog_parent)
         if path:
             self.open(path)
@@ -96,21 +96,22 @@ class FeatureOpen(Feature):
         self.open(demo_mesh())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Open the one file that is dragged onto the window."""
+        """Open a single file that is dropped on the window."""
         kind = event.type()
-        if kind == QEvent.Type.DragEnter and _dropped(event):
+        if kind == QEvent.Type.DragEnter and _dragged_file(event):
             event.acceptProposedAction()
             return True
-        if kind == QEvent.Type.Drop and (path := _dropped(event)):
+        if kind == QEvent.Type.Drop and (path := _dragged_file(event)):
             event.acceptProposedAction()
             QTimer.singleShot(0, self, lambda: self.open(path))
             return True
         return super().eventFilter(watched, event)
 
-    def _tell(self, progress: LoadProgress) -> None:
+    def _show_progress(self, progress: LoadProgress) -> None:
         if self._opener.busy:
-            help = "Cancel opening this mesh (Esc)."
-            self.host.busy.show_work("open", stage_text(progress), "Cancel", help, self._opener.cancel)
+            self.host.busy.show_work(
+                "open", stage_text(progress), "Cancel", "Cancel opening (Esc).", self._opener.cancel
+            )
 
     def _on_ended(self, path: Path) -> None:
         self.host.busy.done("open")
@@ -118,7 +119,7 @@ class FeatureOpen(Feature):
         if restored := self._restored:
             self._restored = None
             show = self.host.messages.show_info if restored.alike else self.host.messages.show_warning
-            show(*of_picture(restored))
+            show(*restored_message(restored))
         elif notes := self._document.start.mesh.notes:
             self.host.messages.show_info(" ".join(notes), timeout_ms=0)
         if path.resolve() != demo_mesh().resolve():
@@ -131,30 +132,30 @@ class FeatureOpen(Feature):
     def _on_wanting(self, wanting: MissingMesh) -> None:
         self.host.busy.done("open")
         self.host.messages.show_offer(
-            *lost(wanting), (("Choose the mesh…", lambda: self._find(wanting)), ("Dismiss", lambda: None))
+            *missing_mesh_message(wanting), (("Locate mesh…", lambda: self._locate(wanting)), ("Dismiss", lambda: None))
         )
         self.host.refresh_soon()
 
-    def _find(self, wanting: MissingMesh) -> None:
-        """Ask for the mesh file of a picture and open it as the picture shows it."""
+    def _locate(self, wanting: MissingMesh) -> None:
+        """Ask for the mesh file of a picture and open it with the picture's camera and appearance."""
         path = ask_mesh(self.host.dialog_parent)
         if path and self.host.may_leave():
             self._opener.open(path, wanting=wanting)
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")
-        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._unaffected()}")
+        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._open_mesh_note()}")
 
     def _on_failed(self, path: Path, error: Exception) -> None:
         self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._unaffected()}")
+        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._open_mesh_note()}")
 
-    def _unaffected(self) -> str:
+    def _open_mesh_note(self) -> str:
         return f" {self._document.name} stays open." if self._document.is_open else ""
 
 
-def _dropped(event: QDropEvent) -> str:
-    """Return the local file of a drag of exactly one file, or ""."""
+def _dragged_file(event: QDropEvent) -> str:
+    """Return the path of a single local file that is dragged; "" for anything else."""
     urls = event.mimeData().urls()
     return urls[0].toLocalFile() if len(urls) == 1 else ""

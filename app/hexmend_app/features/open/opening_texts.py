@@ -23,60 +23,54 @@ def stage_text(progress: LoadProgress) -> str:
     }[progress.doing]
 
 
-def of_picture(restored: RestoredPicture) -> tuple[str, ...]:
+def restored_message(restored: RestoredPicture) -> tuple[str, ...]:
     """Return the message for meshes opened from a picture, with a title first if they differ from the picture."""
     name, picture, metadata = restored.path.name, restored.picture.name, restored.metadata
+    others = _other_meshes(restored)
     if restored.digest not in (metadata.first.opened, metadata.first.shown):
-        text = f"{name} has other hexes, or nodes elsewhere, than the mesh that {picture} was made of."
-        return f"This is not the mesh of {picture}", text + _neighbour(restored)
+        text = f"{name} has other hexes or node positions than the mesh in {picture}."
+        return f"The mesh differs from {picture}", text + others
+    text = f"{name} is shown with the camera and appearance of {picture}"
     if restored.digest == metadata.first.shown:
-        seen = f"{name} is looked at as in {picture}."
+        text += "."
+    elif metadata.recipe is not None:
+        text += f", in which it was smoothed by “{metadata.recipe.title}”; see the Recipe panel."
     else:
-        ran = (
-            f"after “{metadata.recipe.title}”, which is in the Recipe panel"
-            if metadata.recipe is not None
-            else "changed"
-        )
-        seen = f"{name} is looked at as in {picture}, which shows it {ran}."
+        text += ", in which it was changed."
     if restored.path.suffix.lower() == SUFFIX:
-        seen += f" Its runs are not: open {name} itself for them."
-    text = seen + _neighbour(restored)
-    return (text,) if restored.alike else (f"This is not all that {picture} shows", text)
+        text += f" To restore its runs, open {name}."
+    return (text + others,) if restored.alike else (f"Not all of {picture} was restored", text + others)
 
 
-def _neighbour(restored: RestoredPicture) -> str:
-    """Return the sentences on the other meshes of a picture."""
-    shown = [f"“{one.name}”" for one in restored.others if one.state is not None]
+def _other_meshes(restored: RestoredPicture) -> str:
+    """Describe the other meshes of a picture, as sentences with a leading space."""
+    shown = [f"“{mesh.name}”" for mesh in restored.others if mesh.state is not None]
     names = " and ".join(filter(None, (", ".join(shown[:-1]), *shown[-1:])))
     if restored.wiped is not None:
-        layout = "is wiped over it"
+        layout = "is shown with a wipe"
     else:
         layout = f"{'are' if len(shown) > 1 else 'is'} shown next to it"
-    found = [f"{names} {layout}."] if shown else []
-    found += [_lacking(one) for one in restored.others if one.lack is not None]
-    return "".join(f" {sentence}" for sentence in found)
+    sentences = [f"{names} {layout}."] if shown else []
+    sentences += [_problem(mesh) for mesh in restored.others if mesh.lack is not None]
+    return "".join(f" {sentence}" for sentence in sentences)
 
 
-def _lacking(one: RestoredMesh) -> str:
-    """Explain why a further mesh of a picture is not shown, or how it differs."""
-    if one.lack is RestoreProblem.PLACES:
-        return f"“{one.name}” is another than in the picture: {one.file} has its nodes elsewhere."
+def _problem(mesh: RestoredMesh) -> str:
+    """Explain why another mesh of a picture is not shown, or how it differs."""
+    if mesh.lack is RestoreProblem.PLACES:
+        return f"“{mesh.name}” differs from the picture: {mesh.file} has other node positions."
     reason = {
         RestoreProblem.NO_SPACE: f"the window shows at most {MOST + 1} views",
-        RestoreProblem.FILE: f"{one.file} is not there" if one.file else "the picture does not say in which file it is",
-        RestoreProblem.READING: str(one.error).rstrip("."),
-        RestoreProblem.RUN: f"it is an iteration or a result of a run on {one.file}, which that file does not hold",
-        RestoreProblem.HEXES: f"{one.file} has other hexes, and side views show one mesh",
-    }[one.lack]
-    return f"“{one.name}” is not shown: {reason}."
+        RestoreProblem.FILE: f"{mesh.file} was not found" if mesh.file else "the picture does not name its file",
+        RestoreProblem.READING: str(mesh.error).rstrip("."),
+        RestoreProblem.RUN: f"it is an iteration or a result of a run on {mesh.file}, which is not stored in that file",
+        RestoreProblem.HEXES: f"{mesh.file} has other hexes; side views must have the hexes of the main view",
+    }[mesh.lack]
+    return f"“{mesh.name}” is not shown: {reason}."
 
 
-def lost(wanting: MissingMesh) -> tuple[str, str]:
+def missing_mesh_message(wanting: MissingMesh) -> tuple[str, str]:
     """Return title and text for a picture whose mesh file is missing."""
     file = wanting.metadata.first.file
-    where = (
-        f"{file} was not found, neither at its path nor next to the picture."
-        if file
-        else "The picture does not name its mesh file."
-    )
-    return f"Where is the mesh of {wanting.picture.name}?", where
+    reason = f"{file} is neither at its path nor next to the picture." if file else "The picture names no mesh file."
+    return f"The mesh of {wanting.picture.name} was not found", reason

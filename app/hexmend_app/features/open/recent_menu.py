@@ -14,11 +14,12 @@ class RecentMenu(QMenu):
 
     Parameters
     ----------
-    recent : Recent
+    recent : RecentFiles
 
     Signals
     -------
     chosen(Path)
+        The user selected this file.
     """
 
     chosen = Signal(object)
@@ -28,24 +29,25 @@ class RecentMenu(QMenu):
         self._recent = recent
         self.setToolTipsVisible(True)
         self.aboutToShow.connect(self._fill)
-        recent.changed.connect(self._offer)  # filled when it is shown: the action that brought the change lives in it
-        self._offer()
+        # Filled only when it is shown: a change may come from one of its own actions, which must not be deleted then.
+        recent.changed.connect(self._update_enabled)
+        self._update_enabled()
 
-    def _offer(self) -> None:
+    def _update_enabled(self) -> None:
         self.menuAction().setEnabled(bool(self._recent.files()))
 
     def _fill(self) -> None:
         self.clear()
         files = self._recent.files()
         for number, path in enumerate(files, start=1):
-            there = path.exists()
+            exists = path.exists()
             name = f"{path.name}  ({short_folder(path)})".replace("&", "&&")
-            action = self.addAction(f"&{number % 10}  {name}" + ("" if there else ": no longer there"))
-            action.setEnabled(there)
-            action.setToolTip(str(path) if there else f"{path} was moved, renamed or deleted.")
+            action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else ": not found"))
+            action.setEnabled(exists)
+            action.setToolTip(str(path) if exists else f"{path} was moved, renamed or deleted.")
             action.setStatusTip(f"Open {path}.")
             action.triggered.connect(lambda _=False, path=path: self.chosen.emit(path))
         self.addSeparator()
         clear = self.addAction("&Clear list")
-        clear.setStatusTip("Forget which files were opened.")
+        clear.setStatusTip("Clear the list of recent files.")
         clear.triggered.connect(self._recent.clear)

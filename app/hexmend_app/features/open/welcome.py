@@ -13,16 +13,18 @@ from hexmend_app.widgets.wording import short_folder
 
 
 class Welcome(QWidget):
-    """Says what can be done first.
+    """Welcome page with buttons to open a mesh and links to recent files.
+
+    Parameters
+    ----------
+    recent : RecentFiles
 
     Signals
     -------
     open_requested, demo_requested
+        The user asked for the file dialog or the demo mesh.
     recent_requested(Path)
-
-    Parameters
-    ----------
-    recent : Recent
+        The user selected this file.
     """
 
     open_requested = Signal()
@@ -36,7 +38,9 @@ class Welcome(QWidget):
         font = self._title.font()
         font.setPointSizeF(font.pointSizeF() * 1.8)
         self._title.setFont(font)
-        self._hint = QLabel("Drop a file here, or choose one. VTK, VTU and Medit meshes are read.")
+        self._hint = QLabel(
+            "Drop a file here or open one: VTK, Exodus, CGNS, MED, Gmsh, Abaqus, Nastran, Medit and more."
+        )
         tint(self._hint, MUTED)
         self._open = QPushButton(icon("folder-open-outline"), "Open…")
         self._demo = QPushButton("Demo mesh")
@@ -71,12 +75,12 @@ class Welcome(QWidget):
                 link.setFlat(True)
                 link.setCursor(Qt.CursorShape.PointingHandCursor)
                 set_help(link, f"Open {path.name}", escape(str(path)))
-                on_theme_change(link, lambda link=link: link.setStyleSheet(_link()))
+                on_theme_change(link, lambda link=link: link.setStyleSheet(_link_style()))
                 link.clicked.connect(lambda _=False, path=path: self.recent_requested.emit(path))
                 self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)
 
 
-def _link() -> str:
+def _link_style() -> str:
     return (
         f"QPushButton {{ color: {BLUE}; border: 1px solid transparent; padding: 2px 6px; }}"
         f" QPushButton:hover {{ text-decoration: underline; }} QPushButton:focus {{ border-color: {BLUE}; }}"

@@ -1,4 +1,4 @@
-"""Opening meshes in the window: by menu, drop and welcome; what cannot be opened; and what is called off."""
+"""Opening meshes in the window: by menu, drag and drop and the welcome page; errors; cancelling."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def recent(window):
-    """The files that are remembered."""
+    """Return the recent files."""
     return window.features["open"].recent
 
 
 @pytest.fixture
 def menu(window):
-    """The menu that offers them."""
+    """Return the menu of recent files."""
     (menu,) = window.findChildren(RecentMenu)
     return menu
 
 
-def unfold(menu, key):
+def press_in_menu(menu, key):
     """Open a menu and press a letter in it."""
     menu.popup(QPoint(50, 50))
     QTest.keyClick(menu, key)
 
 
-def test_opened_files_are_offered_newest_first_once_each(window, qtbot, recent, menu, tmp_path, mesh_file):
+def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, menu, tmp_path, mesh_file):
     assert recent.files() == [mesh_file]
     other = tmp_path / "R&D" / "other.vtu"
     other.parent.mkdir()
@@ -53,30 +53,30 @@ def test_opened_files_are_offered_newest_first_once_each(window, qtbot, recent, 
         window.features["open"].open(tmp_path / "nowhere.vtu")
     assert recent.files() == [other, mesh_file]
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE) as ended:
-        unfold(menu, Qt.Key.Key_2)
+        press_in_menu(menu, Qt.Key.Key_2)
     assert ended.args == [mesh_file]
     assert recent.files() == [mesh_file, other]
     assert menu.isHidden()
 
 
-def test_a_file_that_is_gone_says_so_and_the_list_is_cleared(recent, menu, tmp_path):
+def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tmp_path):
     for k in range(MOST + 2):
         recent.add(tmp_path / f"mesh{k}.vtu")
     assert len(recent.files()) == MOST
     menu.popup(QPoint(50, 50))
-    gone = menu.actions()[0]
-    assert "no longer there" in gone.text()
-    assert not gone.isEnabled()
+    missing = menu.actions()[0]
+    assert "not found" in missing.text()
+    assert not missing.isEnabled()
     QTest.keyClick(menu, Qt.Key.Key_C)
     assert recent.files() == []
     assert not menu.menuAction().isEnabled()
 
 
-def test_the_welcome_offers_recent_files(window, qtbot, mesh_file):
+def test_the_welcome_page_opens_recent_files(window, qtbot, mesh_file):
     welcome = window.features["open"].welcome
     assert not welcome.isVisible()
     welcome.show()
-    link = next(one for one in welcome.findChildren(QPushButton) if mesh_file.name in one.text())
+    link = next(b for b in welcome.findChildren(QPushButton) if mesh_file.name in b.text())
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
         QTest.mouseClick(link, LEFT)
 
@@ -85,8 +85,8 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
     io.write(tmp_path / "five.mesh", gallery.make("five-side", size=500))
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(tmp_path / "five.mesh"))])
-    how = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
-    entered, dropped = QDragEnterEvent(QPoint(50, 50), *how), QDropEvent(QPointF(50, 50), *how)
+    drag = Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    entered, dropped = QDragEnterEvent(QPoint(50, 50), *drag), QDropEvent(QPointF(50, 50), *drag)
     QApplication.sendEvent(window, entered)
     assert entered.isAccepted()
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
@@ -95,7 +95,7 @@ def test_a_dropped_file_is_opened(window, qtbot, tmp_path):
     assert window.windowTitle().startswith("five.mesh")
 
 
-def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot, tmp_path):
+def test_an_unreadable_file_shows_an_error_and_the_open_mesh_stays(window, qtbot, tmp_path):
     bad = tmp_path / "cut.vtk"
     bad.write_text("# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n0 0 0\n")
     now = window.session.document.now
@@ -112,7 +112,7 @@ def test_a_bad_file_is_said_in_the_window_and_the_open_mesh_stays(window, qtbot,
     assert not window.messages.isVisible()
 
 
-def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
+def test_opening_another_mesh_ends_the_run(window, qtbot, mesh_file):
     choose(window, "local-sd", StoppingCriteria(tolerance=0.0))
     click(window, "Run")
     qtbot.waitUntil(phase(window, Phase.RUNNING), timeout=PATIENCE)
@@ -121,31 +121,31 @@ def test_opening_another_mesh_while_a_method_runs(window, qtbot, mesh_file):
     assert window.session.document.undo_title is None
 
 
-# What is called off
+# Cancelling
 
 
 @pytest.fixture
 def slow_read(monkeypatch):
-    """Reading waits until it is let go on."""
-    go_on, read = threading.Event(), mesh_opener.read
+    """Block reading until the yielded event is set."""
+    proceed, read = threading.Event(), mesh_opener.read
 
-    def reading(path):
-        go_on.wait(PATIENCE / 1000)
+    def blocked_read(path):
+        proceed.wait(PATIENCE / 1000)
         return read(path)
 
-    monkeypatch.setattr(mesh_opener, "read", reading)
-    yield go_on
-    go_on.set()
+    monkeypatch.setattr(mesh_opener, "read", blocked_read)
+    yield proceed
+    proceed.set()
 
 
-def read_to_the_end(qtbot, slow_read):
-    """Let all go on that is being read, cancelled or not."""
+def finish_reading(qtbot, slow_read):
+    """Unblock all files that are being read, also cancelled ones, and wait for them."""
     slow_read.set()
     qtbot.waitUntil(lambda: not any(task.name.startswith("reading") for task in running()), timeout=PATIENCE)
 
 
 @pytest.mark.parametrize("by", ["button", "Esc"])
-def test_opening_says_what_it_does_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
+def test_opening_shows_its_progress_and_is_cancelled(window, qtbot, slow_read, recent, mesh_file, tmp_path, by):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
     before = window.session.document.now
@@ -159,16 +159,16 @@ def test_opening_says_what_it_does_and_is_cancelled(window, qtbot, slow_read, re
         key(window, Qt.Key.Key_Escape)
     assert not window.session.opener.busy
     assert not window.busy.isVisible()
-    assert window.session.selection.hex == 3  # Esc was for the opening alone
+    assert window.session.selection.hex == 3  # Esc cancelled the opening only
     assert "Opening slow.vtu was cancelled" in window.messages.messages()[-1][1]
-    read_to_the_end(qtbot, slow_read)
+    finish_reading(qtbot, slow_read)
     assert window.session.document.now is before
     assert recent.files() == [mesh_file]
     open_and_wait(qtbot, window, other)
     assert window.session.document.name == "slow.vtu"
 
 
-def test_another_mesh_is_opened_while_a_cancelled_one_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
+def test_another_mesh_is_opened_while_a_cancelled_file_is_still_read(window, qtbot, slow_read, mesh_file, tmp_path):
     other = tmp_path / "slow.vtu"
     shutil.copy(mesh_file, other)
     window.features["open"].open(other)
@@ -177,5 +177,5 @@ def test_another_mesh_is_opened_while_a_cancelled_one_is_still_read(window, qtbo
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE) as ended:
         slow_read.set()
     assert ended.args == [mesh_file]
-    read_to_the_end(qtbot, slow_read)
+    finish_reading(qtbot, slow_read)
     assert window.session.document.name == mesh_file.name

@@ -1,4 +1,4 @@
-"""Pictures that are opened show again what they show."""
+"""Opening a picture restores its mesh, appearance and camera."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
 
-def said(window):
+def messages(window):
     return [" ".join(message[1:]) for message in window.messages.messages()]
 
 
-def looked_at(window, qtbot):
+def change_appearance(window, qtbot):
+    """Change appearance and camera, and return them."""
     session = window.session
     session.view.change(
         clip=PlaneClip.at((1, 0.2, 0), (0.5, 0.5, 0.5)),
@@ -44,9 +45,9 @@ def mesh(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_path):
+def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    look, stand = looked_at(window, qtbot)
+    look, pose = change_appearance(window, qtbot)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     open_and_wait(qtbot, window, mesh)
     assert window.session.view.look != look
@@ -54,15 +55,15 @@ def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_pat
     window.refresh()
     assert window.session.document.path == mesh
     assert window.session.view.look == look
-    assert window.canvas.stand == stand
-    assert "mesh.vtu is looked at as in p.png." in said(window)[-1]
+    assert window.canvas.stand == pose
+    assert "mesh.vtu is shown with the camera and appearance of p.png." in messages(window)[-1]
     assert window.features["save"].picture(tmp_path / "again.png", (300, 200))
-    one, other = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
-    assert np.abs(one.astype(int) - other).mean() < 0.2
+    first, second = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
+    assert np.abs(first.astype(int) - second).mean() < 0.2
 
 
 @pytest.mark.slow
-def test_what_ran_comes_back_as_a_recipe(window, qtbot, mesh, tmp_path):
+def test_the_runs_of_a_picture_are_restored_as_a_recipe(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     stage = Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -71,30 +72,30 @@ def test_what_ran_comes_back_as_a_recipe(window, qtbot, mesh, tmp_path):
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     window.session.commands.reset()
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert "shows it after “Laplacian" in said(window)[-1]
+    assert "in which it was smoothed by “Laplacian" in messages(window)[-1]
     assert window.session.recipe_draft.stages == (stage,)
 
 
-def test_a_picture_of_the_command_line_is_opened_too(window, qtbot, mesh, tmp_path):
+def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
     assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
     open_and_wait(qtbot, window, tmp_path / "p.png")
     window.refresh()
-    stand = window.canvas.stand
-    assert stand.position[1] < stand.focal[1]
+    pose = window.canvas.stand
+    assert pose.position[1] < pose.focal[1]
 
 
-def test_another_mesh_of_the_name_is_said(window, qtbot, mesh, tmp_path):
+def test_a_changed_mesh_file_is_reported(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     io.write(mesh, grid(4))
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert "This is not the mesh of p.png" in said(window)[-1]
+    assert "The mesh differs from p.png" in messages(window)[-1]
 
 
 @pytest.mark.slow
-def test_a_mesh_that_is_gone_is_asked_for(window, qtbot, mesh, tmp_path, monkeypatch):
+def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, monkeypatch):
     open_and_wait(qtbot, window, mesh)
-    look, _ = looked_at(window, qtbot)
+    look, _ = change_appearance(window, qtbot)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     (tmp_path / "elsewhere").mkdir()
     moved = mesh.rename(tmp_path / "elsewhere" / "renamed.vtu")
@@ -102,24 +103,24 @@ def test_a_mesh_that_is_gone_is_asked_for(window, qtbot, mesh, tmp_path, monkeyp
     with qtbot.waitSignal(window.session.opener.wanting, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
     assert window.session.document.now is before
-    assert "Where is the mesh of p.png?" in said(window)[-1]
+    assert "The mesh of p.png was not found" in messages(window)[-1]
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(moved), ""))
     with qtbot.waitSignal(window.session.opener.ended, timeout=PATIENCE):
-        next(one for one in window.findChildren(QPushButton) if one.text() == "Choose the mesh…").click()
+        next(button for button in window.findChildren(QPushButton) if button.text() == "Locate mesh…").click()
     assert window.session.document.path == moved
     assert window.session.view.look == look
 
 
-def test_a_picture_without_a_scene_is_refused(window, qtbot, tmp_path):
+def test_a_picture_without_a_scene_is_rejected(window, qtbot, tmp_path):
     Image.new("RGB", (4, 4)).save(tmp_path / "p.png")
     before = window.session.document.now
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
-    assert "p.png cannot be opened this picture carries no scene" in said(window)[-1]
+    assert "p.png cannot be opened this picture carries no scene" in messages(window)[-1]
     assert window.session.document.now is before
 
 
-def test_hexes_that_the_mesh_has_not_are_refused(window, qtbot, mesh, tmp_path):
+def test_a_picture_with_hexes_that_the_mesh_does_not_have_is_rejected(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
     window.session.view.change(dug=frozenset({60}))
     window.refresh()
@@ -127,4 +128,4 @@ def test_hexes_that_the_mesh_has_not_are_refused(window, qtbot, mesh, tmp_path):
     io.write(mesh, grid(2))
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
-    assert "names hex 60" in said(window)[-1]
+    assert "names hex 60" in messages(window)[-1]

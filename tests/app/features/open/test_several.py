@@ -1,4 +1,4 @@
-"""Pictures of several meshes bring all of them back, or say of which they cannot."""
+"""Opening a picture of several meshes restores all of them, or reports which are missing."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ def files(tmp_path):
     return {name: tmp_path / f"{name}.vtu" for name in MESHES}
 
 
-def drawn(tmp_path, *paths, scene=None):
+def render(tmp_path, *paths, scene=None):
     write_scene(tmp_path / "scene.toml", scene or Scene())
-    words = ["render", *map(str, paths), "-o", str(tmp_path / "p.png"), "--scene", str(tmp_path / "scene.toml")]
-    assert main([*words, "--size", "300x150"]) == 0
+    arguments = ["render", *map(str, paths), "-o", str(tmp_path / "p.png"), "--scene", str(tmp_path / "scene.toml")]
+    assert main([*arguments, "--size", "300x150"]) == 0
     return tmp_path / "p.png"
 
 
@@ -38,28 +38,29 @@ def message(window):
     return window.messages.messages()[-1]
 
 
-def test_others_stand_beside_the_first_each_from_its_file(window, qtbot, files, tmp_path):
-    open_and_wait(qtbot, window, drawn(tmp_path, *files.values()))
+def test_other_meshes_are_shown_next_to_the_first(window, qtbot, files, tmp_path):
+    open_and_wait(qtbot, window, render(tmp_path, *files.values()))
     window.refresh()
     views = window.session.side_views.all
     assert window.session.document.path == files["one"]
-    assert [one.name for one in views] == ["two", "three"]
-    for one in views:
-        np.testing.assert_array_equal(one.state.mesh.points, MESHES[one.name].points)
-    assert message(window)[1] == "one.vtu is looked at as in p.png. “two” and “three” are shown next to it."
-    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")  # they are states of the one mesh
+    assert [view.name for view in views] == ["two", "three"]
+    for view in views:
+        np.testing.assert_array_equal(view.state.mesh.points, MESHES[view.name].points)
+    expected = "one.vtu is shown with the camera and appearance of p.png. “two” and “three” are shown next to it."
+    assert message(window)[1] == expected
+    assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")  # all have the hexes of the first
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
-    assert [one.name for one in window.session.side_views.all] == ["two", "three"]
+    assert [view.name for view in window.session.side_views.all] == ["two", "three"]
 
 
-def test_a_wipe_comes_back_with_its_edge(window, qtbot, files, tmp_path):
+def test_a_wipe_is_restored_with_its_edge(window, qtbot, files, tmp_path):
     scene = Scene(panels=(PicturePanel(mesh=3, wipe=WipeLayout(1, 0.3, "now")),))
-    open_and_wait(qtbot, window, drawn(tmp_path, *files.values(), scene=scene))
+    open_and_wait(qtbot, window, render(tmp_path, *files.values(), scene=scene))
     window.refresh()
     assert window.session.document.path == files["three"]
-    assert [one.name for one in window.session.side_views.all] == ["now (2)"]
+    assert [view.name for view in window.session.side_views.all] == ["now (2)"]
     assert window.session.side_views.wipe == Wipe(0, 1, 0.3)
-    assert "“now (2)” is wiped over it." in message(window)[1]
+    assert "“now (2)” is shown with a wipe." in message(window)[1]
 
 
 def run(window, qtbot):
@@ -69,7 +70,7 @@ def run(window, qtbot):
 
 
 @pytest.mark.slow
-def test_what_no_file_gives_is_said(window, qtbot, files, tmp_path):
+def test_results_that_no_file_stores_are_reported(window, qtbot, files, tmp_path):
     open_and_wait(qtbot, window, files["one"])
     session = window.session
     session.side_views.show("before", session.document.start)
@@ -78,40 +79,42 @@ def test_what_no_file_gives_is_said(window, qtbot, files, tmp_path):
     run(window, qtbot)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, tmp_path / "p.png")
-    assert [one.name for one in session.side_views.all] == ["before"]
+    assert [view.name for view in session.side_views.all] == ["before"]
     np.testing.assert_array_equal(session.side_views.all[0].state.mesh.points, MESHES["one"].points)
     kind, text, _ = message(window)
     assert kind == "info"
-    assert text.startswith("one.vtu is looked at as in p.png, which shows it after “Laplacian”")
+    assert text.startswith(
+        "one.vtu is shown with the camera and appearance of p.png, in which it was smoothed by “Laplacian"
+    )
     assert "“before” is shown next to it." in text
     assert (
-        "“a result” is not shown: it is an iteration or a result of a run on one.vtu, which that file does not hold"
+        "“a result” is not shown: it is an iteration or a result of a run on one.vtu, which is not stored in that file"
         in text
     )
 
 
 @pytest.mark.slow
-def test_of_a_session_results_come_back_too(window, qtbot, files, tmp_path):
+def test_results_stored_in_a_session_are_restored(window, qtbot, files, tmp_path):
     open_and_wait(qtbot, window, files["one"])
     session = window.session
     run(window, qtbot)
     session.side_views.show("a result", session.document.now)
     run(window, qtbot)
-    now, beside = session.document.now.mesh.points, session.side_views.all[0].state.mesh.points
+    now, result = session.document.now.mesh.points, session.side_views.all[0].state.mesh.points
     assert window.features["save"].save_and_wait(tmp_path / "work.hexmend")
     assert window.features["save"].picture(tmp_path / "p.png", (300, 150))
     open_and_wait(qtbot, window, files["two"])
     open_and_wait(qtbot, window, tmp_path / "p.png")
     np.testing.assert_array_equal(session.document.now.mesh.points, now)
     (view,) = session.side_views.all
-    np.testing.assert_array_equal(view.state.mesh.points, beside)
+    np.testing.assert_array_equal(view.state.mesh.points, result)
     kind, text, _ = message(window)
     assert kind == "info"
-    assert "looked at as in p.png. Its runs are not: open work.hexmend itself for them." in text
+    assert "appearance of p.png. To restore its runs, open work.hexmend." in text
     assert "“a result” is shown next to it." in text
 
 
-def gone(path):
+def deleted(path):
     path.unlink()
 
 
@@ -132,25 +135,25 @@ def damaged(path):
     path.write_text("<VTKFile")
 
 
-@pytest.mark.parametrize(("change", "shown", "words"), [
-    (gone, ["three"], "“two” is not shown: two.vtu is not there."),
+@pytest.mark.parametrize(("change", "shown", "expected"), [
+    (deleted, ["three"], "“two” is not shown: two.vtu was not found."),
     (other_hexes, ["three"], "“two” is not shown: two.vtu has other hexes"),
     (renumbered, ["three"], "“two” is not shown: two.vtu has other hexes"),
     (damaged, ["three"], "“two” is not shown: "),
-    (moved, ["two", "three"], "“two” is another than in the picture: two.vtu has its nodes elsewhere."),
+    (moved, ["two", "three"], "“two” differs from the picture: two.vtu has other node positions."),
 ])  # fmt: skip
-def test_another_mesh_than_in_the_picture_is_said(window, qtbot, files, tmp_path, change, shown, words):
-    path = drawn(tmp_path, *files.values())
+def test_a_mesh_that_differs_from_the_picture_is_reported(window, qtbot, files, tmp_path, change, shown, expected):
+    path = render(tmp_path, *files.values())
     change(files["two"])
     open_and_wait(qtbot, window, path)
-    assert [one.name for one in window.session.side_views.all] == shown
+    assert [view.name for view in window.session.side_views.all] == shown
     kind, title, text = message(window)
-    assert (kind, title) == ("warning", "This is not all that p.png shows")
-    assert words in text
+    assert (kind, title) == ("warning", "Not all of p.png was restored")
+    assert expected in text
 
 
-def test_of_many_there_are_as_many_as_the_window_has_room_for(window, qtbot, files, tmp_path):
-    path = drawn(tmp_path, *[files["one"]] * 2, *[files["two"]] * 2, files["three"])
+def test_the_number_of_views_is_limited(window, qtbot, files, tmp_path):
+    path = render(tmp_path, *[files["one"]] * 2, *[files["two"]] * 2, files["three"])
     open_and_wait(qtbot, window, path)
-    assert [one.name for one in window.session.side_views.all] == ["one (2)", "two", "two (2)"]
+    assert [view.name for view in window.session.side_views.all] == ["one (2)", "two", "two (2)"]
     assert "“three” is not shown: the window shows at most 4 views." in message(window)[1]
