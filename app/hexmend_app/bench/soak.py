@@ -140,7 +140,7 @@ def _window() -> Iterator[Window]:
     window.show()
     window.build_features()
     window.build_canvas()
-    window.features["session"].guard()
+    window.features["session"].start_autosave()
     turn(0.5)
     try:
         yield window

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend_app.feature import Action, Feature, Host
-from hexmend_app.features.session.recovery_texts import sentence
+from hexmend_app.features.session.recovery_texts import recovery_offer
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.recovery import RecoveredSession, Recovery
 from hexmend_app.widgets.dialogs.questions import ask_session
 
 
 class FeatureSession(Feature):
-    """Saves sessions, autosaves, and offers to recover after a crash.
+    """Saves and autosaves sessions, and offers to recover them after a crash.
 
     Attributes
     ----------
     recovery : Recovery
-        Inactive until `guard` is called.
+        Inactive until `start_autosave` is called.
     """
 
     order = 12
@@ -31,7 +31,7 @@ class FeatureSession(Feature):
         self._offered: set[RecoveredSession] = set()
 
     def actions(self) -> Sequence[Action]:
-        """Save, and recover."""
+        """Return the actions that save and recover a session."""
         return (
             Action(
                 id="save_session",
@@ -40,15 +40,15 @@ class FeatureSession(Feature):
                 part=1,
                 keys="Ctrl+Shift+S",
                 icon="content-save-all-outline",
-                help="Save the mesh with its view, runs, recipe, tags and comparisons to one file, to continue later.",
+                help="Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later.",
                 handle=self.ask,
                 enabled=self._savable,
             ),
             Action(
                 id="recover",
-                text="&Recover a session…",
+                text="&Recover session…",
                 menu="File",
-                help="Open the autosaved session of a window that ended unexpectedly.",
+                help="Open an autosaved session after a crash.",
                 needs_mesh=False,
                 handle=lambda: self._offer(self.recovery.left[0]),
                 enabled=lambda: bool(self.recovery.left) and not self.session.opener.busy,
@@ -57,15 +57,15 @@ class FeatureSession(Feature):
 
     def program_started(self) -> None:
         """Start the autosave."""
-        self.guard()
+        self.start_autosave()
 
-    def guard(self) -> None:
+    def start_autosave(self) -> None:
         """Start autosaving, and offer sessions left by a crash."""
         self.recovery.begin()
         self.host.refresh_soon()
 
     def refresh(self) -> None:
-        """Offer each recoverable session once while no mesh is opening, which would clear the messages."""
+        """Offer each recoverable session once, unless a mesh is opening, which would clear the messages."""
         for left in self.recovery.left[:1]:
             if left not in self._offered and not self.session.opener.busy:
                 self._offered.add(left)
@@ -82,8 +82,8 @@ class FeatureSession(Feature):
             self.session.commands.save_in_background(path)
 
     def _offer(self, left: RecoveredSession) -> None:
-        choices = (("Recover", lambda: self._recover(left)), ("Discard", lambda: self._forget(left)))
-        self.host.messages.show_offer(*sentence(left), choices)
+        buttons = (("Recover", lambda: self._recover(left)), ("Discard", lambda: self._forget(left)))
+        self.host.messages.show_offer(*recovery_offer(left), buttons)
 
     def _recover(self, left: RecoveredSession) -> None:
         if left in self.recovery.left and self.host.may_leave():
@@ -99,11 +99,11 @@ class FeatureSession(Feature):
         self.host.messages.show_error("Part of the session was not restored", problem)
 
     def _on_failed(self, error: Exception) -> None:
-        if not self._failed:  # autosave repeats every few minutes
+        if not self._failed:  # report it once, not at every autosave
             self._failed = True
             self.host.messages.show_warning(
                 "Autosave failed",
-                f"The session could not be saved automatically: {error} Save it to another disk or folder.",
+                f"{error} Save the session to another disk or folder.",
             )
 
     def _savable(self) -> bool:

@@ -1,22 +1,22 @@
-"""Messages on work that can be recovered after a crash."""
+"""Texts of the offer to recover a session after a crash."""
 
 from __future__ import annotations
 
 from hexmend_app.state.session.recovery import RecoveredSession
 
 
-def sentence(left: RecoveredSession) -> tuple[str, str]:
+def recovery_offer(left: RecoveredSession) -> tuple[str, str]:
     """Return the title and text of the offer to recover a session.
 
     >>> from datetime import datetime
     >>> from pathlib import Path
     >>> from PySide6.QtCore import QLockFile
-    >>> sentence(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
+    >>> recovery_offer(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
     'five.vtu can be recovered'
     """
     runs = "" if not left.runs else f", with {left.runs} run{'s' * (left.runs != 1)}"
     when = f"{left.when:%H:%M} on {left.when.day} {left.when:%B %Y}"
     return (
         f"{left.name or 'A mesh'} can be recovered",
-        f"Hexmend ended unexpectedly while this mesh was open. It was autosaved at {when}{runs}.",
+        f"Hexmend ended unexpectedly while this mesh was open. It was last autosaved at {when}{runs}.",
     )

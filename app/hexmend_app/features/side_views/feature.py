@@ -1,4 +1,4 @@
-"""Views beside that of the mesh as it is now: kept, captioned, wiped over one another, and closed."""
+"""Side views: states of the mesh next to the current one, side by side or wiped."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from hexmend_app.theme.palette import BLUE, KEPT, Role
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
 
-#: How far a key moves the wipe's edge, as a share of the view's width.
+#: Distance that a key moves the wipe, relative to the width of the view.
 STEP = 0.02
 
 
 class FeatureSideViews(Feature):
-    """Shows what is kept of the mesh in views of its own."""
+    """Shows states of the mesh in side views."""
 
     order = 56
 
     def __init__(self, host: Host):
         super().__init__(host)
-        self._views, self._kept = self.session.side_views, self.session.snapshots
+        self._views, self._snapshots = self.session.side_views, self.session.snapshots
         self._seen = ChangeTracker()
 
     def actions(self) -> Sequence[Action]:
-        """Keep beside, wipe, close."""
+        """Return the actions that add, wipe and close side views."""
         views, several, wiping = self._views, self._several, self._wiping
         return (
             Action(
@@ -39,7 +39,7 @@ class FeatureSideViews(Feature):
                 part=1,
                 keys="V",
                 icon="view-split-vertical",
-                help="Show the mesh as it is now in a view of its own, to which what comes can be compared.",
+                help="Show the current mesh in a second view, for comparison with later ones.",
                 handle=self._show_in_side_view,
                 enabled=lambda: not views.full,
                 in_view=True,
@@ -51,28 +51,28 @@ class FeatureSideViews(Feature):
                 part=1,
                 keys="W",
                 icon="compare",
-                help="Lay two views over one another, with an edge between them that is dragged.",
+                help="Overlay two views, separated by an edge that can be dragged.",
                 handle=views.set_wiping,
                 enabled=several,
                 checked=wiping,
             ),
             Action(
                 id="wipe_left",
-                text="Wipe to the &left",
+                text="Move wipe &left",
                 menu="Compare",
                 part=1,
                 keys="[",
-                help="See more of the view at the right.",
+                help="Show more of the right view.",
                 handle=lambda: self._step_wipe(-1),
                 enabled=wiping,
             ),
             Action(
                 id="wipe_right",
-                text="Wipe to the ri&ght",
+                text="Move wipe ri&ght",
                 menu="Compare",
                 part=1,
                 keys="]",
-                help="See more of the view at the left.",
+                help="Show more of the left view.",
                 handle=lambda: self._step_wipe(1),
                 enabled=wiping,
             ),
@@ -82,7 +82,7 @@ class FeatureSideViews(Feature):
                 menu="Compare",
                 part=1,
                 keys="Ctrl+W",
-                help="Show the mesh as it is now alone.",
+                help="Show only the current mesh.",
                 handle=views.close_all,
                 enabled=several,
                 in_view=True,
@@ -90,24 +90,24 @@ class FeatureSideViews(Feature):
         )
 
     def canvas_ready(self, canvas: Canvas) -> None:
-        """Take the 3D view."""
+        """Connect the 3D view."""
         canvas.frame.view_closed.connect(self._views.close_view)
         canvas.frame.wipe_chosen.connect(self._views.choose_wiped)
         canvas.frame.wipe_moved.connect(self._views.move_wipe)
         canvas.frame.wipe_stepped.connect(self._step_wipe)
 
     def refresh(self) -> None:
-        """Show the views as they are now."""
+        """Show the side views and their captions."""
         views, document = self._views, self.session.document
         if self.canvas is None or not document.is_open:
             return
         if self._seen.changed("views", views.all, views.wipe and (views.wipe.left, views.wipe.right)):
-            self.canvas.show_side_by_side([(one.state.mesh, one.state.figures) for one in views.all], views.wipe)
+            self.canvas.show_side_by_side([(view.state.mesh, view.state.figures) for view in views.all], views.wipe)
             self._seen.changed("wipe", views.wipe)
         elif self._seen.changed("wipe", views.wipe) and views.wipe is not None:
             self.canvas.move_wipe(views.wipe)
         now = document.now if views.all else None
-        if self._seen.changed("captions", views.all, views.wipe, self._kept.all, now):
+        if self._seen.changed("captions", views.all, views.wipe, self._snapshots.all, now):
             self._show_captions()
 
     def refresh_iteration(self) -> None:
@@ -122,18 +122,18 @@ class FeatureSideViews(Feature):
 
     def _show_in_side_view(self) -> None:
         moment = self.session.timeline.moment
-        self._views.show("the mesh as it was" if moment is None else moment.name, self.session.document.now)
+        self._views.show("earlier mesh" if moment is None else moment.name, self.session.document.now)
 
-    def _step_wipe(self, path: int) -> None:
+    def _step_wipe(self, direction: int) -> None:
         if self._views.wipe is not None:
-            self._views.move_wipe(self._views.wipe.at + path * STEP)
+            self._views.move_wipe(self._views.wipe.at + direction * STEP)
 
     def _show_captions(self) -> None:
         shown = [(NOW, self.session.document.now, BLUE)]
-        shown += [(one.name, one.state, self._colour(one.state)) for one in self._views.all]
+        shown += [(view.name, view.state, self._colour(view.state)) for view in self._views.all]
         captions = [Caption(name, state.summary.q_min, state.summary.inverted, colour) for name, state, colour in shown]
         self.canvas.frame.set_captions(captions, self._views.wipe)
 
     def _colour(self, state: State) -> Role | None:
-        kept = self._kept.of(state)
-        return None if kept is None else KEPT[kept.slot]
+        snapshot = self._snapshots.of(state)
+        return None if snapshot is None else KEPT[snapshot.slot]

@@ -1,4 +1,4 @@
-"""The theme: light, dark, or as the desktop has it."""
+"""Themes of the window: light, dark, or the theme of the desktop."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.theme import theme_choice
 from hexmend_app.theme.theme_choice import ThemeChoice
 
-_WORDS = {
-    ThemeChoice.LIGHT: ("&Light", "Dark on light, as pictures for reports are in any theme."),
-    ThemeChoice.DARK: ("&Dark", "Light on dark, easier on the eyes in a dim room."),
-    ThemeChoice.DESKTOP: ("&As the desktop", "Light or dark as the desktop is, and changing with it."),
+_TEXTS = {
+    ThemeChoice.LIGHT: ("&Light", "Use the light theme."),
+    ThemeChoice.DARK: ("&Dark", "Use the dark theme."),
+    ThemeChoice.DESKTOP: ("&System", "Follow the theme of the desktop."),
 }
 
 
 class FeatureTheme(Feature):
-    """Lets the user choose the theme, and follows the desktop's."""
+    """Switches the theme, and follows changes of the desktop's theme."""
 
     order = 60
 
@@ -27,7 +27,7 @@ class FeatureTheme(Feature):
         QGuiApplication.styleHints().colorSchemeChanged.connect(self._on_desktop)
 
     def actions(self) -> Sequence[Action]:
-        """One for each theme."""
+        """Return one action for each theme."""
         return [
             Action(
                 id=f"theme_{choice.value}",
@@ -39,7 +39,7 @@ class FeatureTheme(Feature):
                 needs_mesh=False,
                 exclusive=True,
             )
-            for choice, (text, help) in _WORDS.items()
+            for choice, (text, help) in _TEXTS.items()
         ]
 
     def _choose(self, choice: ThemeChoice, on: bool) -> None:

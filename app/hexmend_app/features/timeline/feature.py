@@ -1,4 +1,4 @@
-"""Watching runs: the lines between the timeline and the bar below the view."""
+"""Timeline: navigation in the iterations of runs, in the bar below the view."""
 
 from __future__ import annotations
 
@@ -10,23 +10,17 @@ from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.settings import settings
 
 _STEPS = (
-    ("first", "Be&fore the run", "Alt+Home", "skip-backward", "Show the mesh as it was before the run."),
-    ("back", "Iteration &back", ",", "step-backward", "Show the iteration before."),
-    ("play", "&Play/Pause", "K", "play", "Show the iterations one after another."),
-    ("on", "Iteration &on", ".", "step-forward", "Show the next iteration."),
-    ("newest", "&Newest iteration", "Alt+End", "skip-forward", "Show the newest iteration, and those that come."),
-    (
-        "branch",
-        "&Run from here",
-        "Ctrl+F5",
-        "source-branch",
-        "Run the chosen method from the iteration shown, in addition to the run that it belongs to.",
-    ),
+    ("first", "&Start of the run", "Alt+Home", "skip-backward", "Show the mesh before the run."),
+    ("back", "Pre&vious iteration", ",", "step-backward", "Show the previous iteration."),
+    ("play", "&Play/Pause", "K", "play", "Play or pause the iterations."),
+    ("on", "&Next iteration", ".", "step-forward", "Show the next iteration."),
+    ("newest", "&Latest iteration", "Alt+End", "skip-forward", "Show the latest iteration and follow the run."),
+    ("branch", "&Run from here", "Ctrl+F5", "source-branch", "Start a new run from the displayed iteration."),
 )
 
 
 class FeatureTimeline(Feature):
-    """Goes through the iterations of runs, and begins branches."""
+    """Navigates in the iterations of runs, and starts branches."""
 
     order = 26
 
@@ -47,7 +41,7 @@ class FeatureTimeline(Feature):
         self._show_settings()
 
     def actions(self) -> Sequence[Action]:
-        """Through the iterations, and on from one."""
+        """Return the actions that show iterations, play them, and start a branch."""
         return [
             Action(
                 id=f"iteration_{name}",
@@ -66,19 +60,19 @@ class FeatureTimeline(Feature):
         ]
 
     def panels(self) -> Sequence[Panel]:
-        """The bar below the view."""
+        """Return the bar below the view."""
         return (
             Panel(
                 id="timeline",
                 title="Timeline",
                 widget=self.panel,
                 place=PanelPlace.BELOW,
-                help="Goes through the iterations of a run.",
+                help="Navigation in the iterations of a run.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show where one is."""
+        """Show the runs, and the run and iteration displayed."""
         timeline, history = self._timeline, self.session.history
         if self._seen.changed("keys", True):
             keys = {name: self.host.action(f"iteration_{name}").shortcut().toString() for name, *_ in _STEPS}
@@ -89,13 +83,13 @@ class FeatureTimeline(Feature):
         record = timeline.record
         if record is not None:
             self.panel.set_run(history.records.index(record))
-            going = self._smoothing.busy and record is self._smoothing.record
-            if self._seen.changed("track", record, record.newest, history.bytes, going, len(record.pauses)):
+            active = self._smoothing.busy and record is self._smoothing.record
+            if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
                 self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
-                self.panel.set_forgettable(not going)
+                self.panel.set_deletable(not active)
         moment = timeline.moment
-        here = moment is not None and moment.record is record
-        self.panel.set_number(moment.number if here else None, timeline.live)
+        in_run = moment is not None and moment.record is record
+        self.panel.set_number(moment.number if in_run else None, timeline.live)
         self.panel.set_playing(timeline.playing)
 
     def refresh_iteration(self) -> None:
@@ -131,7 +125,7 @@ class FeatureTimeline(Feature):
 
 
 def _text(record: RunRecord) -> tuple[str, str]:
-    """A run's name, and what to say of it."""
+    """Return the name of a run and its tooltip."""
     parent = record.parent
-    begun = f", begun at iteration {parent.number} of {parent.record.name}" if parent and parent.number else ""
-    return record.name, f"{record.title}{begun}"
+    origin = f", started at iteration {parent.number} of {parent.record.name}" if parent and parent.number else ""
+    return record.name, f"{record.title}{origin}"

@@ -1,4 +1,4 @@
-"""The slider of the timeline: an iteration under each place, with marks where something happened."""
+"""Slider of the timeline, with marks for stored iterations and pauses."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _MARK, _STRIP = 2, 3  # pixels
 
 
 class TrackSlider(QSlider):
-    """A slider that goes where it is pressed, shows which numbers there are positions of, and marks some."""
+    """Slider for iterations that jumps to the pressed place and marks stored iterations and pauses."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(Qt.Orientation.Horizontal, parent)
@@ -23,7 +23,7 @@ class TrackSlider(QSlider):
         self._marks: tuple[int, ...] = ()
 
     def set_track(self, newest: int, kept: np.ndarray, marks: Iterable[int]) -> None:
-        """Take a run's length, the numbers that can be shown, ascending, and where it paused; without a signal."""
+        """Set the latest iteration, the stored ones (k,) int ascending, and the pauses, without sending a signal."""
         blocked = self.blockSignals(True)
         self.setRange(0, newest)
         self.setPageStep(max(1, newest // 10))
@@ -32,18 +32,18 @@ class TrackSlider(QSlider):
         self.update()
 
     def place(self, number: float) -> int:
-        """Return the distance of a number from the left edge, in pixels."""
+        """Return the horizontal position of a number in pixels."""
         groove, handle = self._groove(), self._handle_width()
         share = number / max(self.maximum(), 1)
         return round(groove.x() + handle / 2 + share * (groove.width() - handle))
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the marks below the slider: a line under what is kept where that is not all, ticks where it paused."""
+        """Paint the slider; below it a line for stored iterations, if not all are stored, and ticks for pauses."""
         super().paintEvent(event)
         painter = QPainter(self)
         y = self.height() - _STRIP
         if 0 < len(self._kept) < self.maximum() + 1:
-            for left, right in self._stretches():
+            for left, right in self._ranges():
                 x = self.place(left)
                 painter.fillRect(x, y, max(self.place(right) - x, 1), _STRIP, QColor(str(BLUE)))
         for number in self._marks:
@@ -51,20 +51,20 @@ class TrackSlider(QSlider):
             painter.fillRect(x, y - _STRIP, _MARK, 2 * _STRIP, QColor(str(WORSE)))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Go where it is pressed; from there the handle is dragged."""
+        """Move the handle to the pressed place, from where it can be dragged."""
         if event.button() is Qt.MouseButton.LeftButton:
             groove, handle = self._groove(), self._handle_width()
-            space = groove.width() - handle
-            at = round(event.position().x()) - groove.x() - handle // 2
-            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), at, space))
+            position = round(event.position().x()) - groove.x() - handle // 2
+            span = groove.width() - handle
+            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), position, span))
         super().mousePressEvent(event)
 
-    def _stretches(self) -> Iterable[tuple[float, float]]:
-        """Runs of numbers one after another, half a number wider on either side."""
+    def _ranges(self) -> Iterable[tuple[float, float]]:
+        """Return the ranges of consecutive stored iterations, extended by a quarter at both ends."""
         breaks = np.flatnonzero(np.diff(self._kept) > 1)
-        begins = self._kept[np.append(0, breaks + 1)]
+        starts = self._kept[np.append(0, breaks + 1)]
         ends = self._kept[np.append(breaks, len(self._kept) - 1)]
-        return zip(begins - 0.25, ends + 0.25, strict=True)
+        return zip(starts - 0.25, ends + 0.25, strict=True)
 
     def _option(self) -> QStyleOptionSlider:
         option = QStyleOptionSlider()

@@ -179,16 +179,19 @@ class _Views:
         for tile in tiles:
             tiles.aim(view.camera, whole, tile)
             rendered = self._render(mode, tiles.fine)
-            image.paste(rendered.crop((around, around, around + tile.width, around + tile.height)), (tile.left, tile.top))
+            image.paste(
+                rendered.crop((around, around, around + tile.width, around + tile.height)), (tile.left, tile.top)
+            )
         for layer in view.layers:
             window.RemoveRenderer(layer)
         return image.convert("RGBA") if mode == "RGBa" else image
 
+
 def _render(self, mode: str, fine: int) -> Image.Image:
-        """Render the stage and average its supersampled pixels."""
-        pixels = self._stage.picture(transparent=self._background is None)
-        image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
-        return image.reduce(fine) if fine > 1 else image
+    """Render the stage and average its supersampled pixels."""
+    pixels = self._stage.picture(transparent=self._background is None)
+    image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
+    return image.reduce(fine) if fine > 1 else image
 
 
 def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float) -> None:

@@ -50,7 +50,7 @@ def tell():
 
 session.opener.ended.connect(smooth)
 feature.recovery.written.connect(tell)
-feature.guard()
+feature.start_autosave()
 window.features["open"].open(Path(sys.argv[1]))
 app.exec()
 """
@@ -91,7 +91,7 @@ def run(window, qtbot):
 
 def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
     window, session = fresh_window, fresh_window.session
-    window.features["session"].guard()
+    window.features["session"].start_autosave()
     assert offered(window) == [f"{mesh_file.name} can be recovered"]
     (text,) = (text for _, title, text in window.messages.messages() if "recovered" in title)
     assert "with 1 run." in text
@@ -111,13 +111,13 @@ def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh
 
 def test_what_was_left_is_offered_again_unless_it_is_discarded(killed, fresh_window, own_state):
     feature = fresh_window.features["session"]
-    feature.guard()
+    feature.start_autosave()
     assert offered(fresh_window)
     fresh_window.messages.dismiss()
     assert not offered(fresh_window)  # not today
     feature.close()
     assert len(list(own_state.iterdir())) == 1
-    feature.guard()
+    feature.start_autosave()
     fresh_window.action("recover").trigger()
     assert offered(fresh_window)
     press(choice(fresh_window, "Discard"))
@@ -168,7 +168,7 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
         (own_state / "1-left/session.hexmend/arrays").mkdir(parents=True)
         (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
     feature = fresh_window.features["session"]
-    feature.guard()
+    feature.start_autosave()
     (left,) = feature.recovery.left
     with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
         feature.recovery.take_up(left)
@@ -216,8 +216,8 @@ def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
 def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
     (tmp_path / "state").write_text("in the way")
     feature = fresh_window.features["session"]
-    feature.guard()
-    feature.guard()
+    feature.start_autosave()
+    feature.start_autosave()
     (warning,) = fresh_window.messages.messages()
     assert "Autosave failed" in warning[1]
     assert not feature.recovery.watching

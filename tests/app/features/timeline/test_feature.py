@@ -1,4 +1,4 @@
-"""Watching a run in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
+"""The timeline in the window, by mouse and keys: scrubbing, playing, branching, breakpoints."""
 
 from pathlib import Path
 
@@ -19,12 +19,12 @@ ENDLESS = StoppingCriteria(tolerance=0.0, max_iterations=1_000_000)
 
 
 def named(widget, kind, name):
-    """The part of a widget that has this name."""
+    """Return the child of a widget with an accessible name."""
     return next(one for one in widget.findChildren(kind) if one.accessibleName() == name)
 
 
 def stepped(window, qtbot, iterations=12, method="local-sd"):
-    """Make so many iterations by the Step button, and hold."""
+    """Run a number of iterations by the Step button, and wait for the pause."""
     panel = window.features["smooth"].panel
     choose(window, method, ENDLESS)
     box = named(panel, QSpinBox, "Iterations per step")
@@ -47,20 +47,20 @@ def slider(window):
 
 
 def slider_place(window, number):
-    """Where a number stands on the slider."""
+    """Return the position of a number on the slider."""
     window.refresh()
     return QPoint(slider(window).place(number), slider(window).height() // 2)
 
 
 def go(window, qtbot, number):
-    """Press the slider where a number stands."""
+    """Press the slider at a number."""
     QTest.mouseClick(slider(window), LEFT, pos=slider_place(window, number))
     qtbot.waitUntil(at(window, number), timeout=PATIENCE)
     window.refresh()
 
 
 def said(window):
-    """The sentence below the buttons of the run."""
+    """Return the sentence below the buttons of the run."""
     window.refresh()
     return named(window.features["smooth"].panel, QLabel, "Outcome").text()
 
@@ -218,17 +218,17 @@ def test_memory_and_speed_are_remembered(window, qtbot):
     menu = named(window.features["timeline"].panel, QToolButton, "Timeline settings").menu()
     choices = {action.text(): action for action in menu.actions()}
     choices["128 MiB"].trigger()
-    choices["30 iterations"].trigger()
+    choices["30 iterations per second"].trigger()
     assert window.session.history.limit == 128 << 20
     assert window.session.timeline.speed == 30
     assert (QSettings().value("history_megabytes"), QSettings().value("iterations_played")) == (128, 30)
     window.refresh()
-    assert "Positions are kept of 5 of them" in slider(window).toolTip()
-    assert not choices["Forget this run"].isEnabled()  # it is under way
+    assert "5 of them are stored" in slider(window).toolTip()
+    assert not choices["Delete this run"].isEnabled()  # it is under way
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Stop")
     window.refresh()
-    choices["Forget this run"].trigger()
+    choices["Delete this run"].trigger()
     window.refresh()
     assert record not in window.session.history.records
     assert not window.window_actions["iteration_play"].isEnabled()
