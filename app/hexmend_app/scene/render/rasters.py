@@ -186,12 +186,11 @@ class _Views:
             window.RemoveRenderer(layer)
         return image.convert("RGBA") if mode == "RGBa" else image
 
-
-def _render(self, mode: str, fine: int) -> Image.Image:
-    """Render the stage and average its supersampled pixels."""
-    pixels = self._stage.picture(transparent=self._background is None)
-    image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
-    return image.reduce(fine) if fine > 1 else image
+    def _render(self, mode: str, fine: int) -> Image.Image:
+        """Render the stage and average its supersampled pixels."""
+        pixels = self._stage.picture(transparent=self._background is None)
+        image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
+        return image.reduce(fine) if fine > 1 else image
 
 
 def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float) -> None:
