@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu, QWidget
@@ -45,6 +45,14 @@ def always() -> bool:
     return True
 
 
+class ActionFace(NamedTuple):
+    """Text, icon and help of an action on buttons."""
+
+    text: str
+    icon: str
+    help: str
+
+
 @dataclass(frozen=True, kw_only=True)
 class Action:
     """A command of the user interface.
@@ -72,6 +80,8 @@ class Action:
         Returns True if it is on; None for an action that is not checkable.
     title : callable, optional
         Returns the present text, if it changes.
+    face : callable, optional
+        Returns the present text, icon and help on buttons, if they change.
     tool : str
         Text in the tool bar; "" for an action that is not in it.
     needs_mesh : bool
@@ -96,6 +106,7 @@ class Action:
     enabled: Callable[[], bool] = always
     checked: Callable[[], bool] | None = None
     title: Callable[[], str] | None = None
+    face: Callable[[], ActionFace] | None = None
     tool: str = ""
     needs_mesh: bool = True
     part: int = 0
@@ -249,4 +260,15 @@ def _differ(before: object, now: object) -> bool:
     return arrays or before != now
 
 
-__all__ = ["MENUS", "Action", "ChangeTracker", "Feature", "Host", "Panel", "PanelPlace", "StatePart", "always"]
+__all__ = [
+    "MENUS",
+    "Action",
+    "ActionFace",
+    "ChangeTracker",
+    "Feature",
+    "Host",
+    "Panel",
+    "PanelPlace",
+    "StatePart",
+    "always",
+]

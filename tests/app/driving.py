@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QImage, QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QPushButton, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QCheckBox, QComboBox, QWidget
 
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
@@ -31,7 +31,7 @@ def click(window, text):
     press(
         next(
             b
-            for b in window.features["smooth"].panel.findChildren(QPushButton)
+            for b in window.features["smooth"].panel.findChildren(QAbstractButton)
             if b.accessibleName() == text and b.isVisible()
         )
     )

@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
-from hexmend_app.feature import MENUS, Action
+from hexmend_app.feature import MENUS, Action, ActionFace
 from hexmend_app.shell.mnemonics import letter_of, letters, marked
 from hexmend_app.theme.style import icon
 
@@ -76,14 +76,9 @@ class Menus:
         if declared.id in self._declared:
             raise ValueError(f"two features declare an action {declared.id!r}")
         action = QAction(declared.text, self._window)
-        if declared.icon:
-            action.setIcon(icon(declared.icon))
-        if declared.tool:
-            action.setIconText(declared.tool)
-        keys = f" ({declared.keys})" if declared.keys else ""
         action.setShortcut(QKeySequence(declared.keys))
-        action.setToolTip(f"<qt>{declared.help}{keys}</qt>")
-        action.setStatusTip(declared.help)
+        action.setProperty("name", declared.text.replace("&", "").rstrip("…"))
+        _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", declared.menu.rpartition("/")[2] if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
         handle = declared.handle
@@ -108,6 +103,10 @@ class Menus:
             action.setEnabled((is_open or not declared.needs_mesh) and declared.enabled())
             if declared.checked is not None:
                 action.setChecked(declared.checked())
+            if declared.face is not None:
+                face = declared.face()
+                action.setProperty("name", face.text)
+                _show_face(action, face)
             if declared.title is not None:
                 action.setText(marked(declared.title(), letter_of(action.text())))
                 action.setIconText(declared.tool or declared.text.replace("&", ""))
@@ -129,6 +128,21 @@ class Menus:
                 menu.addAction(self.actions[id])
                 before = declared.menu
         return menu
+
+
+def _show_face(action: QAction, face: ActionFace) -> None:
+    """Show text, icon and help of an action on its buttons; without a text, they show that of the menu."""
+    if action.property("face") == list(face):
+        return
+    action.setProperty("face", list(face))
+    if face.icon:
+        action.setProperty("icon_name", face.icon)
+        action.setIcon(icon(face.icon))
+    if face.text:
+        action.setIconText(face.text)
+    keys = action.shortcut().toString(QKeySequence.SequenceFormat.PortableText)
+    action.setToolTip(f"<qt>{face.help}{f' ({keys})' if keys else ''}</qt>")
+    action.setStatusTip(face.help)
 
 
 def _give_letters(actions: Sequence[QAction]) -> None:

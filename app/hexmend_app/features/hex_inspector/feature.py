@@ -178,6 +178,8 @@ class FeatureInspect(Feature):
 
     def refresh(self) -> None:
         """Update the selection and the list of the worst hexes."""
+        if self._seen.changed("actions", True):
+            self.worst_list.show_actions(self.host.action("previous_worst"), self.host.action("next_worst"))
         if not self._document.is_open:
             return
         now, selection = self._document.now, self._selection

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, Qt, Signal
-from PySide6.QtGui import QShowEvent
+from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -24,6 +24,7 @@ from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import Worst
 from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import counted
@@ -75,11 +76,9 @@ class WorstList(QWidget):
         self._isolate = QCheckBox("Isolate")
         self._isolate.setChecked(True)
         set_help(self._isolate, "Isolate", "Show only the selected hex and its neighbours; Esc shows all hexes again.")
-        self._previous = self._button("chevron-up", "Previous", "Go to the previous hex in the list (Shift+N).")
-        self._next = self._button("chevron-down", "Next", "Go to the next hex in the list (N).")
-        self._save = self._button("content-save-outline", "Save list", "Save the list as CSV, one line per hex.")
-        self._previous.clicked.connect(self.previous)
-        self._next.clicked.connect(self.next)
+        self._previous, self._next = ActionButton("chevron-up"), ActionButton("chevron-down")
+        self._save = QPushButton(icon("content-save-outline"), "")  # no text: the dock is narrow
+        set_help(self._save, "Save list", "Save the list as CSV, one line per hex.")
         self._save.clicked.connect(self.save_requested)
         self._model = WorstModel(self)
         self._table = self._make_table()
@@ -88,10 +87,10 @@ class WorstList(QWidget):
         self._lay_out()
         self._refresh()
 
-    def _button(self, icon_name: str, name: str, help: str) -> QPushButton:
-        button = QPushButton(icon(icon_name), "")  # no text: the dock is narrow
-        set_help(button, name, help)
-        return button
+    def show_actions(self, previous: QAction, next: QAction) -> None:
+        """Show the actions that go through the list."""
+        self._previous.show_action(previous)
+        self._next.show_action(next)
 
     def _make_table(self) -> QTableView:
         table = QTableView()
@@ -191,8 +190,7 @@ class WorstList(QWidget):
 
     def _refresh(self) -> None:
         mesh, figures = self._mesh, self._figures
-        for button in (self._previous, self._next, self._save):
-            button.setEnabled(mesh is not None)
+        self._save.setEnabled(mesh is not None)
         if mesh is None:
             self._text.setText("No mesh is open.")
             return

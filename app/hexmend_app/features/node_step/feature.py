@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QTimer
 
 from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.node_step.panel import NodePanel
+from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.appearance import Isolation
 
 #: Milliseconds until the panel reports that the step is being computed.
 _COMPUTING_DELAY = 200
+
+
+#: Actions of a sweep: id, amount, text in the menu, keys, text on the button, help.
+_SWEEP = (
+    ("next_node", "next", "Next &node of sweep", "F11", "Next node", "Move the next node of a local method's sweep."),
+    ("ten_nodes", "ten", "Ten nodes of s&weep", "Shift+F11", "10 nodes", "Move the next ten nodes of the sweep."),
+    ("finish_sweep", "finish", "&Finish sweep", "Ctrl+F11", "Finish", "Move all remaining nodes of the sweep."),
+)
 
 
 class FeatureNode(Feature):
@@ -34,6 +43,7 @@ class FeatureNode(Feature):
         self._request: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
+        self._seen = ChangeTracker()
         panel = self.panel = NodePanel()
         self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
         self._computing_timer.timeout.connect(
@@ -42,7 +52,6 @@ class FeatureNode(Feature):
         session.node_step_task.answered.connect(self._computing_timer.stop)
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
         panel.patch_toggled.connect(self._on_patch_toggled)
-        panel.requested.connect(self._advance)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that explain a node and run a sweep node by node."""
@@ -57,30 +66,22 @@ class FeatureNode(Feature):
                 handle=self._explain_node,
                 in_view=True,
             ),
-            *(
-                Action(
-                    id=id,
-                    text=text,
-                    menu="Smooth",
-                    part=3,
-                    keys=keys,
-                    help=help,
-                    handle=lambda amount=amount: self._advance(amount),
-                    enabled=lambda: not self._reason_for_no_sweep(),
-                )
-                for id, amount, text, keys, help in (
-                    (
-                        "next_node",
-                        "next",
-                        "Next &node of sweep",
-                        "F11",
-                        "Move the next node of a local method's sweep.",
-                    ),
-                    ("ten_nodes", "ten", "Ten nodes of s&weep", "Shift+F11", "Move the next ten nodes of the sweep."),
-                    ("finish_sweep", "finish", "&Finish sweep", "Ctrl+F11", "Move all remaining nodes of the sweep."),
-                )
-            ),
+            *self._sweep_actions(),
         )
+
+    def _sweep_actions(self) -> Iterator[Action]:
+        for id, amount, text, keys, label, help in _SWEEP:
+            yield Action(
+                id=id,
+                text=text,
+                menu="Smooth",
+                part=3,
+                keys=keys,
+                help=help,
+                handle=partial(self._advance, amount),
+                enabled=lambda: not self._reason_for_no_sweep(),
+                face=lambda label=label, help=help: ActionFace(label, "", self._reason_for_no_sweep() or help),
+            )
 
     def states(self) -> Sequence[StatePart]:
         """The isolation of the patch of the node."""
@@ -104,7 +105,9 @@ class FeatureNode(Feature):
     def refresh(self) -> None:
         """Show the step of the selected node, or the reason why it has none."""
         sweep = self._node_sweep.sweep
-        self.panel.set_sweep(self._reason_for_no_sweep(), *((sweep.done, sweep.nodes.size) if sweep else ()))
+        if self._seen.changed("actions", True):
+            self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
+        self.panel.set_sweep(*((sweep.done, sweep.nodes.size) if sweep else ()))
         if self._view.look.isolation != self._isolation:
             self._isolation = None
             self.panel.set_patch(False)

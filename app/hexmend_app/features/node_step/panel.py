@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QFont
+from PySide6.QtGui import QAction, QFont
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QSizePolicy,
     QStackedLayout,
     QVBoxLayout,
@@ -23,14 +22,12 @@ from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import displayed_status, rows
 from hexmend_app.theme.palette import OTHERWISE, SEARCH, TAKEN, TRIED, UPHILL
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
+from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.link_label import LinkLabel
 
-_BUTTONS = {
-    "next": ("Next node", "Move the next node of the sweep and show its step (F11)."),
-    "ten": ("10 nodes", "Move the next ten nodes of the sweep (Shift+F11)."),
-    "finish": ("Finish", "Move all remaining nodes of the sweep (Ctrl+F11)."),
-}
+#: Actions of a sweep.
+SWEEP = ("next_node", "ten_nodes", "finish_sweep")
 _LEGEND = (
     ("gradient", UPHILL, "Gradient of the energy with respect to the node: uphill. Its length has no meaning."),
     ("direction", SEARCH, "Search direction, or the direction to the target position. Its length has no meaning."),
@@ -48,13 +45,10 @@ class NodePanel(QWidget):
         The user selected this node.
     patch_toggled(bool)
         The user isolated the hexes of the node, or ended the isolation.
-    requested(name)
-        The user pressed a button of the sweep: "next", "ten" or "finish".
     """
 
     node_chosen = Signal(int)
     patch_toggled = Signal(bool)
-    requested = Signal(str)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
@@ -80,18 +74,13 @@ class NodePanel(QWidget):
         self._patch = QCheckBox("Isolate patch")
         set_help(self._patch, "Isolate patch", "Show only the hexes of the node; Esc shows all hexes again.")
         self._patch.toggled.connect(self.patch_toggled)
-        self._buttons = {name: QPushButton(text) for name, (text, _) in _BUTTONS.items()}
-        for name, button in self._buttons.items():
-            text = button.fontMetrics().horizontalAdvance(button.text())
-            button.setMinimumWidth(text + 16)  # less than the style's minimum, which is too wide for a narrow window
-            button.clicked.connect(lambda _=False, name=name: self.requested.emit(name))
+        self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
         self._progress.setAccessibleName("Progress of the sweep")
         tint(self._progress, MUTED)
         self._legend = self._make_legend()
         self._lay_out()
-        self.set_sweep("")
         self.show_message("")
 
     def _make_legend(self) -> QWidget:
@@ -181,11 +170,13 @@ class NodePanel(QWidget):
         links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
         self._nodes.setText(f"Free nodes: {' '.join(links) or 'none'}")
 
-    def set_sweep(self, reason: str, done: int = 0, total: int = 0) -> None:
-        """Show the progress of the sweep; a `reason` against a sweep disables its buttons and is their tooltip."""
+    def show_actions(self, actions: Mapping[str, QAction]) -> None:
+        """Show the actions of `SWEEP` on the buttons."""
         for name, button in self._buttons.items():
-            button.setEnabled(not reason)
-            set_help(button, _BUTTONS[name][0], reason or _BUTTONS[name][1])
+            button.show_action(actions[name])
+
+    def set_sweep(self, done: int = 0, total: int = 0) -> None:
+        """Show the progress of the sweep."""
         self._progress.setText(f"{done:,} of {total:,} nodes" if done else "")
 
     def set_patch(self, on: bool) -> None:

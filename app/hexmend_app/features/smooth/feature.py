@@ -9,7 +9,8 @@ from hexmend.run.memory import Shortage
 from hexmend.run.recipe import Recipe
 from hexmend.smoothers import METHODS
 from hexmend_app.codec.checks import check_count
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
@@ -39,15 +40,12 @@ class FeatureSmooth(Feature):
         panel.change_requested.connect(smoothing.change)
         panel.pause_requested.connect(smoothing.pause)
         panel.resume_requested.connect(smoothing.resume)
-        panel.stop_requested.connect(smoothing.stop)
-        panel.reset_requested.connect(commands.reset)
         panel.breakpoint_form.changed.connect(smoothing.break_at)
         smoothing.failed.connect(self._on_failed)
         smoothing.hit.connect(self._on_hit)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that control a run."""
-        ready = self._ready
         return (
             Action(
                 id="run",
@@ -57,17 +55,18 @@ class FeatureSmooth(Feature):
                 icon="play",
                 help="Run the selected method; pause or resume a run.",
                 handle=self.panel.run_or_pause,
-                enabled=ready,
+                enabled=lambda: self._ready() and self._state().run,
+                face=lambda: ActionFace(*self._state()[:3]),
             ),
             Action(
                 id="step",
                 text="&Step",
                 menu="Smooth",
                 keys="F10",
-                icon="step-forward",
+                icon="skip-next",
                 help="Run the number of iterations set in the panel, then pause.",
                 handle=self.panel.step,
-                enabled=ready,
+                enabled=lambda: self._ready() and self._state().step,
             ),
             Action(
                 id="stop",
@@ -75,9 +74,9 @@ class FeatureSmooth(Feature):
                 menu="Smooth",
                 keys="Shift+F5",
                 icon="stop",
-                help="Stop the run and keep its result.",
+                help="Stop the run after this iteration and keep its result.",
                 handle=self._smoothing.stop,
-                enabled=lambda: self._smoothing.busy and self._smoothing.phase is not Phase.STOPPING,
+                enabled=lambda: self._state().stop,
             ),
             Action(
                 id="reset",
@@ -87,7 +86,7 @@ class FeatureSmooth(Feature):
                 icon="restore",
                 help="Restore all node positions of the mesh as it was opened.",
                 handle=self.session.commands.reset,
-                enabled=ready,
+                enabled=lambda: self._ready() and self._state().reset,
             ),
         )
 
@@ -120,7 +119,7 @@ class FeatureSmooth(Feature):
         """Show the progress of the run, or the run that produced the displayed mesh."""
         session, phase = self.session, self._smoothing.phase
         if self._seen.changed("actions", True):
-            self.panel.set_shortcuts({id: self.host.action(id).shortcut().toString() for id in _BUTTONS})
+            self.panel.buttons.show_actions({id: self.host.action(id) for id in _BUTTONS})
         self.panel.setEnabled(self._ready())
         selection, form = session.selection, self.panel.breakpoint_form
         if self._seen.changed("selection", selection.hex, selection.node):
@@ -131,14 +130,22 @@ class FeatureSmooth(Feature):
             form.set_breakpoints(breakpoints)  # the controller has already removed those of the old mesh
         if phase is not Phase.PAUSED:
             self._hit = None
-        moved = session.document.is_open and session.document.now is not session.document.start
-        self.panel.set_state("finished" if phase is Phase.IDLE and moved else phase.value)
+        self.panel.set_state(self._state_name())
         self._show_busy()
         self.panel.set_status(*self._status())
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
         self.refresh()
+
+    def _state_name(self) -> str:
+        """Return the name of the state of the run in `STATES`."""
+        document, phase = self.session.document, self._smoothing.phase
+        moved = document.is_open and document.now is not document.start
+        return "finished" if phase is Phase.IDLE and moved else phase.value
+
+    def _state(self) -> RunState:
+        return STATES[self._state_name()]
 
     def _ready(self) -> bool:
         return self.session.document.is_open and not self.session.opener.busy

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QScrollArea, QSpinBox, QVBoxLayout, QWidget
@@ -35,7 +33,7 @@ class SmoothingPanel(QWidget):
         Not sent while a value is invalid.
     change_requested(Stage)
         Sent before a paused run is resumed with other settings.
-    pause_requested, resume_requested, stop_requested, reset_requested
+    pause_requested, resume_requested
 
     Parameters
     ----------
@@ -52,8 +50,6 @@ class SmoothingPanel(QWidget):
     change_requested = Signal(object)
     pause_requested = Signal()
     resume_requested = Signal()
-    stop_requested = Signal()
-    reset_requested = Signal()
 
     def __init__(self, setup: RunSetup, parent: QWidget | None = None):
         super().__init__(parent)
@@ -74,7 +70,6 @@ class SmoothingPanel(QWidget):
             Section("Pause when", self.breakpoint_form, "Breakpoints: events at which a run pauses."),
         )
         self.buttons = RunButtons()
-        self.buttons.pressed.connect(self._on_button)
 
         self._steps = QSpinBox()
         self._steps.setRange(1, 9999)
@@ -122,12 +117,7 @@ class SmoothingPanel(QWidget):
     def set_state(self, state: str) -> None:
         """Enable the controls of a state: "idle", "preparing", "stopping", "running", "paused" or "finished"."""
         self._state = state
-        self.buttons.set_state(state, True)
         self.stage.set_enabled(STATES[state].edit)
-
-    def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
-        """Name the keys of "run", "step", "stop" and "reset" in the tooltips; whoever owns the actions binds them."""
-        self.buttons.set_shortcuts(shortcuts)
 
     def set_status(self, iteration: int | None = None, seconds: float | None = None, sentence: str = "") -> None:
         """Show the progress of a run (seconds spent in the method) and a sentence about its state or outcome."""
@@ -186,14 +176,6 @@ class SmoothingPanel(QWidget):
         if stage != self._setup.begun:
             self._setup.begun = stage
             self.change_requested.emit(stage)
-
-    def _on_button(self, name: str) -> None:
-        {
-            "run": self.run_or_pause,
-            "step": self.step,
-            "stop": self.stop_requested.emit,
-            "reset": self.reset_requested.emit,
-        }[name]()
 
     def _show_problem(self) -> None:
         """Show the first invalid value and a message until it is corrected."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
+from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.settings import settings
@@ -33,7 +33,7 @@ class FeatureTimeline(Feature):
         bar = self.panel = TimelineBar()
         bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
-        bar.pressed.connect(lambda name: self._on_pressed()[name]())
+        bar.delete_requested.connect(lambda: timeline.forget(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
@@ -51,12 +51,11 @@ class FeatureTimeline(Feature):
                 keys=keys,
                 icon=icon,
                 help=help,
-                handle=lambda name=name: self._on_pressed()[name](),
-                enabled=lambda name=name: (
-                    self._timeline.record is not None and not (name == "branch" and self.session.opener.busy)
-                ),
+                handle=handle,
+                enabled=lambda name=name: self._timeline.record is not None and self._can()[name],
+                face=self._play_face if name == "play" else None,
             )
-            for name, text, keys, icon, help in _STEPS
+            for (name, text, keys, icon, help), handle in zip(_STEPS, self._handles(), strict=True)
         ]
 
     def panels(self) -> Sequence[Panel]:
@@ -74,9 +73,8 @@ class FeatureTimeline(Feature):
     def refresh(self) -> None:
         """Show the runs, and the run and iteration displayed."""
         timeline, history = self._timeline, self.session.history
-        if self._seen.changed("keys", True):
-            keys = {name: self.host.action(f"iteration_{name}").shortcut().toString() for name, *_ in _STEPS}
-            self.panel.set_shortcuts(keys)
+        if self._seen.changed("actions", True):
+            self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
         self.panel.setVisible(self.session.document.is_open)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])
@@ -87,26 +85,47 @@ class FeatureTimeline(Feature):
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
                 self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
-        moment = timeline.moment
-        in_run = moment is not None and moment.record is record
-        self.panel.set_number(moment.number if in_run else None, timeline.live)
-        self.panel.set_playing(timeline.playing)
+        self.panel.set_number(self._number)
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
         self.refresh()
 
-    def _on_pressed(self) -> dict[str, Callable]:
-        timeline = self._timeline
+    @property
+    def _number(self) -> int | None:
+        """The displayed iteration of the run; None if the displayed mesh is not one of its iterations."""
+        moment = self._timeline.moment
+        return moment.number if moment is not None and moment.record is self._timeline.record else None
+
+    def _can(self) -> dict[str, bool]:
+        """Return which actions are possible; there is a run."""
+        timeline, number = self._timeline, self._number
+        newest, going = timeline.record.newest, self._smoothing.busy and timeline.record is self._smoothing.record
         return {
-            "first": lambda: timeline.step(-timeline.record.newest),
-            "back": lambda: timeline.step(-1),
-            "play": lambda: timeline.pause() if timeline.playing else timeline.play(),
-            "on": lambda: timeline.step(1),
-            "newest": timeline.go_to_newest,
-            "branch": lambda: self.session.run_setup.use(self.session.commands.branch),
-            "forget": lambda: timeline.forget(timeline.record),
+            "first": number != 0,
+            "back": number != 0,
+            "play": True,
+            "on": number != newest and not timeline.live,
+            "newest": not timeline.live and (number != newest or going),
+            "branch": not self.session.opener.busy,
         }
+
+    def _play_face(self) -> ActionFace:
+        if self._timeline.playing:
+            return ActionFace("Pause", "pause", "Pause the playback.")
+        return ActionFace("Play", "play", "Play the iterations.")
+
+    def _handles(self) -> tuple[Callable[[], object], ...]:
+        """Return the functions of the actions, in their order."""
+        timeline = self._timeline
+        return (
+            lambda: timeline.step(-timeline.record.newest),
+            lambda: timeline.step(-1),
+            lambda: timeline.pause() if timeline.playing else timeline.play(),
+            lambda: timeline.step(1),
+            timeline.go_to_newest,
+            lambda: self.session.run_setup.use(self.session.commands.branch),
+        )
 
     def _set_limit(self, megabytes: int) -> None:
         self.session.history.limit = megabytes << 20

@@ -11,19 +11,15 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton
 
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.wording import counted, size
 
 #: Options for the memory of node positions, in MB, and for the playback speed, in iterations per second.
 LIMITS, SPEEDS = (128, 256, 512, 1024, 2048, 4096), (2, 5, 10, 20, 30)
 
-_STEPS = (
-    ("first", "skip-backward", "Start of the run", "Show the mesh before the run."),
-    ("back", "step-backward", "Previous iteration", "Show the previous iteration."),
-    ("play", "play", "Play", "Play the iterations."),
-    ("on", "step-forward", "Next iteration", "Show the next iteration."),
-    ("newest", "skip-forward", "Latest iteration", "Show the latest iteration and follow the run."),
-)
+#: Actions on buttons next to the slider.
+_STEPS = ("first", "back", "play", "on", "newest")
 
 
 class TimelineBar(QWidget):
@@ -35,15 +31,15 @@ class TimelineBar(QWidget):
         The user has selected a run, by its index in the list.
     number_chosen(int)
         The user has selected an iteration of the run.
-    pressed(name)
-        "first", "back", "play", "on", "newest", "branch" or "forget".
+    delete_requested
+        The user wants to delete the run.
     limit_changed(int), speed_changed(int)
         In megabytes, and in iterations per second.
     """
 
     run_chosen = Signal(int)
     number_chosen = Signal(int)
-    pressed = Signal(str)
+    delete_requested = Signal()
     limit_changed = Signal(int)
     speed_changed = Signal(int)
 
@@ -53,17 +49,16 @@ class TimelineBar(QWidget):
         let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
         set_help(self._runs, "Run", "Run shown in the timeline.")
-        self._keys: dict[str, str] = {}
-        self._buttons = {name: self._tool(name, icon_name, text) for name, icon_name, text, _ in _STEPS}
-        self._playing = False
+        self._buttons = {name: ActionButton() for name in _STEPS}
+        self._branch = ActionButton(with_text=True)
+        for button in (*self._buttons.values(), self._branch):
+            button.setAutoRaise(True)
         self._slider = TrackSlider()
         self._slider.valueChanged.connect(self.number_chosen)
         set_help(self._slider, "Iteration", "Displayed iteration.")
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
         self._at.setAccessibleName("Iteration shown")
-        self._branch = self._tool("branch", "source-branch", "Run from here")
-        self._branch.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self._more = QToolButton()
         self._more.setIcon(icon("cog-outline"))
         self._more.setAutoRaise(True)
@@ -82,7 +77,6 @@ class TimelineBar(QWidget):
         layout.addSpacing(4)
         for widget in (self._at, self._branch, self._more):
             layout.addWidget(widget)
-        self._explain()
         self.set_runs(())
 
     def set_runs(self, names: Sequence[tuple[str, str]]) -> None:
@@ -92,12 +86,12 @@ class TimelineBar(QWidget):
             for at, (name, help) in enumerate(names):
                 self._runs.addItem(name)
                 self._runs.setItemData(at, help, Qt.ItemDataRole.ToolTipRole)
-        for widget in (self._runs, self._slider, self._branch, *self._buttons.values()):
+        for widget in (self._runs, self._slider):
             widget.setEnabled(bool(names))
         if not names:
             self._runs.setPlaceholderText("No runs")
             self.set_track(0, np.zeros(1, np.int64), {}, 0)
-            self.set_number(None, False)
+            self.set_number(None)
 
     def set_run(self, at: int) -> None:
         """Select a run in the list."""
@@ -125,8 +119,8 @@ class TimelineBar(QWidget):
             self._slider.setToolTip(tip)
         self._used.setText(f"In use: {size(used)}")
 
-    def set_number(self, number: int | None, live: bool) -> None:
-        """Show the number of the displayed iteration; None if it is not in the run. `live` is True while following."""
+    def set_number(self, number: int | None) -> None:
+        """Show the number of the displayed iteration; None if it is not in the run."""
         newest = self._slider.maximum()
         if number is not None and not self._slider.isSliderDown():
             with QSignalBlocker(self._slider):
@@ -134,16 +128,6 @@ class TimelineBar(QWidget):
         self._at.setText(f"{'–' if number is None else number} of {newest}" if self._runs.count() else "")
         longest = max(newest, 999)  # keeps the slider in place under the pointer
         self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(f"{longest} of {longest}"))
-        back = number is None or number > 0
-        for name, on in (("first", back), ("back", back), ("on", number != newest), ("newest", number != newest)):
-            self._buttons[name].setEnabled(on and self._runs.count() > 0 and not (live and name in ("on", "newest")))
-
-    def set_playing(self, playing: bool) -> None:
-        """Show whether the iterations are playing."""
-        if playing != self._playing:
-            self._playing = playing
-            self._buttons["play"].setIcon(icon("pause" if playing else "play"))
-            self._explain()
 
     def set_settings(self, limit: int, speed: int) -> None:
         """Show the memory limit in MB and the playback speed in iterations per second."""
@@ -155,22 +139,14 @@ class TimelineBar(QWidget):
         """Enable or disable deleting the run."""
         self._delete.setEnabled(on)
 
-    def set_shortcuts(self, shortcuts: Mapping[str, str]) -> None:
-        """Name the keys of the buttons in their tooltips."""
-        self._keys = dict(shortcuts)
-        self._explain()
+    def show_actions(self, actions: Mapping[str, QAction]) -> None:
+        """Show the actions "first", "back", "play", "on", "newest" and "branch"."""
+        for name, action in actions.items():
+            self.button(name).show_action(action)
 
-    def button(self, name: str) -> QToolButton:
-        """Return the button with a name that `pressed` sends."""
+    def button(self, name: str) -> ActionButton:
+        """Return the button of an action."""
         return self._branch if name == "branch" else self._buttons[name]
-
-    def _tool(self, name: str, icon_name: str, text: str) -> QToolButton:
-        button = QToolButton()
-        button.setIcon(icon(icon_name))
-        button.setText(text)
-        button.setAutoRaise(True)
-        button.clicked.connect(lambda: self.pressed.emit(name))
-        return button
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
@@ -181,7 +157,7 @@ class TimelineBar(QWidget):
         menu.addSection("Playback speed")
         self._speeds = self._options(menu, SPEEDS, lambda n: f"{n} iterations per second", self.speed_changed)
         menu.addSeparator()
-        self._delete = menu.addAction("Delete this run", lambda: self.pressed.emit("forget"))
+        self._delete = menu.addAction("Delete this run", self.delete_requested.emit)
         return menu
 
     def _options(
@@ -194,12 +170,3 @@ class TimelineBar(QWidget):
             menu.addAction(action)
         group.triggered.connect(lambda action: chosen.emit(action.data()))
         return group
-
-    def _explain(self) -> None:
-        texts = {name: (text, help) for name, _, text, help in _STEPS}
-        if self._playing:
-            texts["play"] = "Pause", "Pause the playback."
-        texts["branch"] = "Run from here", "Start a new run from the displayed iteration."
-        for name, (text, help) in texts.items():
-            keys = f" ({self._keys[name]})" if self._keys.get(name) else ""
-            set_help(self.button(name), text, f"{help}{keys}")

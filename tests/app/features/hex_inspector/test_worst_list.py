@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QTableView
+from PySide6.QtWidgets import QAbstractButton, QComboBox, QLabel, QPushButton, QTableView
 
 from hexmend.quality import METRICS, measure
 from hexmend_app.features.hex_inspector.worst_file import write_worst
@@ -23,11 +24,15 @@ def worst_list(qtbot):
     widget.resize(600, 300)
     widget.show()
     widget.set_figures(MESH, FIGURES)
+    actions = QAction("Previous", widget), QAction("Next", widget)
+    for action, handle in zip(actions, (widget.previous, widget.next), strict=True):
+        action.triggered.connect(handle)
+    widget.show_actions(*actions)
     return widget
 
 
 def button(widget, text):
-    return next(b for b in widget.findChildren(QPushButton) if b.accessibleName() == text)
+    return next(b for b in widget.findChildren(QAbstractButton) if b.accessibleName() == text)
 
 
 def row_at(widget, row):
@@ -114,7 +119,7 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
     assert state == "inverted"
 
 
-def test_without_a_mesh_all_buttons_are_disabled(qtbot):
+def test_without_a_mesh_nothing_can_be_saved_or_gone_to(qtbot):
     widget = WorstList()
     qtbot.addWidget(widget)
     assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))

@@ -6,7 +6,7 @@ from html import unescape
 
 import numpy as np
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton
+from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel
 
 from tests.app.driving import named
 from tests.patience import PATIENCE
@@ -31,7 +31,7 @@ def wait_for_step(window, qtbot, method, node=None):
 
 
 def button(window, text):
-    return next(b for b in window.features["node_step"].panel.findChildren(QPushButton) if b.text() == text)
+    return next(b for b in window.features["node_step"].panel.findChildren(QAbstractButton) if b.text() == text)
 
 
 def patch_box(window):

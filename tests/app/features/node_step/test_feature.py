@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QLabel, QPushButton, QTabBar
+from PySide6.QtWidgets import QAbstractButton, QLabel, QTabBar
 
 from hexmend.node_step import explain
 from hexmend.smoothers import METHODS
@@ -231,8 +231,10 @@ def test_no_text_is_cut_off(node_window, qtbot, size):
     qtbot.waitUntil(lambda: panel.mapTo(window, panel.rect().bottomRight()).x() < tools.mapTo(window, QPoint()).x())
     assert window.width() == size[0]
     labels = [named(panel, QLabel, name) for name in ("Node", "Progress of the sweep")]
-    for part in [*panel.findChildren(QPushButton), patch_box(window), *labels]:
-        assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(part, QPushButton)
+    for part in [*panel.findChildren(QAbstractButton), patch_box(window), *labels]:
+        assert part.width() >= part.fontMetrics().horizontalAdvance(part.text()) + 12 * isinstance(
+            part, QAbstractButton
+        )
         assert panel.rect().contains(part.mapTo(panel, part.rect().bottomRight())), part.text()
     assert panel.figures.document().idealWidth() <= panel.figures.viewport().width()
     assert min(panel.figures.height(), panel.plot.height()) > 100

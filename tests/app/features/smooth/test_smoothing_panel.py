@@ -11,6 +11,7 @@ from hexmend.smoothers import METHODS
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.widgets.section import Section
+from tests.patience import PATIENCE
 
 _LEFT = Qt.MouseButton.LeftButton
 _STATES = ("idle", "preparing", "running", "paused", "finished")
@@ -19,8 +20,6 @@ _SIGNALS = (
     "step_requested",
     "pause_requested",
     "resume_requested",
-    "stop_requested",
-    "reset_requested",
 )
 _STAGE = Stage(METHODS["getme"](scaling=0.25), StoppingCriteria(max_iterations=7))
 
@@ -55,42 +54,25 @@ def sections(panel):
     return panel.findChildren(Section)
 
 
-def click(panel, name):
-    QTest.mouseClick(panel.buttons.button(name), _LEFT)
-
-
 def test_run_asks_with_what_is_set(panel, heard):
-    click(panel, "run")
-    click(panel, "step")
+    panel.run_or_pause()
+    panel.step()
     assert heard == [("run_requested", _STAGE), ("step_requested", _STAGE, 1)]
 
 
 def test_the_main_button_runs_pauses_and_resumes(panel, heard):
-    said = []
     for state in _STATES:
         panel.set_state(state)
-        said.append(panel.buttons.button("run").text())
-        click(panel, "run")
-    assert said == ["Run", "Preparing", "Pause", "Resume", "Run"]
+        panel.run_or_pause()
     assert [call[0] for call in heard] == ["run_requested", "pause_requested", "resume_requested", "run_requested"]
 
 
 @pytest.mark.parametrize("state", _STATES)
-def test_a_run_can_be_stopped_exactly_while_there_is_one_and_nothing_is_edited_as_it_runs(panel, heard, state):
+def test_nothing_is_edited_while_a_run_is_active(panel, state):
     panel.set_state(state)
-    under_way = state in ("preparing", "running", "paused")
-    click(panel, "stop")
-    assert heard == ([("stop_requested",)] if under_way else [])
     method = named(panel, QComboBox, "Method")
     assert panel.stage.parameters.isEnabled() is panel.stage.stop.isEnabled() is method.isEnabled()
-    assert panel.stage.parameters.isEnabled() is (state == "paused" or not under_way)
-
-
-def test_reset_is_offered_once_there_is_something_to_reset(panel, heard):
-    for state in ("idle", "running", "paused", "finished"):
-        panel.set_state(state)
-        click(panel, "reset")
-    assert heard == [("reset_requested",)] * 2
+    assert panel.stage.parameters.isEnabled() is (state in ("idle", "paused", "finished"))
 
 
 def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
@@ -110,7 +92,7 @@ def test_what_somebody_else_chooses_is_shown(panel, setup, heard):
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
     assert panel.stage.stop.values()["max_iterations"] == 3
     assert heard == []
-    click(panel, "run")
+    panel.run_or_pause()
     assert heard == [("run_requested", setup.stage)]
 
 
@@ -119,11 +101,11 @@ def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, setup):
     panel.change_requested.connect(changes.append)
     setup.begun = setup.stage
     panel.set_state("paused")
-    click(panel, "run")
+    panel.run_or_pause()
     assert changes == []
     panel.stage.parameters.editor("scaling").setFocus()
     panel.stage.parameters.editor("scaling").stepUp()
-    click(panel, "run")
+    panel.run_or_pause()
     assert changes == [setup.stage]
     assert setup.stage.smoother.scaling > 0.25
 
@@ -138,9 +120,8 @@ def test_a_wrong_value_is_led_to_instead_of_run_with(panel, setup, heard):
     assert setup.stage is None
     assert setup.smoother is None
     parameters.collapse()
-    panel.buttons.button("run").setFocus()
-    click(panel, "run")
-    click(panel, "step")
+    panel.run_or_pause()
+    panel.step()
     assert heard == []
     assert "Correct" in named(panel, QLabel, "Outcome").text()
     assert editor.isVisible()
@@ -156,12 +137,23 @@ def test_status_says_how_far_it_is_and_wraps_the_outcome(panel, qtbot):
     assert sentence.width() <= panel.width()
 
 
-def test_shortcuts_are_told_in_the_tooltips_in_every_state(panel):
-    panel.set_shortcuts({"run": "F5", "reset": "Ctrl+R"})
-    for state in _STATES:
-        panel.set_state(state)
-        assert "(F5)" in panel.buttons.button("run").toolTip()
-        assert "(Ctrl+R)" in panel.buttons.button("reset").toolTip()
+def test_buttons_show_their_actions(window, qtbot):
+    window.show_panel("run")
+    buttons = window.features["smooth"].panel.buttons
+    for name, keys in (("run", "F5"), ("step", "F10"), ("stop", "Shift+F5"), ("reset", "Ctrl+R")):
+        action, button = window.action(name), buttons.button(name)
+        assert button.defaultAction() is action
+        assert f"({keys})" in button.toolTip()
+        assert button.isEnabled() is action.isEnabled()
+    assert buttons.button("run").text() == buttons.button("run").accessibleName() == "Run"
+    QTest.mouseClick(buttons.button("step"), _LEFT)
+    qtbot.waitUntil(lambda: buttons.button("run").text() == "Resume", timeout=PATIENCE)
+    assert window.action("run").iconText() == "Resume"
+    assert buttons.button("stop").isEnabled()
+    QTest.mouseClick(buttons.button("stop"), _LEFT)
+    qtbot.waitUntil(lambda: buttons.button("run").text() == "Run", timeout=PATIENCE)
+    QTest.mouseClick(buttons.button("reset"), _LEFT)
+    qtbot.waitUntil(lambda: window.session.document.now is window.session.document.start, timeout=PATIENCE)
 
 
 @pytest.mark.parametrize(("height", "opened"), [(1200, True), (220, False)])
