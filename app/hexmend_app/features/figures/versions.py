@@ -12,59 +12,59 @@ from hexmend_app.report.case import INITIAL
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session.session import Session
 
-#: Meshes beside one another in a figure at most.
-_MOST = 12
+#: Largest number of meshes in a figure.
+_MAX_MESHES = 12
 
 
-def shown_in(session: Session) -> list[tuple]:
-    """Return the versions shown, as events record them: states in place of meshes, without duplicates."""
+def versions_of(session: Session) -> list[tuple]:
+    """Return the versions in the form of events, with states in place of meshes, without duplicates."""
     document = session.document
-    found = [(document.start, (INITIAL, document.start)), (document.now, _now(session))]
-    for one in session.comparison.results:
-        if one.state is not None:
-            title = METHODS[one.row.method].title if one.row.method in METHODS else one.row.method
-            found.append((one.state, (title, one.row)))
-    shown: list[tuple[State, tuple]] = []
-    for state, text in found:
-        if all(state.mesh.points is not other.mesh.points for other, _ in shown):
-            shown.append((state, text))
+    candidates = [(document.start, (INITIAL, document.start)), (document.now, _current(session))]
+    for result in session.comparison.results:
+        if result.state is not None:
+            title = METHODS[result.row.method].title if result.row.method in METHODS else result.row.method
+            candidates.append((result.state, (title, result.row)))
+    distinct: list[tuple[State, tuple]] = []
+    for state, version in candidates:
+        if all(state.mesh.points is not other.mesh.points for other, _ in distinct):
+            distinct.append((state, version))
     names: set[str] = set()
     versions = []
-    for place, (_, (name, *subject)) in enumerate(shown[:_MOST]):
-        own = f"{name} ({place})" if name in names else name  # a method may have been run and compared
-        names.add(own)
-        versions.append((own, *subject))
+    for number, (_, (name, *source)) in enumerate(distinct[:_MAX_MESHES]):
+        unique = f"{name} ({number})" if name in names else name  # a method may have been run and compared
+        names.add(unique)
+        versions.append((unique, *source))
     return versions
 
 
 def recipes_of(session: Session) -> dict[str, Recipe]:
     """Return the recipes that reproduce the meshes from the opened mesh, by file name.
 
-    Left out is what is not known: how the mesh came to be from which methods were compared, or the one that is shown.
+    A mesh is left out if the stages that led to it are unknown.
     """
     document, comparison = session.document, session.comparison
     run = _run(session)
-    found = {} if run is None else {"run.toml": run}
-    started = comparison.initial
-    if started is None or not comparison.results:
-        return found
-    if started.mesh.points is document.start.mesh.points:
+    recipes = {} if run is None else {"run.toml": run}
+    initial = comparison.initial
+    if initial is None or not comparison.results:
+        return recipes
+    if initial.mesh.points is document.start.mesh.points:
         before: Sequence[Stage] = ()
-    elif run is not None and started.mesh.points is document.now.mesh.points:
+    elif run is not None and initial.mesh.points is document.now.mesh.points:
         before = run.stages
     else:
-        return found
+        return recipes
     stop = comparison.to_data().stop
     for row in (one.row for one in comparison.results if one.row.method in METHODS):
         method = METHODS[row.method]
         stage = Stage(from_values(method, row.parameters, owner=row.method), stop)
         title = f"{method.title} (compared)" if run is not None and run.title == method.title else method.title
-        found[f"{row.method}.toml"] = Recipe.of(*before, stage, title=title)
-    return found
+        recipes[f"{row.method}.toml"] = Recipe.of(*before, stage, title=title)
+    return recipes
 
 
 def _run(session: Session) -> Recipe | None:
-    """Return the last run if the current mesh is its result."""
+    """Return the recipe of the last run if it led from the opened mesh to the current mesh, else None."""
     work, document = session.run.work, session.document
     moment = session.history.moment_of(document.now)
     if work is None or moment is None or moment.number != moment.record.result:
@@ -74,13 +74,12 @@ def _run(session: Session) -> Recipe | None:
     if isinstance(work, Recipe):
         return work
     stage = session.run_setup.begun or Stage(work)
-    # It may have been ended by hand.
-    stop = replace(stage.stop, max_iterations=moment.record.newest)
+    stop = replace(stage.stop, max_iterations=moment.record.newest)  # the user may have stopped it
     return Recipe.of(replace(stage, stop=stop), title=work.title)
 
 
-def _now(session: Session) -> tuple:
-    """The mesh as it is, with the run that it is the result or an iteration of."""
+def _current(session: Session) -> tuple:
+    """Return the version of the current mesh, with its run if it is an iteration of one."""
     state = session.document.now
     moment = session.history.moment_of(state)
     if moment is None or not moment.number:
