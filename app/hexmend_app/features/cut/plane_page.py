@@ -50,9 +50,7 @@ class PlanePage(QWidget):
         self._value.setFont(tabular(self._value.font()))
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
-        set_help(
-            self._value, "Position in mesh units", "Position along the plane's normal, in mesh units."
-        )
+        set_help(self._value, "Position in mesh units", "Position along the plane's normal, in mesh units.")
         grid = QGridLayout(self)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setHorizontalSpacing(8)

@@ -41,9 +41,7 @@ class DoctorPanel(QWidget):
         super().__init__(parent)
         self._head = note(_CHECKING)
         self._all = QPushButton(icon("bandage"), "Repair all")
-        set_help(
-            self._all, "Repair all", "Repair all problems that can be repaired. Can be undone."
-        )
+        set_help(self._all, "Repair all", "Repair all problems that can be repaired. Can be undone.")
         self._all.clicked.connect(lambda: self.repair_requested.emit([]))
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)

@@ -10,7 +10,18 @@ from hexmend.run import memory
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
     path = tmp_path / "run.gif"
-    options = ["--method", "laplacian", "--max-iterations", "9", "--frames", "4", "--size", "320x240", "--clip", "x:0.5"]
+    options = [
+        "--method",
+        "laplacian",
+        "--max-iterations",
+        "9",
+        "--frames",
+        "4",
+        "--size",
+        "320x240",
+        "--clip",
+        "x:0.5",
+    ]
     assert main(["film", str(mesh_file), "-o", str(path), *options]) == 0
     assert "4 frames of 320 × 240 pixels" in capsys.readouterr().out
     with Image.open(path) as film:
