@@ -19,7 +19,7 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 _MAX_PLANES = 6
 
 
-class ClipPanel(QWidget):
+class CutPanel(QWidget):
     """Panel that edits the cut.
 
     Signals

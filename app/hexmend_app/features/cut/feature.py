@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
-from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut_planes import CutLeft
 from hexmend_app.scene.views.frame import Frame
@@ -26,7 +26,7 @@ class FeatureCut(Feature):
         view = self._view = self.session.view
         view.left = self._left
         self._seen = ChangeTracker()
-        self.panel = ClipPanel()
+        self.panel = CutPanel()
         self.panel.clip_changed.connect(view.set_clip)
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)

@@ -87,18 +87,14 @@ def draw(
 ) -> Iterator[Figure]:
     """Write and yield figure by figure, then write captions and commands; see `write_set` for the parameters."""
     folder, figures = Path(folder), []
-    for figure in write_figures(case(mesh, versions), folder, Style(scene, formats=_FORMATS)):
+    case = Case(mesh, None, tuple(map(_version, versions)))
+    for figure in write_figures(case, folder, Style(scene, formats=_FORMATS)):
         figures.append(figure)
         yield figure
     methods = ",".join(str(folder / name) for name in recipes) or "none"
     arguments = ["figures", file, "--methods", methods, "--scene", str(folder / "scene.toml")]
     arguments += ["--format", ",".join(_FORMATS), "-o", str(folder), "--only"]
     write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
-
-
-def case(mesh: str, versions: Sequence[NamedVersion]) -> Case:
-    """Return the case that a figure set describes."""
-    return Case(mesh, None, tuple(map(_version, versions)))
 
 
 def _version(named: NamedVersion) -> Version:

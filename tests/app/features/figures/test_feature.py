@@ -28,7 +28,7 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtbot, folder):
+def test_the_set_contains_the_opened_the_current_and_the_compared_meshes(window, qtbot, folder):
     stepped(window, qtbot, 4)
     end_run(window.session)
     comparison = window.session.comparison
