@@ -44,10 +44,10 @@ class FeatureCompare(Feature):
         panel.run_requested.connect(self._run)
         panel.cancel_requested.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
-        panel.take_requested.connect(self._take)
+        panel.use_requested.connect(self._use)
         panel.wipe_toggled.connect(self._views.set_wiping)
         panel.save_requested.connect(self.ask)
-        panel.offer_changed.connect(host.refresh_soon)
+        panel.can_run_changed.connect(host.refresh_soon)
         session.panel_settings.register("compare", panel.choices, panel.set_choices)
 
     def actions(self) -> Sequence[Action]:
@@ -160,7 +160,7 @@ class FeatureCompare(Feature):
         else:
             self._views.close(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
-    def _take(self, name: str) -> None:
+    def _use(self, name: str) -> None:
         title = "restore initial mesh" if name == INITIAL else METHODS[name].title
         self.session.commands.take(title, self._state_of(name))
 
