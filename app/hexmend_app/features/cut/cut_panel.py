@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.plane_page import PlanePage
@@ -14,6 +14,7 @@ from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
 from hexmend_app.state.view.panel_settings import CutPanelSettings
 from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MAX_PLANES = 6
@@ -92,12 +93,7 @@ class CutPanel(QWidget):
         head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        grid = form_grid(self, "Position")
         grid.addLayout(head, 0, 0, 1, 2)
         for row, widget in enumerate((self._plane_row, self._plane_page, self._box_page), start=1):
             grid.addWidget(widget, row, 0, 1, 2)
