@@ -183,7 +183,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told
     assert session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set, timeout=PATIENCE)
     tangled.refresh()
-    assert tangled.busy.text() == "Repairing the mesh…"
+    assert tangled.busy.text() == "Repairing mesh…"
     assert not session.editable
     assert not session.commands.repair()
     session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))

@@ -13,7 +13,7 @@ from hexmend_app.canvas.colour_bar import ColourBar
 from hexmend_app.features.appearance.colour_panel import ColourPanel
 from hexmend_app.features.convergence.curves import Columns, Curve
 from hexmend_app.features.convergence.panel import ConvergencePanel
-from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.features.hex_inspector.hex_panel import HexPanel
 from hexmend_app.features.hex_inspector.worst_list import WorstList
@@ -158,7 +158,7 @@ def palette():
 BUILT = {
     "smoothing": smoothing,
     "colours": colours,
-    "clip": ClipPanel,
+    "clip": CutPanel,
     "inside": InsidePanel,
     "histogram": histogram,
     "statistics": statistics,

@@ -6,7 +6,7 @@ import dataclasses
 from html import escape
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, hex_quantity
 from hexmend.parameters import Parameter
@@ -16,6 +16,7 @@ from hexmend_app.picture.appearance import ColourScale, RangeMode
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -90,11 +91,7 @@ class ColourPanel(QWidget):
         self._show_ends()
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
+        grid = form_grid(self)
         for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map))):
             label = QLabel(text)
             label.setBuddy(widget)

@@ -157,7 +157,7 @@ class FeatureCamera(Feature):
     def refresh(self) -> None:
         """Restore the camera of an opened session, and the camera from before an isolation once it ends."""
         if self.session.camera_request.wanted is not None and self._draws:
-            self._look_through(self.session.camera_request.wanted, self.session.camera_request.journey)
+            self._apply(self.session.camera_request.wanted, self.session.camera_request.journey)
             self.session.camera_request.wanted, self.session.camera_request.journey = None, PoseHistoryData()
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
@@ -201,7 +201,7 @@ class FeatureCamera(Feature):
         except ParameterError as error:
             self.host.messages.show_error("Camera not pasted", f"{error}.")
             return
-        self._look_through(camera)
+        self._apply(camera)
 
     def ask_name(self) -> None:
         """Ask for a name, and save the camera."""
@@ -218,7 +218,7 @@ class FeatureCamera(Feature):
     def go(self, name: str) -> None:
         """Apply a saved camera."""
         if self._draws and name in self._cameras.all:
-            self._look_through(self._cameras.all[name])
+            self._apply(self._cameras.all[name])
 
     def show_cameras(self) -> None:
         """Show the dialog of saved cameras."""
@@ -232,9 +232,9 @@ class FeatureCamera(Feature):
         dialog.chosen.connect(self.go)
         return dialog
 
-    def _look_through(self, camera: Camera, journey: PoseHistoryData | None = None) -> None:
+    def _apply(self, camera: Camera, history: PoseHistoryData | None = None) -> None:
         if camera.stand is not None:
-            self.canvas.stand_at(camera.stand, journey)
+            self.canvas.stand_at(camera.stand, history)
         else:
             self.canvas.set_up(camera.up)
             self.canvas.set_parallel(camera.parallel)

@@ -53,22 +53,22 @@ class ComparePanel(QWidget):
     cancel_requested
     view_toggled(name, on)
         The user showed or hid the mesh of a row.
-    take_requested(name)
+    use_requested(name)
         The user replaced the mesh by the result of a row.
     save_requested
     wipe_toggled(bool)
         The user switched between a wipe and views side by side.
-    offer_changed
-        `can_run` changed.
+    can_run_changed
+        The value of `can_run` changed.
     """
 
     run_requested = Signal(list)
     cancel_requested = Signal()
     view_toggled = Signal(str, bool)
-    take_requested = Signal(str)
+    use_requested = Signal(str)
     save_requested = Signal()
     wipe_toggled = Signal(bool)
-    offer_changed = Signal()
+    can_run_changed = Signal()
 
     def __init__(self, ticks: Sequence[str] = (), parent: QWidget | None = None):
         super().__init__(parent)
@@ -86,8 +86,8 @@ class ComparePanel(QWidget):
         set_help(self._wipe, "Wipe", "Show two views in one, with an edge between them to drag (W).")
         self._wipe.toggled.connect(self._paint_wipe)
         on_theme_change(self._wipe, self._paint_wipe)
-        self._take = QPushButton("Use result")
-        set_help(self._take, "Use result", "Replace the mesh by the result of the selected row. Can be undone.")
+        self._use = QPushButton("Use result")
+        set_help(self._use, "Use result", "Replace the mesh by the result of the selected row. Can be undone.")
         self._save = QPushButton(icon("content-save-outline"), "")
         set_help(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
         self._status = ElidingLabel()
@@ -99,7 +99,7 @@ class ComparePanel(QWidget):
         self._run.clicked.connect(self.run)
         self._cancel.clicked.connect(self.cancel_requested)
         self._wipe.clicked.connect(self.wipe_toggled)
-        self._take.clicked.connect(lambda: self.take_requested.emit(self._selected()))
+        self._use.clicked.connect(lambda: self.use_requested.emit(self._selected()))
         self._save.clicked.connect(self.save_requested)
         self.set_status()
 
@@ -135,7 +135,7 @@ class ComparePanel(QWidget):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        buttons = (self._run, self._cancel, self._wipe, self._take, self._save)
+        buttons = (self._run, self._cancel, self._wipe, self._use, self._save)
         height = max(button.sizeHint().height() for button in buttons)  # buttons with an icon are taller
         for button in buttons:
             button.setFixedHeight(height)
@@ -237,8 +237,8 @@ class ComparePanel(QWidget):
         model, name = self._model, self._selected()
         if self._run.isEnabled() != self.can_run:
             self._run.setEnabled(self.can_run)
-            self.offer_changed.emit()
+            self.can_run_changed.emit()
         self._cancel.setEnabled(model.busy)
         has_mesh = any(one.name == name and one.has_mesh for one in model.entries)
-        self._take.setEnabled(self._editable and has_mesh)
+        self._use.setEnabled(self._editable and has_mesh)
         self._save.setEnabled(any(one.record and one.name != INITIAL for one in model.entries) and not model.busy)

@@ -44,10 +44,10 @@ class FeatureCompare(Feature):
         panel.run_requested.connect(self._run)
         panel.cancel_requested.connect(self._comparison.cancel)
         panel.view_toggled.connect(self._toggle)
-        panel.take_requested.connect(self._take)
+        panel.use_requested.connect(self._use)
         panel.wipe_toggled.connect(self._views.set_wiping)
         panel.save_requested.connect(self.ask)
-        panel.offer_changed.connect(host.refresh_soon)
+        panel.can_run_changed.connect(host.refresh_soon)
 
     def actions(self) -> Sequence[Action]:
         """Return the actions that run and cancel a comparison."""
@@ -167,7 +167,7 @@ class FeatureCompare(Feature):
         else:
             self._views.close_view(1 + next(k for k, one in enumerate(self._views.all) if one.state is state))
 
-    def _take(self, name: str) -> None:
+    def _use(self, name: str) -> None:
         title = "restore initial mesh" if name == INITIAL else METHODS[name].title
         self.session.commands.take(title, self._state_of(name))
 

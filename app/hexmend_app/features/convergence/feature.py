@@ -32,17 +32,17 @@ class FeatureConvergence(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         session = self.session
-        self._document, self._smoothing = session.document, session.run
+        self._document, self._run = session.document, session.run
         timeline = self._timeline = session.timeline
         self._history = session.history
         self._columns: dict[RunRecord, Columns] = {}
         self._seen = ChangeTracker()
         self._style = ChartStyle()  # of the last saved figure
         panel = self.panel = ConvergencePanel()
-        self._soon = QSignalThrottler(parent=panel)
-        self._soon.setTimeout(_PERIOD)
-        self._soon.triggered.connect(self._show)
-        panel.choice_changed.connect(self._show)
+        self._throttler = QSignalThrottler(parent=panel)
+        self._throttler.setTimeout(_PERIOD)
+        self._throttler.triggered.connect(self._show)
+        panel.from_zero_changed.connect(self._show)
         panel.toggled.connect(self._on_toggled)
         panel.forget_requested.connect(timeline.forget)
         panel.picked.connect(timeline.go_soon)
@@ -73,14 +73,14 @@ class FeatureConvergence(Feature):
         """Plot the runs; during a run at most ten times a second."""
         if not self.panel.isVisible():
             return
-        known = [(record, record.newest, record.result) for record in self._history.records]
-        if self._smoothing.phase is not Phase.RUNNING:
-            if self._seen.changed("curves", known, self._timeline.record, self._timeline.moment, self._smoothing.phase):
+        states = [(record, record.newest, record.result) for record in self._history.records]
+        if self._run.phase is not Phase.RUNNING:
+            if self._seen.changed("curves", states, self._timeline.record, self._timeline.moment, self._run.phase):
                 self._show()
         elif not self._timeline.live:
             self._mark()
-        if self._smoothing.phase is Phase.RUNNING:
-            self._soon.throttle()
+        if self._run.phase is Phase.RUNNING:
+            self._throttler.throttle()
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
@@ -105,7 +105,7 @@ class FeatureConvergence(Feature):
             (0.0, 0.0) if self.panel.head.from_zero.isChecked() else run_start(record),
             shown=record.plotted,
             current=record is self._timeline.record,
-            running=self._smoothing.busy and record is self._smoothing.record,
+            running=self._run.busy and record is self._run.record,
             stored=lambda: self._history.kept(record),
         )
 

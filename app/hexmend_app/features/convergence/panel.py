@@ -45,7 +45,7 @@ class ConvergencePanel(QWidget):
         The user selected an iteration.
     toggled(RunRecord, bool), forget_requested(RunRecord)
         The user showed, hid or deleted a run.
-    choice_changed
+    from_zero_changed
         The user changed the start of branches.
     save_requested
     """
@@ -53,7 +53,7 @@ class ConvergencePanel(QWidget):
     picked = Signal(object, int)
     toggled = Signal(object, bool)
     forget_requested = Signal(object)
-    choice_changed = Signal()
+    from_zero_changed = Signal()
     save_requested = Signal()
 
     def __init__(self, parent: QWidget | None = None):
@@ -68,7 +68,7 @@ class ConvergencePanel(QWidget):
         self.head, self.legend = ConvergenceHead(), RunLegend()
         self.head.charts_changed.connect(self._arrange)
         self.head.axes_changed.connect(self._redraw)
-        self.head.from_zero_changed.connect(self.choice_changed)
+        self.head.from_zero_changed.connect(self.from_zero_changed)
         self.head.save_requested.connect(self.save_requested)
         self.legend.toggled.connect(self.toggled)
         self.legend.forget_requested.connect(self.forget_requested)

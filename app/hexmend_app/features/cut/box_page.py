@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 from superqt import QRangeSlider
 
 from hexmend_app.theme.style import set_help, smaller, tabular
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.wording import position
 
 _TICKS = 1000
@@ -29,12 +30,7 @@ class BoxPage(QWidget):
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])
         self._corners = self._bounds.copy()  # low, high
         self._sliders, self._texts = [], []
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        grid = form_grid(self, "Position")
         for axis, name in enumerate("XYZ"):
             slider = QRangeSlider(Qt.Orientation.Horizontal)
             slider.setRange(0, _TICKS)

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QWidget
 
 from hexmend_app.features.cut.box_page import BoxPage
 from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
 from hexmend_app.theme.style import set_help
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
 _MAX_PLANES = 6
@@ -28,7 +29,7 @@ class CutPanelSettings:
     boxed: bool
 
 
-class ClipPanel(QWidget):
+class CutPanel(QWidget):
     """Panel that edits the cut.
 
     Signals
@@ -53,9 +54,9 @@ class ClipPanel(QWidget):
         self._bounds: np.ndarray | None = None  # (2, 3): lowest and highest corner
         self._planes = PlaneClip()
         self._box = BoxClip((0, 0, 0), (1, 1, 1))
-        self._at = 0
-        self._on = QCheckBox("Cut")
-        set_help(self._on, "Cut", "Cut the mesh open (C).")
+        self._selected = 0
+        self._switch = QCheckBox("Cut")
+        set_help(self._switch, "Cut", "Cut the mesh open (C).")
         self._kind = Segmented(
             "Cut by",
             [
@@ -66,25 +67,25 @@ class ClipPanel(QWidget):
         self._handles = QCheckBox("Handles")
         self._handles.setChecked(True)
         set_help(self._handles, "Handles", "Show the plane or the box in the view to drag and rotate it.")
-        self._row = PlaneRow(_MAX_PLANES)
+        self._plane_row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
         self._hide_label = QLabel("Hide")
-        self._beyond = Segmented(
+        self._hide_planes = Segmented(
             "Hide",
             [
                 ("any", "Beyond any", "Hide everything beyond at least one plane."),
                 ("all", "Beyond all", "Hide only the region beyond all planes; cuts out a corner."),
             ],
         )
-        self._side = Segmented(
+        self._hide_box = Segmented(
             "Hide side of the box",
             [
                 ("any", "Outside", "Hide everything outside the box."),
                 ("all", "Inside", "Hide everything inside the box."),
             ],
         )
-        self._cut = Segmented(
+        self._cut_mode = Segmented(
             "Cut",
             [
                 ("crinkle", "Whole hexes", "Show a whole hex if its centre is on the visible side."),
@@ -97,39 +98,34 @@ class ClipPanel(QWidget):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        head.addWidget(self._on)
+        head.addWidget(self._switch)
         head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        grid = form_grid(self, "Position")
         grid.addLayout(head, 0, 0, 1, 2)
-        for row, widget in enumerate((self._row, self._plane_page, self._box_page), start=1):
+        for row, widget in enumerate((self._plane_row, self._plane_page, self._box_page), start=1):
             grid.addWidget(widget, row, 0, 1, 2)
         hide = QHBoxLayout()
-        hide.addWidget(self._beyond)
-        hide.addWidget(self._side)
+        hide.addWidget(self._hide_planes)
+        hide.addWidget(self._hide_box)
         grid.addWidget(self._hide_label, 4, 0)
         grid.addLayout(hide, 4, 1)
-        grid.addWidget(self._cut, 5, 0, 1, 2)
+        grid.addWidget(self._cut_mode, 5, 0, 1, 2)
 
     def _connect(self) -> None:
-        self._on.clicked.connect(self._announce)
-        self._kind.chosen.connect(self._announce)
+        self._switch.clicked.connect(self._emit)
+        self._kind.chosen.connect(self._emit)
         self._handles.clicked.connect(self.handles_changed)
-        self._row.snap_changed.connect(self.snap_changed)
-        self._row.chosen.connect(self._on_chosen)
-        self._row.add_requested.connect(self._on_add)
-        self._row.remove_requested.connect(self._on_remove)
+        self._plane_row.snap_changed.connect(self.snap_changed)
+        self._plane_row.chosen.connect(self._on_selected)
+        self._plane_row.add_requested.connect(self._on_add)
+        self._plane_row.remove_requested.connect(self._on_remove)
         self._plane_page.changed.connect(self._on_plane)
         self._box_page.changed.connect(self._on_box)
-        for choice in (self._beyond, self._side):
+        for choice in (self._hide_planes, self._hide_box):
             choice.chosen.connect(lambda key: self._change(notch=key == "all"))
-        self._cut.chosen.connect(lambda key: self._change(crinkle=key == "crinkle"))
+        self._cut_mode.chosen.connect(lambda key: self._change(crinkle=key == "crinkle"))
 
     # Called by the feature
 
@@ -147,11 +143,11 @@ class ClipPanel(QWidget):
         if self._bounds is not None:
             self._plane_page.set_bounds(self._bounds)
             self._box_page.set_bounds(self._bounds)
-            if not self._on.isChecked():
+            if not self._switch.isChecked():
                 middle, half = self._bounds.mean(axis=0), np.ptp(self._bounds, axis=0) / 4
                 self._planes = PlaneClip((ClipPlane(self._planes.planes[0].normal, tuple(middle)),))
                 self._box = BoxClip(tuple(middle - half), tuple(middle + half))
-                self._at = 0
+                self._selected = 0
         self._refresh()
 
     def set_clip(self, clip: Clip | None, at: int = 0) -> None:
@@ -164,13 +160,13 @@ class ClipPanel(QWidget):
         at : int
             Index of the selected plane.
         """
-        self._on.setChecked(clip is not None)
+        self._switch.setChecked(clip is not None)
         if clip is not None:
             self._kind.set_value("box" if isinstance(clip, BoxClip) else "planes")
             if isinstance(clip, BoxClip):
                 self._box = clip
             else:
-                self._planes, self._at = clip, at
+                self._planes, self._selected = clip, at
         self._refresh()
 
     def set_handles(self, shown: bool) -> None:
@@ -183,7 +179,7 @@ class ClipPanel(QWidget):
 
     def restore(self, settings: CutPanelSettings) -> None:
         """Set the proposed planes and box; a cut that is on does not change."""
-        on, boxed = self._on.isChecked(), self._kind.value() == "box"
+        on, boxed = self._switch.isChecked(), self._kind.value() == "box"
         if not on or boxed:
             self._planes = settings.planes
         if not on or not boxed:
@@ -194,7 +190,7 @@ class ClipPanel(QWidget):
 
     def clip(self) -> Clip | None:
         """Return the cut, or None if it is off."""
-        return self.proposal() if self._on.isChecked() and self._bounds is not None else None
+        return self.proposal() if self._switch.isChecked() and self._bounds is not None else None
 
     def proposal(self) -> Clip:
         """Return the cut, or if it is off, the cut that switching on would make."""
@@ -202,8 +198,8 @@ class ClipPanel(QWidget):
 
     # Called by the widgets
 
-    def _on_chosen(self, at: int) -> None:
-        self._at = at
+    def _on_selected(self, at: int) -> None:
+        self._selected = at
         self._refresh()
         self.plane_chosen.emit(at)
 
@@ -213,25 +209,25 @@ class ClipPanel(QWidget):
         normal = np.eye(3)[int(counts.round(6).argmin())]
         plane = ClipPlane(tuple(normal), tuple(self._bounds.mean(axis=0)))
         self._planes = dataclasses.replace(self._planes, planes=(*self._planes.planes, plane))
-        self._choose(len(self._planes.planes) - 1)
+        self._select(len(self._planes.planes) - 1)
 
     def _on_remove(self) -> None:
-        remaining = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._at)
+        remaining = tuple(plane for at, plane in enumerate(self._planes.planes) if at != self._selected)
         self._planes = dataclasses.replace(self._planes, planes=remaining)
-        self._choose(min(self._at, len(remaining) - 1))
+        self._select(min(self._selected, len(remaining) - 1))
 
-    def _choose(self, at: int) -> None:
-        self._at = at
-        self._announce()
+    def _select(self, at: int) -> None:
+        self._selected = at
+        self._emit()
         self.plane_chosen.emit(at)
 
     def _on_plane(self, plane: ClipPlane) -> None:
-        self._planes = self._planes.with_plane(self._at, plane)
-        self._announce()
+        self._planes = self._planes.with_plane(self._selected, plane)
+        self._emit()
 
     def _on_box(self, low: tuple, high: tuple) -> None:
         self._box = dataclasses.replace(self._box, low=low, high=high)
-        self._announce()
+        self._emit()
 
     def _change(self, **fields: bool) -> None:
         """Change the hidden side of the planes or the box, or `crinkle` of both."""
@@ -242,32 +238,32 @@ class ClipPanel(QWidget):
             self._box = dataclasses.replace(self._box, **fields)
         else:
             self._planes = dataclasses.replace(self._planes, **fields)
-        self._announce()
+        self._emit()
 
-    def _announce(self) -> None:
+    def _emit(self) -> None:
         self._refresh()
         self.clip_changed.emit(self.clip())
 
     def _refresh(self) -> None:
-        on, box = self._bounds is not None and self._on.isChecked(), self._kind.value() == "box"
+        on, box = self._bounds is not None and self._switch.isChecked(), self._kind.value() == "box"
         planes, clip = self._planes.planes, self.proposal()
-        self._on.setEnabled(self._bounds is not None)
+        self._switch.setEnabled(self._bounds is not None)
         several = len(planes) > 1
         visible = {  # little while the cut is off, to save space
             self._kind: on,
             self._handles: on,
-            self._row: on and not box,
+            self._plane_row: on and not box,
             self._plane_page: on and not box,
             self._box_page: on and box,
             self._hide_label: on and (box or several),
-            self._side: on and box,
-            self._beyond: on and several and not box,
-            self._cut: on,
+            self._hide_box: on and box,
+            self._hide_planes: on and several and not box,
+            self._cut_mode: on,
         }
         for widget, shown in visible.items():
             widget.setVisible(shown)
-        self._row.set_planes(len(planes), self._at)
-        self._plane_page.set_plane(planes[self._at])
+        self._plane_row.set_planes(len(planes), self._selected)
+        self._plane_page.set_plane(planes[self._selected])
         self._box_page.set_corners(self._box.low, self._box.high)
-        (self._side if box else self._beyond).set_value("all" if clip.notch else "any")
-        self._cut.set_value("crinkle" if clip.crinkle else "smooth")
+        (self._hide_box if box else self._hide_planes).set_value("all" if clip.notch else "any")
+        self._cut_mode.set_value("crinkle" if clip.crinkle else "smooth")

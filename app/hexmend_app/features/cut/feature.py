@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
-from hexmend_app.features.cut.cut_panel import ClipPanel, CutPanelSettings
+from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut_planes import CutLeft
 from hexmend_app.scene.views.frame import Frame
@@ -25,7 +25,7 @@ class FeatureCut(Feature):
         view = self._view = self.session.view
         self.session.about_to_save.connect(lambda: view.note_cut(self._left()))
         self._seen = ChangeTracker()
-        self.panel = ClipPanel()
+        self.panel = CutPanel()
         self.panel.clip_changed.connect(view.set_clip)
         self.panel.plane_chosen.connect(view.choose_plane)
         self.panel.handles_changed.connect(view.set_handles)

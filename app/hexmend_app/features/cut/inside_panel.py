@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
 
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
 from hexmend_app.theme.style import icon, note, set_help, tabular
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
 from hexmend_app.widgets.wording import counted
 
@@ -103,11 +104,7 @@ class InsidePanel(QWidget):
         self.set_shown(0, 0)
 
     def _lay_out(self) -> None:
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
+        grid = form_grid(self)
         lines = QHBoxLayout(), QHBoxLayout()
         groups = (self.isolated, self._all), (self.dug, self._undo, self._restore)
         for line, widgets in zip(lines, groups, strict=True):

@@ -6,10 +6,11 @@ import dataclasses
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QLabel, QPushButton, QSlider, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
 from hexmend_app.picture.cut_planes import ClipPlane
 from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import position
 
@@ -51,12 +52,7 @@ class PlanePage(QWidget):
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
         set_help(self._value, "Position in mesh units", "Position along the plane's normal, in mesh units.")
-        grid = QGridLayout(self)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(7)
-        grid.setColumnStretch(1, 1)
-        grid.setColumnMinimumWidth(0, self.fontMetrics().horizontalAdvance("Position"))
+        grid = form_grid(self, "Position")
         for row, (text, widget, companion) in enumerate(
             (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
         ):

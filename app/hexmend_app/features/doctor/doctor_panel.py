@@ -1,4 +1,4 @@
-"""Panel of mesh problems: one row for each finding, with buttons to show and repair it."""
+"""Panel of mesh problems: a row for each finding, with buttons to show and repair it."""
 
 from __future__ import annotations
 
@@ -19,36 +19,34 @@ from hexmend.doctor import PROBLEMS, Finding
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.widgets.scrolled import scrolled
 
-_LOOKING = "Checking the mesh…"
+_CHECKING = "Checking the mesh…"
 _HEALTHY = "No problems found. The doctor does not check the quality of the hexes."
 
 
 class DoctorPanel(QWidget):
-    """Lists findings.
+    """Panel that lists findings.
 
     Signals
     -------
     show_requested(int)
-        The user wants to see this finding, counted from 0.
-    mend_requested(list)
-        The user wants these kinds of problem repaired; an empty list means all.
+        The user pressed Show of the finding with this index.
+    repair_requested(list)
+        The user repairs these kinds of problem; an empty list means all.
     """
 
     show_requested = Signal(int)
-    mend_requested = Signal(list)
+    repair_requested = Signal(list)
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._head = note(_LOOKING)
+        self._head = note(_CHECKING)
         self._all = QPushButton(icon("bandage"), "Repair all")
-        set_help(
-            self._all, "Repair all", "Repair all problems that can be repaired, in the right order; Undo reverts it."
-        )
-        self._all.clicked.connect(lambda: self.mend_requested.emit([]))
+        set_help(self._all, "Repair all", "Repair all problems that can be repaired. Can be undone.")
+        self._all.clicked.connect(lambda: self.repair_requested.emit([]))
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
         self._rows.setVerticalSpacing(8)
-        self._mends: list[QPushButton] = []
+        self._repair_buttons: list[QPushButton] = []
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(8, 6, 8, 6)
@@ -68,40 +66,41 @@ class DoctorPanel(QWidget):
         while (item := self._rows.takeAt(0)) is not None:
             item.widget().hide()
             item.widget().deleteLater()
-        self._mends = []
+        self._repair_buttons = []
         if findings is None:
-            self._head.setText(problem or _LOOKING)
+            self._head.setText(problem or _CHECKING)
         else:
             count = len(findings)
             self._head.setText(f"{count} finding{'s' * (count != 1)}:" if count else _HEALTHY)
-        for row, one in enumerate(findings or ()):
-            self._add(row, one)
-        self._all.setVisible(len(self._mends) > 1)
+        for row, finding in enumerate(findings or ()):
+            self._add(row, finding)
+        self._all.setVisible(len(self._repair_buttons) > 1)
 
     def set_busy(self, busy: bool) -> None:
         """Disable the repair buttons while the mesh cannot be edited."""
-        for button in (self._all, *self._mends):
+        for button in (self._all, *self._repair_buttons):
             button.setEnabled(not busy)
 
-    def _add(self, row: int, one: Finding) -> None:
+    def _add(self, row: int, finding: Finding) -> None:
+        problem, location = PROBLEMS[finding.kind], finding.location_text()
         text = QLabel(
-            f"<b>{escape(PROBLEMS[one.kind].title)}.</b> {escape(one.message)} {escape(one.remedy)}"
-            + (f"<br>{escape(one.location_text()).capitalize()}" if one.location_text() else "")
+            f"<b>{escape(problem.title)}.</b> {escape(finding.message)} {escape(finding.remedy)}"
+            + (f"<br>{escape(location).capitalize()}" if location else "")
         )
         text.setTextFormat(Qt.TextFormat.RichText)
         text.setWordWrap(True)
         text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._rows.addWidget(text, row, 0)
-        title = PROBLEMS[one.kind].title
-        if one.location_text():
+        if location:
             show = QPushButton(icon("eye-outline"), "Show")
-            set_help(show, f"Show: {title}", "Show only these hexes and their neighbours; Esc shows all.")
-            show.clicked.connect(lambda _=False, row=row: self.show_requested.emit(row))
+            help = "Show only these hexes and their neighbours. Press Esc to show all."
+            set_help(show, f"Show: {problem.title}", help)
+            show.clicked.connect(lambda: self.show_requested.emit(row))
             self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)
-        if one.mendable:
-            mend = QPushButton(icon("bandage"), "Repair")
-            action = PROBLEMS[one.kind].action
-            set_help(mend, f"Repair: {title}", f"{action[:1].upper()}{action[1:]}. Undo reverts it.")
-            mend.clicked.connect(lambda _=False, kind=one.kind: self.mend_requested.emit([kind]))
-            self._rows.addWidget(mend, row, 2, Qt.AlignmentFlag.AlignTop)
-            self._mends.append(mend)
+        if finding.mendable:
+            repair = QPushButton(icon("bandage"), "Repair")
+            action = f"{problem.action[:1].upper()}{problem.action[1:]}"
+            set_help(repair, f"Repair: {problem.title}", f"{action}. Can be undone.")
+            repair.clicked.connect(lambda: self.repair_requested.emit([finding.kind]))
+            self._rows.addWidget(repair, row, 2, Qt.AlignmentFlag.AlignTop)
+            self._repair_buttons.append(repair)

@@ -1,4 +1,4 @@
-"""Import doctor: finds problems of the mesh other than its quality, and repairs them."""
+"""Feature that finds and repairs problems of the mesh other than its quality."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class FeatureDoctor(Feature):
         self._listed: tuple[Finding, ...] = ()
         self.panel = DoctorPanel()
         self.panel.show_requested.connect(self._show)
-        self.panel.mend_requested.connect(self._mend)
+        self.panel.repair_requested.connect(self._repair)
         repairer = self.session.repairer
         repairer.began.connect(self._on_began)
         repairer.ended.connect(self._on_ended)
@@ -39,23 +39,23 @@ class FeatureDoctor(Feature):
                 menu="Edit",
                 part=1,
                 icon="stethoscope",
-                help="Find problems of the mesh other than quality: numbering, unmerged blocks, duplicates.",
+                help="Find problems other than quality: numbering, unmerged blocks, duplicates.",
                 handle=lambda: self.host.show_panel("doctor"),
             ),
             Action(
                 id="repair",
-                text="&Repair what the doctor finds",
+                text="&Repair mesh",
                 menu="Edit",
                 part=1,
                 icon="bandage",
-                help="Repair numbering, unmerged blocks, duplicates and unused nodes; Undo reverts it.",
-                handle=lambda: self._mend([]),
+                help="Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone.",
+                handle=lambda: self._repair([]),
                 enabled=lambda: self.session.editable,
             ),
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The findings."""
+        """Return the panel of findings."""
         return (
             Panel(
                 id="doctor",
@@ -63,7 +63,7 @@ class FeatureDoctor(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=60,
-                help="Problems of the mesh other than quality, their location, and their repair.",
+                help="Problems other than quality, with their location and repair.",
             ),
         )
 
@@ -85,26 +85,25 @@ class FeatureDoctor(Feature):
         finding, mesh = self._listed[row], self.session.document.now.mesh
         hexes = finding.hexes
         if not len(hexes):
-            at = np.zeros(mesh.n_nodes, dtype=bool)
-            at[finding.nodes] = True
-            hexes = np.flatnonzero(at[mesh.hexes].any(axis=1))
+            is_named = np.zeros(mesh.n_nodes, dtype=bool)
+            is_named[finding.nodes] = True
+            hexes = np.flatnonzero(is_named[mesh.hexes].any(axis=1))
         if len(hexes):
             self.session.view.isolate(hexes.tolist())
             self.session.selection.visit(*hexes.tolist())
 
-    def _mend(self, kinds: list[str]) -> None:
+    def _repair(self, kinds: list[str]) -> None:
         self.session.commands.repair(kinds)
 
     def _on_began(self) -> None:
-        help = "Cancel the repair; the mesh stays unchanged."
-        self.host.busy.show_work("repair", "Repairing the mesh…", "Cancel", help, self.session.repairer.cancel)
+        help = "Cancel the repair. The mesh does not change."
+        self.host.busy.show_work("repair", "Repairing mesh…", "Cancel", help, self.session.repairer.cancel)
         self.host.refresh_soon()
 
-    def _on_ended(self, mended: tuple[Finding, ...]) -> None:
+    def _on_ended(self, repaired: tuple[Finding, ...]) -> None:
         self.host.busy.done("repair")
-        messages = " ".join(finding.message for finding in mended)
-        nothing = "The doctor found nothing to repair."
-        self.host.messages.show_info(f"Repaired: {messages}" if mended else nothing)
+        messages = " ".join(finding.message for finding in repaired)
+        self.host.messages.show_info(f"Repaired: {messages}" if repaired else "Nothing to repair.")
         self.host.refresh_soon()
 
     def _on_failed(self, error: Exception) -> None:
@@ -112,9 +111,9 @@ class FeatureDoctor(Feature):
         self.host.refresh_soon()
         if not isinstance(error, HexmendError):
             raise error
-        self.host.messages.show_error("The mesh was not repaired", str(error))
+        self.host.messages.show_error("Mesh not repaired", str(error))
 
     def _on_cancelled(self) -> None:
         self.host.busy.done("repair")
-        self.host.messages.show_info("The repair was cancelled.")
+        self.host.messages.show_info("Repair cancelled.")
         self.host.refresh_soon()

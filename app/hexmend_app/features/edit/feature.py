@@ -1,4 +1,4 @@
-"""Undo and redo."""
+"""Feature that undoes and redoes changes of the mesh."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from hexmend_app.feature import Action, Feature
 
 
 class FeatureEdit(Feature):
-    """Takes changes of the mesh back, and does them again."""
+    """Undoes and redoes changes of the mesh."""
 
     order = 20
 
     def actions(self) -> Sequence[Action]:
-        """Undo and redo, each with what it is about."""
+        """Return undo and redo, whose texts name the change."""
         commands = self.session.commands
         return (
             Action(
@@ -22,11 +22,11 @@ class FeatureEdit(Feature):
                 menu="Edit",
                 keys="Ctrl+Z",
                 icon="undo",
-                help="Take back the last change of the mesh.",
+                help="Undo the last change of the mesh.",
                 tool="Undo",
                 handle=commands.undo,
-                enabled=lambda: self.session.editable and self._undo is not None,
-                title=lambda: f"&Undo {self._undo or ''}".strip(),
+                enabled=lambda: self.session.editable and self._undo_title is not None,
+                title=lambda: f"&Undo {self._undo_title or ''}".strip(),
             ),
             Action(
                 id="redo",
@@ -34,19 +34,21 @@ class FeatureEdit(Feature):
                 menu="Edit",
                 keys="Ctrl+Shift+Z",
                 icon="redo",
-                help="Do again what was taken back.",
+                help="Redo the change that was undone last.",
                 tool="Redo",
                 handle=commands.redo,
-                enabled=lambda: self.session.editable and self._redo is not None,
-                title=lambda: f"&Redo {self._redo or ''}".strip(),
+                enabled=lambda: self.session.editable and self._redo_title is not None,
+                title=lambda: f"&Redo {self._redo_title or ''}".strip(),
             ),
         )
 
     @property
-    def _undo(self) -> str | None:
+    def _undo_title(self) -> str | None:
+        """Name of the change that Undo reverts; None if there is none."""
         document = self.session.document
         return self.session.node_sweep.title or (document.undo_title if document.is_open else None)
 
     @property
-    def _redo(self) -> str | None:
+    def _redo_title(self) -> str | None:
+        """Name of the change that Redo applies; None if there is none."""
         return self.session.document.redo_title if self.session.document.is_open else None

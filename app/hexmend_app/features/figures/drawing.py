@@ -1,4 +1,4 @@
-"""A window's figure set, figure by figure: the same from a script as from the window."""
+"""Drawing of a figure set, for the window and for scripts."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from hexmend_app.report.figure_set import Figure, Style, write_figures
 from hexmend_app.scene.render.graphics import prepare_off_screen
 from hexmend_app.state.mesh.run_record import RunRecord
 
-#: Kinds of file that every figure is written as.
+#: File formats of each figure.
 _FORMATS = ("png", "pdf", "svg")
 
-#: A version of the mesh: its name, and the mesh, what a comparison knows of it, or an iteration of a run.
-Shown = tuple[str, Mesh] | tuple[str, Row] | tuple[str, RunRecord, int, Mesh]
+#: Version of the mesh: name and mesh; name and row of a comparison; or name, run, iteration and mesh.
+NamedVersion = tuple[str, Mesh] | tuple[str, Row] | tuple[str, RunRecord, int, Mesh]
 
 
 def write_set(
@@ -32,7 +32,7 @@ def write_set(
     title: str,
     mesh: str,
     scene: Scene,
-    shown: Sequence[Shown],
+    versions: Sequence[NamedVersion],
     recipes: Mapping[str, Recipe],
     file: str = "MESH",
 ) -> None:
@@ -48,13 +48,13 @@ def write_set(
         Name of the mesh in the captions.
     scene : Scene
         Camera, cut and colours.
-    shown : sequence
-        What is compared, the mesh as it was opened first: (name, Mesh), (name, Row) of a comparison, or (name, Record,
+    versions : sequence
+        Meshes to compare, the mesh as opened first: (name, Mesh), (name, Row) of a comparison, or (name, RunRecord,
         number, Mesh) of an iteration of a run.
-    recipes : mapping
-        What makes these from the first, by the names of the files that they go to.
+    recipes : mapping of str to Recipe
+        Recipes that make them from the first mesh, by file name.
     file : str
-        Name of the mesh file in the commands that draw a figure again.
+        Name of the mesh file in the commands that reproduce the figures.
 
     Raises
     ------
@@ -63,12 +63,12 @@ def write_set(
     """
     prepare_off_screen()
     prepare(Path(folder), scene, recipes)
-    for _ in draw(folder, title, mesh, scene, shown, recipes, file):
+    for _ in draw(folder, title, mesh, scene, versions, recipes, file):
         pass
 
 
 def prepare(folder: Path, scene: Scene, recipes: Mapping[str, Recipe]) -> None:
-    """Make the folder, with what the commands of the set read; raises as `write_set`."""
+    """Create the folder with the scene and the recipes; raise the same errors as `write_set`."""
     check_matplotlib()
     output_folder(folder)
     write_scene(folder / "scene.toml", scene)
@@ -81,41 +81,36 @@ def draw(
     title: str,
     mesh: str,
     scene: Scene,
-    shown: Sequence[Shown],
+    versions: Sequence[NamedVersion],
     recipes: Mapping[str, Recipe],
     file: str = "MESH",
 ) -> Iterator[Figure]:
-    """Write the figures one by one, as they are asked for, and captions and commands last; see `write_set`."""
-    folder, done = Path(folder), []
-    for figure in write_figures(case(mesh, shown), folder, Style(scene, formats=_FORMATS)):
-        done.append(figure)
+    """Write and yield figure by figure, then write captions and commands; see `write_set` for the parameters."""
+    folder, figures = Path(folder), []
+    case = Case(mesh, None, tuple(map(_version, versions)))
+    for figure in write_figures(case, folder, Style(scene, formats=_FORMATS)):
+        figures.append(figure)
         yield figure
     methods = ",".join(str(folder / name) for name in recipes) or "none"
-    again = ["figures", file, "--methods", methods, "--scene", str(folder / "scene.toml")]
-    again += ["--format", ",".join(_FORMATS), "-o", str(folder), "--only"]
-    write_captions(folder, title, [(one, command_line([*again, one.part])) for one in done])
+    arguments = ["figures", file, "--methods", methods, "--scene", str(folder / "scene.toml")]
+    arguments += ["--format", ",".join(_FORMATS), "-o", str(folder), "--only"]
+    write_captions(folder, title, [(figure, command_line([*arguments, figure.part])) for figure in figures])
 
 
-def case(mesh: str, shown: Sequence[Shown]) -> Case:
-    """Return the case that a figure set describes."""
-    return Case(mesh, None, tuple(map(_version, shown)))
-
-
-def _version(one: Shown) -> Version:
-    name, subject, *moment = one
-    if isinstance(subject, Mesh):
-        return Version.of(name, subject)
-    if isinstance(subject, Row):
-        return Version.of(name, subject.mesh, subject)
-    number, mesh = moment
-    rows = subject.rows[: number + 1]
-    version = Version.of(name, mesh, _row(subject, number, mesh))
-    return replace(version, history=rows, advice=subject.advice)
+def _version(named: NamedVersion) -> Version:
+    name, source, *iteration = named
+    if isinstance(source, Mesh):
+        return Version.of(name, source)
+    if isinstance(source, Row):
+        return Version.of(name, source.mesh, source)
+    number, mesh = iteration
+    version = Version.of(name, mesh, _row(source, number, mesh))
+    return replace(version, history=source.rows[: number + 1], advice=source.advice)
 
 
 def _row(record: RunRecord, number: int, mesh: Mesh) -> Row:
     """Return an iteration of a run as a row of a comparison."""
     seconds = float(record.rows[number]["seconds"])
-    ended = "" if number == record.result else "stopped"
+    outcome = "" if number == record.result else "stopped"
     summary = summarise(mesh, measure(mesh.points, mesh.hexes))
-    return Row(record.title, {}, ended, record.message, mesh, summary, number, seconds)
+    return Row(record.title, {}, outcome, record.message, mesh, summary, number, seconds)

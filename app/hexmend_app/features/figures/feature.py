@@ -1,4 +1,4 @@
-"""Export of the figure set, figure by figure in the background."""
+"""Feature that exports the figure set, figure by figure in the background."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend_app.widgets.incremental_task import IncrementalTask
 
 
 class FeatureFigures(Feature):
-    """Writes pictures before and after, plots and the table into a folder."""
+    """Writes pictures, charts and the table of the mesh before and after into a folder."""
 
     order = 13
 
@@ -30,22 +30,22 @@ class FeatureFigures(Feature):
         self.session.document.mesh_replaced.connect(self.cancel)
 
     def actions(self) -> Sequence[Action]:
-        """Export the figure set."""
+        """Return the action that exports the figure set."""
         return (
             Action(
                 id="figure_set",
-                text="E&xport the figure set…",
+                text="E&xport figure set…",
                 menu="File",
                 part=1,
                 icon="image-multiple-outline",
-                help="Save before and after, distributions, convergence and the table, with captions and commands.",
+                help="Save pictures, distributions, convergence and a table, with captions and commands.",
                 handle=self.ask,
                 enabled=lambda: self.canvas is not None and not self.session.run.busy and not self.going_on,
             ),
         )
 
     def close(self) -> None:
-        """Give up what is being written."""
+        """Cancel the export."""
         self.cancel()
 
     @property
@@ -54,49 +54,49 @@ class FeatureFigures(Feature):
         return self._drawing.going_on
 
     def ask(self) -> None:
-        """Ask where the folder goes, and write into it."""
+        """Ask for a folder, and write the figure set into it."""
         folder = ask_figures(self.host.dialog_parent, self.host.stem)
         if folder:
             self.write(Path(folder))
 
     def write(self, folder: Path) -> None:
-        """Write the figure set into a folder, which is made; its captions come last."""
+        """Write the figure set into a folder, which is created if missing."""
         self.cancel()
         try:
             self._begin(folder)
         except HexmendError as error:
-            self.host.messages.show_error("The figures were not made", str(error))
+            self.host.messages.show_error("Figure set not exported", str(error))
 
     def cancel(self) -> None:
-        """Give up what is being drawn; figures that are written stay."""
+        """Cancel the export; files already written are kept."""
         self._drawing.cancel()
 
     def _begin(self, folder: Path) -> None:
         from hexmend_app.features.figures.drawing import draw, prepare, write_set
-        from hexmend_app.features.figures.shown import recipes_of, shown_in
+        from hexmend_app.features.figures.versions import recipes_of, versions_of
         from hexmend_app.report.figure_set import stationary
 
         document = self.session.document
         page = Page(pixels=(self.canvas.width(), self.canvas.height()))
         scene = stationary(self.canvas.scene(page, self.session.saved_cameras.all))
-        recipes, shown = recipes_of(self.session), shown_in(self.session)
+        recipes, versions = recipes_of(self.session), versions_of(self.session)
         prepare(folder, scene, recipes)
-        values = folder, self.host.stem, document.now.mesh.name, scene, shown, recipes
+        arguments = folder, self.host.stem, document.now.mesh.name, scene, versions, recipes
         file = () if document.path is None else (str(document.path),)
         self._folder = folder
-        self._event = FileExported("figure set", write_set, (*values, *file))
-        self._drawing.begin(draw(*self._event.given), _text)
+        self._event = FileExported("figure set", write_set, (*arguments, *file))
+        self._drawing.begin(draw(*self._event.given), _progress_text)
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error("The figures were not made", f"One of them could not be drawn: {error}")
+        self.host.messages.show_error("Figure set not exported", f"A figure could not be drawn: {error}")
 
     def _on_drawn(self) -> None:
         self.host.messages.show_info(f"Figure set saved to {self._folder}")
         self.session.user_event.emit(self._event)
 
 
-def _text(drawn: int) -> str:
-    """Describe the progress after a number of figures."""
+def _progress_text(drawn: int) -> str:
+    """Return the progress text after a number of figures."""
     from hexmend_app.report.figure_set import PARTS
 
     at = min(drawn, len(PARTS) - 1)

@@ -1,4 +1,4 @@
-"""Films of a run, drawn frame by frame while the window goes on."""
+"""Feature that saves a run as a film, frame by frame in the background."""
 
 from __future__ import annotations
 
@@ -22,39 +22,39 @@ if TYPE_CHECKING:
 
 
 class FeatureFilm(Feature):
-    """Draws the run that is gone through, as it is looked at, and writes the frames as one animated file."""
+    """Draws the iterations of the current run as in the view, and writes an animation."""
 
     order = 59
 
     def __init__(self, host: Host):
         super().__init__(host)
         self._path = Path()
-        self._choice: FilmChoice | None = None  # what the user wanted last
+        self._choice: FilmChoice | None = None  # options used last
         self._rate = 0
         self._record: RunRecord | None = None
         self._event: FileExported | None = None
-        self._drawing = IncrementalTask(host.busy, "film", "Give the film up; no file is written.", self)
+        self._drawing = IncrementalTask(host.busy, "film", "Cancel the film; no file is written.", self)
         self._drawing.finished.connect(self._write)
         self._drawing.failed.connect(self._on_failed)
         self.session.document.mesh_replaced.connect(self.cancel)
 
     def actions(self) -> Sequence[Action]:
-        """Save a film."""
+        """Return the action that saves a film."""
         return (
             Action(
                 id="film",
-                text="Save a fil&m…",
+                text="Save fil&m…",
                 menu="Timeline",
                 part=2,
                 icon="movie-open-outline",
-                help="Save the run as an animation: its iterations one after another, as the view shows them.",
+                help="Save the iterations of the run as an animation, as shown in the view.",
                 handle=self.ask,
                 enabled=lambda: self.canvas is not None and self.session.timeline.record is not None,
             ),
         )
 
     def close(self) -> None:
-        """Give up what is being made."""
+        """Cancel the film."""
         self.cancel()
 
     @property
@@ -63,22 +63,22 @@ class FeatureFilm(Feature):
         return self._drawing.going_on
 
     def ask(self) -> None:
-        """Ask what the film is to be like and where it goes, and make it."""
+        """Ask for the options and the file of the film, and make it."""
         timeline = self.session.timeline
         view = self.canvas.width(), self.canvas.height()
-        usual = self._choice or FilmChoice(rate=round(timeline.speed))
-        dialog = FilmDialog(usual, view, timeline.record.newest, self.host.dialog_parent)
-        meant, choice = dialog.exec(), dialog.choice()
+        proposed = self._choice or FilmChoice(rate=round(timeline.speed))
+        dialog = FilmDialog(proposed, view, timeline.record.newest, self.host.dialog_parent)
+        accepted, choice = dialog.exec(), dialog.choice()
         dialog.deleteLater()
-        if not meant:
+        if not accepted:
             return
         self._choice = choice
         path = ask_film(self.host.dialog_parent, self.host.stem)
         if path:
-            self.film(Path(path), self._choice)
+            self.film(Path(path), choice)
 
     def film(self, path: Path, choice: FilmChoice) -> None:
-        """Make a film of the run that is gone through; it is written when its last frame is drawn."""
+        """Make a film of the current run; the file is written after the last frame is drawn."""
         from hexmend_app.scene.film.film import format_of, pictures
         from hexmend_app.scene.film.run_film import write_run_film
 
@@ -87,13 +87,13 @@ class FeatureFilm(Feature):
         try:
             format_of(path)
         except HexmendError as error:
-            self.host.messages.show_error("The film was not made", str(error))
+            self.host.messages.show_error("Film not saved", str(error))
             return
         numbers = chosen_iterations(history, record, choice.frames)
         view = self.canvas.viewport
         size = choice.size((self.canvas.width(), self.canvas.height()))
         now, start = self.session.document.now, self.session.document.start
-        taken = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
+        states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), now.mesh))
         options = {"size": size, "rate": choice.rate, "histogram": choice.histogram}
         options |= displacement_since(view.frame.movement, start)
         scene = replace(self.canvas.scene(Page(pixels=size)), panels=())
@@ -102,35 +102,35 @@ class FeatureFilm(Feature):
         )
         self._path, self._record, self._rate = path, record, choice.rate
         frames = pictures(
-            taken, scene.look(now.mesh), size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
+            states, scene.look(now.mesh), size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
         )
-        self._drawing.begin(frames, lambda drawn: _text(drawn, len(numbers), path))
+        self._drawing.begin(frames, lambda drawn: _progress_text(drawn, len(numbers), path))
 
     def cancel(self) -> None:
-        """Give up the film that is being made; nothing is written."""
+        """Cancel the film; no file is written."""
         self._drawing.cancel()
 
     def refresh(self) -> None:
-        """Give up the film of a run that is forgotten meanwhile."""
+        """Cancel the film if its run was deleted."""
         if self.going_on and self._record not in self.session.history.records:
             self.cancel()
-            self.host.messages.show_error("The film was not made", "Its run was forgotten before its last frame.")
+            self.host.messages.show_error("Film not saved", "Its run was deleted before the last frame was drawn.")
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error("The film was not made", f"A frame could not be drawn: {error}.")
+        self.host.messages.show_error("Film not saved", f"A frame could not be drawn: {error}.")
 
     def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.film.film import write_film
 
-        written = self.host.try_and_report(
-            "The film was not saved",
+        saved = self.host.try_and_report(
+            "Film not saved",
             lambda: write_film(self._path, frames, self._rate),
             f"Film of {len(frames)} frames saved to {self._path}",
         )
-        if written:
+        if saved:
             self.session.user_event.emit(self._event)
 
 
-def _text(drawn: int, count: int, path: Path) -> str:
-    """Describe the progress after a number of frames."""
+def _progress_text(drawn: int, count: int, path: Path) -> str:
+    """Return the progress text after a number of frames."""
     return f"Drawing frame {drawn + 1} of {count}…" if drawn < count else f"Writing {path.name}…"

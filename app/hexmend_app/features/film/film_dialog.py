@@ -1,4 +1,4 @@
-"""Asks what a film is to be like."""
+"""Dialog that edits the options of a film."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from PySide6.QtWidgets import (
 
 from hexmend_app.theme.style import note, set_help
 
-#: Widths on offer, in pixels.
+#: Widths to choose from, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
 
-#: Most frames of a film unless the user says otherwise: more are not opened where they are sent to.
+#: Default limit of the number of frames: larger files often cannot be viewed where they are sent.
 FRAMES = 60
 
 
@@ -31,13 +31,13 @@ class FilmChoice:
     Parameters
     ----------
     width : int
-        In pixels; the height is that of the view.
+        Width in pixels; the height follows from the shape of the view.
     rate : int
-        Frames a second.
+        Frames per second.
     frames : int
-        The most.
+        Largest number of frames.
     histogram : bool
-        Whether it stands beside.
+        Show a histogram next to the mesh.
     """
 
     width: int = 960
@@ -46,7 +46,7 @@ class FilmChoice:
     histogram: bool = False
 
     def size(self, view: tuple[int, int]) -> tuple[int, int]:
-        """Width and height in pixels, both even, of a film of a view of so many.
+        """Return width and even height of the film in pixels for a view of some width and height.
 
         >>> FilmChoice(960).size((1083, 441))
         (960, 390)
@@ -55,37 +55,37 @@ class FilmChoice:
 
 
 class FilmDialog(QDialog):
-    """Edits a choice.
+    """Dialog that edits the options of a film.
 
     Parameters
     ----------
     choice : FilmChoice
-        Shown first.
+        Initial options.
     view : (width, height)
-        Of the 3D view, in pixels.
+        Size of the 3D view in pixels.
     iterations : int
-        That there are.
+        Number of iterations of the run.
     """
 
     def __init__(self, choice: FilmChoice, view: tuple[int, int], iterations: int, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Save a film of the run")
+        self.setWindowTitle("Save film")
         self._size, self._rate, self._frames = QComboBox(), QSpinBox(), QSpinBox()
         for width in WIDTHS:
             self._size.addItem("{} × {} pixels".format(*FilmChoice(width).size(view)), width)
         self._size.setCurrentIndex(max(0, self._size.findData(choice.width)))
-        set_help(self._size, "Size", "Width and height of the film, caption and colour bar included.")
+        set_help(self._size, "Size", "Width and height of the film, including caption and colour bar.")
         self._rate.setRange(1, 50)
-        self._rate.setSuffix(" frames a second")
+        self._rate.setSuffix(" frames per second")
         self._rate.setValue(choice.rate)
-        set_help(self._rate, "Rate", "How many iterations are shown in a second.")
+        set_help(self._rate, "Rate", "Iterations shown per second.")
         self._frames.setRange(2, 1000)
         self._frames.setSuffix(" frames")
         self._frames.setValue(choice.frames)
-        set_help(self._frames, "Frames", "The most: of more iterations, some are left out evenly.")
+        set_help(self._frames, "Frames", "Largest number of frames. Longer runs are thinned out evenly.")
         self._histogram = QCheckBox("Histogram next to the mesh")
         self._histogram.setChecked(choice.histogram)
-        set_help(self._histogram, "Histogram", "How many hexes have what value, frame by frame.")
+        set_help(self._histogram, "Histogram", "Show the distribution of values next to the mesh.")
         form = QFormLayout()
         form.addRow("Size", self._size)
         form.addRow("Rate", self._rate)
@@ -96,12 +96,12 @@ class FilmDialog(QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
-        column.addWidget(note(f"{iterations + 1:,} iterations, drawn as the view shows them: cut, colours and arrows."))
+        column.addWidget(note(f"{iterations + 1:,} iterations, with the cut, colours and arrows of the view."))
         column.addLayout(form)
         column.addWidget(buttons)
 
     def choice(self) -> FilmChoice:
-        """Return the options that the user chose."""
+        """Return the selected options."""
         return FilmChoice(
             self._size.currentData(), self._rate.value(), self._frames.value(), self._histogram.isChecked()
         )

@@ -1,4 +1,4 @@
-"""About dialog; the pages of keys and commands, which know every feature, belong to the window."""
+"""Feature with the About dialog."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from hexmend_app.widgets.dialogs.questions import show_about
 
 
 class FeatureHelp(Feature):
-    """Says what Hexmend is; the pages of keys and commands, which know every feature, are the window's."""
+    """Shows the About dialog; the pages of keys and commands belong to the window, which knows all features."""
 
     order = 90
 
     def actions(self) -> Sequence[Action]:
-        """About Hexmend."""
+        """Return the action that shows the About dialog."""
         return (
             Action(
                 id="about",
                 text="&About Hexmend",
                 menu="Help",
                 part=1,
-                help="Version, licence and sources.",
+                help="Show version, licence and sources.",
                 needs_mesh=False,
                 handle=lambda: show_about(self.host.dialog_parent, __version__),
             ),

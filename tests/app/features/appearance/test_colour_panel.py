@@ -34,7 +34,7 @@ def panel(shown, unbounded):
 
 
 @pytest.fixture
-def heard(panel):
+def emitted(panel):
     scales = []
     panel.scale_changed.connect(scales.append)
     return scales
@@ -90,7 +90,7 @@ def type_in(box, text, *, enter=True):
         QTest.keyClick(box.lineEdit(), Qt.Key.Key_Return)
 
 
-def test_every_metric_is_offered_with_what_it_declares(panel):
+def test_every_metric_is_listed_with_its_description(panel):
     assert metrics(panel).itemData(0) == "q"
     for name, metric in METRICS.items():
         at = metrics(panel).findData(name)
@@ -102,17 +102,17 @@ def test_every_metric_is_offered_with_what_it_declares(panel):
     assert "Lower is better" in tip
 
 
-def test_every_map_is_offered_with_a_swatch(panel):
+def test_every_map_is_listed_with_a_swatch(panel):
     assert [maps(panel).itemData(k) for k in range(maps(panel).count())] == list(value_maps())
     assert all(not maps(panel).itemIcon(k).isNull() for k in range(maps(panel).count()))
 
 
-def test_what_is_chosen_is_announced_once(panel, heard):
+def test_each_choice_emits_one_signal(panel, emitted):
     choose(metrics(panel), "scaled-jacobian")
     choose(maps(panel), "cividis")
     press(panel, "acceptable")
     QTest.mouseClick(reverse(panel), _LEFT, pos=QPoint(8, reverse(panel).height() // 2))
-    assert heard == [
+    assert emitted == [
         ColourScale("scaled-jacobian"),
         ColourScale("scaled-jacobian", "cividis"),
         ColourScale("scaled-jacobian", "cividis", RangeMode.ACCEPTABLE),
@@ -120,9 +120,9 @@ def test_what_is_chosen_is_announced_once(panel, heard):
     ]
 
 
-def test_ranges_without_bound_cannot_be_chosen(panel, heard):
+def test_unbounded_ranges_are_disabled(panel, emitted):
     choose(metrics(panel), "long")
-    assert heard[-1].mode is RangeMode.FITTED
+    assert emitted[-1].mode is RangeMode.FITTED
     for mode in ("full", "acceptable"):
         assert not ranges(panel).button(mode).isEnabled()
         assert "unbounded" in ranges(panel).button(mode).toolTip()
@@ -132,64 +132,64 @@ def test_ranges_without_bound_cannot_be_chosen(panel, heard):
     assert ranges(panel).button("full").isEnabled()
 
 
-def test_pinning_holds_the_range_that_is_shown(panel, heard):
+def test_pinning_fixes_the_current_range(panel, emitted):
     press(panel, "fitted")
     panel.set_ends(0.123456, 0.987654)
     assert not low(panel).isEnabled()
     press(panel, "pinned")
-    assert heard[-1].pinned == (0.123, 0.988)
+    assert emitted[-1].pinned == (0.123, 0.988)
     panel.set_ends(0, 1)  # of a later iteration
     assert (low(panel).value(), high(panel).value()) == (0.123, 0.988)
 
 
-def test_a_half_typed_number_is_no_wish(panel, heard):
+def test_a_number_being_typed_emits_no_signal(panel, emitted):
     press(panel, "pinned")
-    heard.clear()
+    emitted.clear()
     type_in(high(panel), "0.35", enter=False)
     panel.set_ends(0.1, 0.2)  # an iteration is drawn meanwhile
     assert high(panel).lineEdit().text() == "0.35"
-    assert heard == []
+    assert emitted == []
     QTest.keyClick(high(panel).lineEdit(), Qt.Key.Key_Tab)
-    assert [scale.pinned for scale in heard] == [(0, 0.35)]
+    assert [scale.pinned for scale in emitted] == [(0, 0.35)]
 
 
-def test_numbers_that_are_no_range_are_said_and_stay_as_typed(panel, heard):
+def test_invalid_limits_show_an_error_and_stay_as_typed(panel, emitted):
     press(panel, "pinned")
-    heard.clear()
+    emitted.clear()
     for text, words in (("2", "the lower value first"), ("1e", "Expected a number"), ("1", "the lower value first")):
         type_in(low(panel), text)
         assert words in problem(panel)
         choose(maps(panel), "plasma")
         choose(maps(panel), "viridis")
         assert low(panel).lineEdit().text() == text
-    assert all(scale.pinned == (0, 1) for scale in heard)
+    assert all(scale.pinned == (0, 1) for scale in emitted)
     type_in(low(panel), "-1e-1")
-    assert heard[-1].pinned == (-0.1, 1)
+    assert emitted[-1].pinned == (-0.1, 1)
     assert problem(panel) == ""
 
 
-def test_arrow_keys_step_a_pinned_end(panel, heard):
+def test_arrow_keys_step_a_pinned_end(panel, emitted):
     press(panel, "pinned")
     high(panel).lineEdit().setFocus()
     QTest.keyClick(high(panel), Qt.Key.Key_Down)
-    assert heard[-1].pinned == (0, 0.9)
+    assert emitted[-1].pinned == (0, 0.9)
 
 
-def test_ends_that_were_typed_are_found_again_for_their_metric_only(panel, heard):
+def test_typed_limits_are_remembered_for_their_metric(panel, emitted):
     press(panel, "pinned")
     type_in(low(panel), "0.25")
     choose(metrics(panel), "scaled-jacobian")
-    assert heard[-1].mode is RangeMode.FULL
+    assert emitted[-1].mode is RangeMode.FULL
     choose(metrics(panel), "q")
     press(panel, "full")
     press(panel, "pinned")
-    assert heard[-1].pinned == (0.25, 1)
+    assert emitted[-1].pinned == (0.25, 1)
 
 
-def test_what_is_set_is_shown_silently(panel, heard):
+def test_a_scale_is_shown_without_a_signal(panel, emitted):
     scale = ColourScale("scaled-jacobian", "inferno", RangeMode.PINNED, (-0.5, 0.5), True)
     panel.set_scale(scale)
-    assert heard == []
+    assert emitted == []
     assert panel.scale() == scale
     assert metrics(panel).currentData() == "scaled-jacobian"
     assert maps(panel).currentData() == "inferno"

@@ -54,7 +54,7 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
     assert window.session.view.look.scale.pinned == (low.value(), high.value())
 
 
-def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, monkeypatch):
+def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatch):
     viewport, now = window.canvas.viewport, window.session.document.now
     rebuilt = []
     rebuild = viewport.body.rebuild
@@ -74,7 +74,7 @@ def test_what_a_range_leaves_is_drawn_anew_only_where_it_changes(window, monkeyp
     assert viewport.shown == np.count_nonzero((figures.q >= 0.4) & ~figures.inverted)
 
 
-def test_the_mesh_is_drawn_once_for_all_that_changes_in_a_turn(window, qtbot, monkeypatch):
+def test_the_mesh_is_drawn_once_for_all_changes_of_one_turn(window, qtbot, monkeypatch):
     drawn, draw = [], window.canvas.draw
     monkeypatch.setattr(window.canvas, "draw", lambda *arguments: (drawn.append(1), draw(*arguments)))
     for edges in (False, True, False):

@@ -104,7 +104,7 @@ def test_warpage_is_that_of_the_worst_face(kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_edge_ratio_is_verdicts_where_that_has_seen_the_longest_edge(kind):
+def test_edge_ratio_is_that_of_verdict_where_verdict_examines_the_longest_edge(kind):
     x = hexes(kind)
     ours, theirs = values("edge-ratio", x), of_cells(vtkMeshQuality.HexEdgeRatio, x)
     edges = np.linalg.norm(x[:, SEEN[:, 0]] - x[:, SEEN[:, 1]], axis=2)
@@ -116,7 +116,7 @@ def test_edge_ratio_is_verdicts_where_that_has_seen_the_longest_edge(kind):
 
 @pytest.mark.parametrize("name", sorted({*THEIRS} - {"volume", "jacobian"}))
 @pytest.mark.parametrize("collapsed", [UNIT_CUBE * 0, UNIT_CUBE * [1, 0, 0], UNIT_CUBE * [1, 1, 0]])
-def test_a_collapsed_hex_has_verdicts_value_or_the_worse_end_of_the_range(name, collapsed):
+def test_a_collapsed_hex_has_the_value_of_verdict_or_the_worse_end_of_the_range(name, collapsed):
     ours, theirs = values(name, collapsed[None])[0], of_cells(getattr(vtkMeshQuality, THEIRS[name]), collapsed[None])[0]
     metric = METRICS[name]
     worst = metric.full_range[0] if metric.better > 0 else metric.full_range[1]

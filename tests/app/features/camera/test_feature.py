@@ -8,7 +8,7 @@ from PySide6.QtGui import QGuiApplication
 from hexmend_app.picture import camera_from
 
 
-def test_a_camera_that_is_copied_is_pasted_as_it_was(window):
+def test_a_copied_camera_is_pasted_unchanged(window):
     canvas = window.canvas
     canvas.roll(20)
     window.action("parallel").trigger()

@@ -50,7 +50,7 @@ def menu_of(window):
     return menu
 
 
-def test_a_camera_is_saved_under_a_name_and_replaced_by_asking(window, monkeypatch):
+def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, monkeypatch):
     cameras, proposed = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *arguments: proposed.append(arguments[4]) or (" front ", True))
     window.action("keep_camera").trigger()
@@ -72,7 +72,7 @@ def test_a_camera_is_saved_under_a_name_and_replaced_by_asking(window, monkeypat
     assert window.messages.messages()[-1][1] == "Camera not saved"
 
 
-def test_the_menu_goes_to_a_camera(window, saved):
+def test_the_menu_applies_a_camera(window, saved):
     menu = menu_of(window)
     assert menu.menuAction().isEnabled()
     menu.aboutToShow.emit()
@@ -83,13 +83,13 @@ def test_the_menu_goes_to_a_camera(window, saved):
     assert window.canvas.stand == saved["front & side"]
 
 
-def test_without_cameras_there_is_nothing_to_go_to(window):
+def test_the_menu_is_disabled_without_cameras(window):
     window.refresh()
     assert not menu_of(window).menuAction().isEnabled()
     assert not window.action("cameras").isEnabled()
 
 
-def test_the_dialog_goes_to_cameras_and_deletes_them(window, saved, dialog, qtbot):
+def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
     assert names(dialog) == list(saved)
     dialog.list.setCurrentRow(1)
     button(dialog, "&Go to").click()
@@ -123,7 +123,7 @@ def test_the_dialog_renames(window, saved, dialog, qtbot):
 
 
 @pytest.mark.slow
-def test_scenes_and_pictures_of_the_window_have_them(window, saved, tmp_path, qtbot, mesh_file):
+def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot, mesh_file):
     save, cameras = window.features["save"], window.session.saved_cameras
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
@@ -143,7 +143,7 @@ def test_scenes_and_pictures_of_the_window_have_them(window, saved, tmp_path, qt
     assert cameras.all == before
 
 
-def test_render_looks_through_a_camera_of_a_session(window, saved, tmp_path, capsys):
+def test_render_uses_a_camera_of_a_session(window, saved, tmp_path, capsys):
     path = tmp_path / "work.hexmend"
     assert window.features["session"].save_and_wait(path)
     scene = tmp_path / "scene.toml"
@@ -156,7 +156,7 @@ def test_render_looks_through_a_camera_of_a_session(window, saved, tmp_path, cap
     assert "in the scene or the session (known: front & side, top)" in capsys.readouterr().err
 
 
-def test_a_session_whose_cameras_are_lost_is_asked_about(window, saved, tmp_path, monkeypatch):
+def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path, monkeypatch):
     questions = []
     monkeypatch.setattr(
         QMessageBox, "exec", lambda self: questions.append(self.text()) or QMessageBox.StandardButton.Cancel
@@ -173,7 +173,7 @@ def test_a_session_whose_cameras_are_lost_is_asked_about(window, saved, tmp_path
     assert questions == ["The cameras of work.hexmend are others than were saved."]
 
 
-def test_nothing_is_left_of_the_dialog(window, saved, qtbot, monkeypatch):
+def test_the_dialog_is_deleted_when_closed(window, saved, qtbot, monkeypatch):
     monkeypatch.setattr(CamerasDialog, "exec", lambda self: True)
     for _ in range(3):
         window.action("cameras").trigger()

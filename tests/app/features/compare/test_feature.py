@@ -36,7 +36,7 @@ from tests.app.features.compare.table import (
 from tests.patience import PATIENCE
 
 
-def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
+def test_the_table_has_the_values_of_the_core_and_the_mesh_does_not_change(compared):
     before = compared.session.document.start.mesh
     assert compared.session.document.now.mesh is before
     expected = compare(before, ["getme", "laplacian", "local-sd"], SHORT)
@@ -55,7 +55,7 @@ def test_the_table_holds_what_the_core_computes_and_the_mesh_stays(compared):
 
 
 @pytest.mark.slow
-def test_what_is_worse_than_the_initial_mesh_stands_out(comparing, qtbot, tmp_path):
+def test_regressions_are_highlighted(comparing, qtbot, tmp_path):
     io.write(tmp_path / "sound.vtu", make("bridge-sharp", size=864))
     open_and_wait(qtbot, comparing, tmp_path / "sound.vtu")
     choose(comparing, "laplacian", StoppingCriteria(keep_last=True))
@@ -82,7 +82,7 @@ def test_the_key_brings_the_table_to_the_front(comparing, qtbot):
     assert model(comparing).entries[row(comparing, "laplacian")].record["iterations"] == 4
 
 
-def test_a_click_on_a_head_sorts_and_the_initial_mesh_stays_first(compared):
+def test_a_click_on_a_header_sorts_with_the_initial_mesh_first(compared):
     header = table_of(compared).horizontalHeader()
     column = COLUMN["q_mean"]
     table_of(compared).scrollTo(model(compared).index(0, column))
@@ -98,7 +98,7 @@ def test_a_click_on_a_head_sorts_and_the_initial_mesh_stays_first(compared):
     assert orders[1] == orders[0][::-1]
 
 
-def test_cancel_ends_with_the_iteration_at_hand_and_keeps_what_was_reached(comparing, qtbot, monkeypatch):
+def test_cancel_stops_after_the_current_iteration_and_keeps_the_results(comparing, qtbot, monkeypatch):
     reached, resume = Event(), Event()
     steps = METHODS["local-sd"].steps
 
@@ -133,7 +133,7 @@ def test_cancel_ends_with_the_iteration_at_hand_and_keeps_what_was_reached(compa
     assert comparing.window_actions["compare"].isEnabled()
 
 
-def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, monkeypatch):
+def test_a_failed_method_has_a_row_and_the_others_continue(comparing, qtbot, monkeypatch):
     def broken(self, mesh):
         raise RuntimeError("no memory")
         yield
@@ -151,7 +151,7 @@ def test_a_method_that_fails_has_its_row_and_the_others_go_on(comparing, qtbot, 
 
 
 @pytest.mark.slow
-def test_another_mesh_ends_the_work_and_empties_everything(compared, qtbot, mesh_file):
+def test_another_mesh_cancels_the_comparison_and_clears_the_results(compared, qtbot, mesh_file):
     tick(compared, "getme", VIEW)
     choose(compared, "mend", ENDLESS)
     choose_methods(compared, "local-sd")
@@ -175,7 +175,7 @@ def test_the_window_closes_while_methods_run(fresh_window, qtbot):
     assert not comparing.session.comparison.busy
 
 
-def test_a_result_is_taken_and_undo_takes_it_back(compared):
+def test_a_result_replaces_the_mesh_and_can_be_undone(compared):
     before = compared.session.document.now.mesh
     assert not button(compared, "Use result").isEnabled()
     index = model(compared).index(row(compared, "laplacian"), COLUMN["inverted"])
@@ -189,7 +189,7 @@ def test_a_result_is_taken_and_undo_takes_it_back(compared):
     assert compared.session.document.now.mesh is before
 
 
-def test_methods_run_with_the_values_that_were_set_for_them(comparing, qtbot):
+def test_methods_run_with_their_parameters(comparing, qtbot):
     choose(comparing, "getme", SHORT, relaxation=0.25)
     choose(comparing, "laplacian", SHORT)
     choose_methods(comparing, "getme")
@@ -198,7 +198,7 @@ def test_methods_run_with_the_values_that_were_set_for_them(comparing, qtbot):
     assert comparing.session.comparison.of("getme").row.parameters["relaxation"] == 0.25
 
 
-def test_the_table_is_saved_as_any_of_four_files_or_the_reason_given(compared, tmp_path):
+def test_the_table_is_saved_in_four_formats_and_others_are_refused(compared, tmp_path):
     for suffix in (".csv", ".md", ".tex", ".json"):
         path = tmp_path / f"table{suffix}"
         assert compared.features["compare"].save(path)

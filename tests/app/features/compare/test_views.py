@@ -18,7 +18,7 @@ from tests.app.features.compare.table import button, captions, model, row, tick
 from tests.patience import PATIENCE
 
 
-def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(compared):
+def test_results_are_shown_next_to_the_mesh_and_named_in_the_histogram(compared):
     for count, name in enumerate(("getme", "laplacian", "local-sd"), 2):
         tick(compared, name, VIEW)
         assert len(compared.canvas.panes.all) == count
@@ -40,7 +40,7 @@ def test_results_are_shown_beside_the_mesh_with_their_names_in_the_histogram(com
 
 
 @pytest.mark.slow
-def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
+def test_one_view_is_closed_by_its_button_and_all_by_a_key(compared):
     for name in ("getme", "laplacian", "local-sd"):
         tick(compared, name, VIEW)
     crosses = [
@@ -57,7 +57,7 @@ def test_a_view_is_closed_by_its_button_and_the_rest_by_a_key(compared):
     assert compared.session.snapshots.all == ()
 
 
-def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
+def test_a_state_shown_under_a_name_in_use_replaces_the_view(compared):
     first, second = (compared.session.comparison.of(name).state for name in ("getme", "laplacian"))
     compared.session.side_views.show("iteration 7", first)
     compared.refresh()
@@ -70,7 +70,7 @@ def test_one_state_is_shown_by_one_call_and_replaced_under_its_name(compared):
 
 
 @pytest.mark.slow
-def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(compared, qtbot):
+def test_another_comparison_closes_only_the_views_of_the_previous_one(compared, qtbot):
     mesh = compared.session.document.now.mesh
     compared.session.side_views.show("mine", State.of(mesh.with_points(mesh.points)))
     tick(compared, "getme", VIEW)
@@ -83,7 +83,7 @@ def test_another_comparison_closes_the_views_of_the_one_before_and_no_others(com
 
 
 @pytest.mark.slow
-def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(compared, qtbot):
+def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtbot):
     tick(compared, "getme", VIEW)
     canvas, view = compared.canvas, compared.canvas.interactor
     canvas.draw_still()
@@ -109,7 +109,7 @@ def test_a_drag_in_any_view_turns_all_and_a_click_chooses_one_element_in_all(com
     assert canvas.panes.all[2].extras.selection.hex == chosen
 
 
-def test_cut_and_colours_are_those_of_all_views(compared):
+def test_all_views_have_the_same_cut_and_colours(compared):
     tick(compared, "getme", VIEW)
     tick(compared, "laplacian", VIEW)
     key(compared, Qt.Key.Key_C)
@@ -127,7 +127,7 @@ def test_cut_and_colours_are_those_of_all_views(compared):
     assert bar.range == (first.colouring.low, first.colouring.high)
 
 
-def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(compared, qtbot):
+def test_the_plane_is_shown_in_the_first_view_wherever_the_mouse_is(compared, qtbot):
     tick(compared, "getme", VIEW)
     view = compared.canvas.interactor
     for _ in range(2):
@@ -147,7 +147,7 @@ def test_the_plane_comes_back_in_the_view_of_the_mesh_wherever_the_mouse_was(com
 
 @pytest.mark.slow
 @pytest.mark.parametrize("arranged", ["side by side", "wipe", "wipe, the mesh at the right"])
-def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared, qtbot, arranged):
+def test_a_plane_dragged_in_the_first_view_cuts_all_views(compared, qtbot, arranged):
     tick(compared, "getme", VIEW)
     if arranged != "side by side":
         compared.session.side_views.set_wiping(True)
@@ -170,7 +170,7 @@ def test_the_plane_is_dragged_in_the_view_of_the_mesh_and_moves_in_all(compared,
 
 
 @pytest.mark.slow
-def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
+def test_the_mesh_can_be_smoothed_while_results_are_shown(compared, qtbot):
     tick(compared, "getme", VIEW)
     with qtbot.waitSignal(compared.session.run.ended, timeout=PATIENCE):
         click(compared, "Run")
@@ -185,7 +185,7 @@ def test_the_mesh_may_be_smoothed_while_others_are_shown(compared, qtbot):
 
 
 @pytest.mark.slow
-def test_a_picture_holds_all_views_with_their_captions(compared, tmp_path):
+def test_a_picture_shows_all_views_with_their_captions(compared, tmp_path):
     for name in ("getme", "laplacian"):
         tick(compared, name, VIEW)
     assert compared.features["save"].picture(tmp_path / "three.png", (900, 420))

@@ -18,7 +18,7 @@ from tests.app.features.compare.table import button, captions, tick
 pytestmark = pytest.mark.slow
 
 
-def test_the_wipe_is_switched_dragged_and_led_by_keys(compared, qtbot):
+def test_the_wipe_is_switched_and_moved_by_mouse_and_keys(compared, qtbot):
     tick(compared, "getme", VIEW)
     tick(compared, "laplacian", VIEW)
     key(compared, Qt.Key.Key_W)
@@ -49,7 +49,7 @@ def test_the_wipe_is_switched_dragged_and_led_by_keys(compared, qtbot):
     assert not handle.isVisible()
 
 
-def test_either_side_of_the_wipe_is_chosen_by_name(compared):
+def test_both_sides_of_the_wipe_are_selected_by_name(compared):
     tick(compared, "getme", VIEW)
     tick(compared, "laplacian", VIEW)
     press(button(compared, "Wipe"))

@@ -87,7 +87,7 @@ def test_an_endless_print_is_shown_and_interrupted(console, qtbot):
     assert "KeyboardInterrupt" in console.panel.output.toPlainText()
 
 
-def test_the_plotter_and_the_session_are_used_in_the_windows_thread(window, console):
+def test_plotter_and_session_are_used_in_the_gui_thread(window, console):
     text = console.enter_and_wait("import pyvista as pv; actor = plotter.add_mesh(pv.Sphere(), color='red')")
     assert "Error" not in text
     assert len(window.canvas.plotter.actors) == 1
@@ -133,7 +133,7 @@ def test_lines_history_and_completion(window, console, qtbot):
         ("", True),
     ],
 )
-def test_what_is_complete(source, complete):
+def test_is_complete(source, complete):
     assert is_complete(source) == complete
 
 

@@ -26,7 +26,7 @@ def recorded(method, iterations=6, parent=None):
 
 
 @pytest.mark.parametrize("method", ["laplacian", "local-sd", "global-nr", "mend"])
-def test_columns_hold_what_the_rows_hold_and_gaps_elsewhere(method):
+def test_columns_have_the_values_of_the_rows_and_nan_elsewhere(method):
     record = recorded(method)
     columns = Columns(record)
     columns.grow()

@@ -39,7 +39,7 @@ def click_at(panel, key, x):
     QTest.mouseClick(plot.plot.viewport(), LEFT, Qt.KeyboardModifier.NoModifier, at)
 
 
-def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel):
+def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, qtbot, panel):
     record = run(window, qtbot)
     assert len(panel.curves[0].columns) == 9
     click_at(panel, "inverted", 3)
@@ -52,7 +52,7 @@ def test_a_click_in_a_chart_goes_there_and_the_line_follows(window, qtbot, panel
     assert panel.plots["objective"].marker.value() == 6
 
 
-def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, qtbot, panel):
+def test_branches_start_where_they_left_or_at_zero_and_are_deleted(window, qtbot, panel):
     first = run(window, qtbot)
     window.session.timeline.go(first, 4)
     second = run(window, qtbot, "laplacian", 3)
@@ -72,7 +72,7 @@ def test_branches_begin_where_they_left_or_at_nought_and_are_forgotten(window, q
 
 
 @pytest.mark.slow
-def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbot, panel):
+def test_charts_are_redrawn_during_a_run_at_most_ten_times_a_second(window, qtbot, panel):
     drawn = []
     original = panel.set_curves
     panel.set_curves = lambda curves: (drawn.append(len(curves[0].columns) if curves else 0), original(curves))
@@ -90,7 +90,7 @@ def test_charts_grow_while_a_run_goes_on_ten_times_a_second_at_most(window, qtbo
 
 
 @pytest.mark.slow
-def test_what_is_behind_other_docks_is_drawn_as_it_comes_to_the_front(window, qtbot):
+def test_hidden_charts_are_drawn_once_they_are_visible(window, qtbot):
     panel, record = window.features["convergence"].panel, run(window, qtbot)
     assert record not in [one.record for one in panel.curves]
     window.show_panel("convergence")
@@ -106,7 +106,7 @@ def test_another_mesh_has_no_curves(window, qtbot, panel, mesh_file):
 
 
 @pytest.mark.slow
-def test_the_charts_are_saved_as_figures_and_all_figures_of_all_runs_as_a_table(window, qtbot, panel, tmp_path):
+def test_charts_are_saved_as_figures_and_values_of_all_runs_as_a_table(window, qtbot, panel, tmp_path):
     first = run(window, qtbot, "mend", 5)
     window.session.timeline.go(first, 2)
     second = run(window, qtbot, "laplacian", 3)

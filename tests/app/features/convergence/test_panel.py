@@ -75,7 +75,7 @@ def test_the_default_charts_are_drawn_below_one_another_with_one_axis(panel):
     assert [text for _, text in panel.plots["quality"].scale.ticks] == ["0", "0.5", "1"]
 
 
-def test_zero_has_a_place_below_the_powers_of_ten_and_infinite_is_a_gap(panel):
+def test_a_logarithmic_axis_has_a_position_for_zero_and_infinity_is_a_gap(panel):
     inverted, objective = panel.plots["inverted"], panel.plots["objective"]
     heights = inverted.heights(np.array([100.0, 10.0, 0.0]))
     assert heights.tolist() == [2, 1, -1]
@@ -108,12 +108,12 @@ def test_every_chart_can_be_drawn_alone(panel):
 
 
 def test_a_click_goes_to_the_iteration_of_the_current_run_or_of_the_curve_it_hits(panel):
-    heard = []
-    panel.picked.connect(lambda record, number: heard.append((record.name, number)))
+    emitted = []
+    panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
     QTest.mouseClick(*args(place(panel, "objective", 4.2)))
     y = panel.plots["quality"].heights(BOTH[1].columns.of("q_min"))[5]
     QTest.mouseClick(*args(place(panel, "quality", 13.0, y)))
-    assert heard == [("getme", 4), ("local-sd", 5)]
+    assert emitted == [("getme", 4), ("local-sd", 5)]
 
 
 def args(where):
@@ -121,17 +121,17 @@ def args(where):
     return widget, LEFT, Qt.KeyboardModifier.NoModifier, at
 
 
-def test_a_drag_goes_through_iterations_and_keeps_to_its_run(panel):
-    heard = []
-    panel.picked.connect(lambda record, number: heard.append((record.name, number)))
+def test_a_drag_selects_iterations_of_one_run(panel):
+    emitted = []
+    panel.picked.connect(lambda record, number: emitted.append((record.name, number)))
     widget, start = place(panel, "inverted", 2)
     _, end = place(panel, "inverted", 18)
     QTest.mousePress(widget, LEFT, pos=start)
     for k in range(1, 9):
         move(widget, start + (end - start) * (k / 8), LEFT)
     QTest.mouseRelease(widget, LEFT, pos=end)
-    numbers = [number for _, number in heard]
-    assert {name for name, _ in heard} == {"getme"}
+    numbers = [number for _, number in emitted]
+    assert {name for name, _ in emitted} == {"getme"}
     assert numbers == sorted(numbers)
     assert numbers[-1] == 18
 
@@ -145,7 +145,7 @@ def test_the_iteration_shown_is_marked_on_its_branch(panel):
     assert not panel.drawn[0].marker.isVisible()
 
 
-def test_the_line_of_the_objective_ends_where_a_stage_has_another_one(panel):
+def test_the_curve_of_the_objective_has_a_gap_where_a_stage_changes_it(panel):
     stages = record("recipe", 9)
     for row in stages.rows:
         row["objective_formula"] = "Σ η²" if row["iteration"] < 5 else "Σ η⁴, offset 0"
@@ -178,7 +178,7 @@ def test_tooltips_give_values_and_the_nearest_stored_iteration(panel):
     assert " at 0.4 s: " in describe(CHARTS["inverted"], BOTH[:1], 0.41, by_time=True)
 
 
-def test_runs_are_switched_and_forgotten_in_the_legend(panel):
+def test_runs_are_hidden_and_deleted_in_the_legend(panel):
     toggled, forgotten = [], []
     panel.toggled.connect(lambda record, on: toggled.append((record.name, on)))
     panel.forget_requested.connect(lambda record: forgotten.append(record.name))
@@ -209,7 +209,7 @@ def test_runs_are_listed_above_the_charts_in_a_narrow_panel(panel):
     assert panel.plotting.width() > 250
 
 
-def test_while_a_run_goes_on_axes_change_seldom(panel):
+def test_axes_change_seldom_during_a_run(panel):
     growing = record("getme", 200)
     rows, growing.rows = growing.rows, growing.rows[:100]
     spans = set()

@@ -62,7 +62,7 @@ def test_the_plane_is_dragged_in_the_view(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_plane_that_is_turned_snaps_to_the_axis_until_it_is_far_from_it(window, qtbot):
+def test_a_rotated_plane_snaps_to_a_nearby_axis(window, qtbot):
     key(window, Qt.Key.Key_C)
     choose(window, "X")
     window.canvas.draw_still()
@@ -118,7 +118,7 @@ def test_two_planes_cut_a_corner_out(window, qtbot):
     assert window.canvas.viewport.shown == one
 
 
-def test_a_cut_that_is_switched_off_and_on_at_once_is_shown_as_on(window):
+def test_a_cut_switched_off_and_on_between_two_refreshes_is_shown_as_on(window):
     window.window_actions["cut"].trigger()
     window.refresh()
     box = named(window, QCheckBox, "Cut")

@@ -67,21 +67,21 @@ def type_into(box, text):
 # The panel
 
 
-def test_slider_and_box_say_the_same_layers(panel):
-    heard = []
-    panel.peel_changed.connect(heard.append)
+def test_slider_and_spin_box_show_the_same_number_of_layers(panel):
+    emitted = []
+    panel.peel_changed.connect(emitted.append)
     named(panel, QSlider, PEEL).setFocus()
     QTest.keyClick(named(panel, QSlider, PEEL), Qt.Key.Key_Right)
     assert named(panel, QSpinBox, PEEL).value() == 1
     type_into(named(panel, QSpinBox, PEEL), "3")
     assert named(panel, QSlider, PEEL).value() == 3
-    assert heard == [1, 3]
+    assert emitted == [1, 3]
     panel.set_look(Look(peel=2), 1)
     assert named(panel, SliderBox, PEEL).value() == 2
-    assert heard == [1, 3]
+    assert emitted == [1, 3]
 
 
-def test_there_is_nothing_to_peel_where_all_touch_the_boundary(panel):
+def test_peeling_is_disabled_if_all_hexes_are_on_the_boundary(panel):
     panel.set_layers(0)
     assert not named(panel, SliderBox, PEEL).isEnabled()
     assert "every hex has a face on the boundary" in named(panel, SliderBox, PEEL).toolTip()
@@ -112,7 +112,7 @@ def test_a_smooth_cut_and_shrinking_exclude_each_other(panel):
     assert named(panel, SliderBox, SHRINK).value() == 20
 
 
-def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
+def test_buttons_are_enabled_if_hexes_are_isolated_or_dug_away(panel):
     buttons = [named(panel, QPushButton, name) for name in BUTTONS]
     assert not any(button.isEnabled() for button in buttons)
     panel.set_look(Look(isolation=Isolation((4,), 2), dug=frozenset({1, 2, 3})), 2)
@@ -120,20 +120,20 @@ def test_what_can_be_ended_or_undone_is_enabled_only_then(panel):
     assert named(panel, QSpinBox, RINGS).value() == 2
     assert panel.isolated.text() == "1 hex isolated"
     assert panel.dug.text() == "3 hexes dug away"
-    heard = []
-    panel.all_requested.connect(lambda: heard.append("all"))
-    panel.undo_requested.connect(lambda: heard.append("undo"))
-    panel.restore_requested.connect(lambda: heard.append("restore"))
+    emitted = []
+    panel.all_requested.connect(lambda: emitted.append("all"))
+    panel.undo_requested.connect(lambda: emitted.append("undo"))
+    panel.restore_requested.connect(lambda: emitted.append("restore"))
     for button in buttons:
         QTest.mouseClick(button, LEFT)
-    assert heard == ["all", "undo", "restore"]
+    assert emitted == ["all", "undo", "restore"]
 
 
 @pytest.mark.parametrize(
     ("numbers", "text"),
     [((0, 0), ""), ((5, 1000), "5 of 1,000 hexes shown"), ((0, 8), "0 of 8 hexes shown")],
 )
-def test_it_says_how_many_are_shown(panel, numbers, text):
+def test_the_panel_shows_the_number_of_visible_hexes(panel, numbers, text):
     panel.set_shown(*numbers)
     assert panel.shown.text() == text
 
@@ -164,7 +164,7 @@ def test_isolating_with_rings_and_back(window):
     assert view.look.isolation == Isolation((3,), 1)
 
 
-def test_digging_undoing_and_putting_back(window):
+def test_hexes_are_dug_away_and_restored(window):
     view, panel = window.session.view, window.features["cut"].inside
     for h in (0, 1, 1, 2):
         view.dig(h)
@@ -203,7 +203,7 @@ def test_everything_combines(window):
     )
 
 
-def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtbot):
+def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
     slider = named(window.features["cut"].inside, QSlider, SHRINK)
     slider.setFocus()
     for _ in range(5):
@@ -225,7 +225,7 @@ def test_shrunk_elements_are_drawn_about_their_centres_as_nodes_move(window, qtb
     np.testing.assert_allclose(drawn.body.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
-def test_of_many_elements_those_in_sight_are_shrunk(window, qtbot, monkeypatch):
+def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.geometry.skin.WHOLE", 500)
     window.session.view.change(shrink=0.3)
     layers = window.session.document.now.mesh.topology.layers
@@ -244,7 +244,7 @@ def test_a_smooth_cut_is_not_shrunk(window):
     assert shown(window) == "1,000 of 1,000 hexes shown, then cut"
 
 
-def test_the_outline_is_drawn_while_something_is_hidden_and_wanted(window):
+def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):
     actor = window.canvas.viewport.extras.outline.actor
     box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
     assert not actor.GetVisibility()
@@ -272,7 +272,7 @@ def test_another_mesh_is_shown_whole(window, qtbot, tmp_path):
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1100, 700)])
-def test_nothing_is_cut_off(window, qtbot, size):
+def test_no_text_is_truncated(window, qtbot, size):
     window.resize(*size)
     window.session.view.isolate(range(500), 12)
     for h in range(12):

@@ -1,4 +1,4 @@
-"""The doctor in the window: findings with their places, mended by a click and taken back by undo."""
+"""The doctor in the window: findings with their locations, repairs and undo."""
 
 import numpy as np
 import pytest
@@ -17,11 +17,11 @@ from tests.patience import PATIENCE
 
 
 def unmerged():
-    """Two blocks side by side, one of them inside out."""
-    one = make("cube", size=27)
-    other = one.points + [np.ptp(one.points[:, 0]), 0, 0]
-    turned = one.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]
-    return Mesh(np.vstack([one.points, other]), np.vstack([one.hexes, turned + one.n_nodes]), name="blocks")
+    """Return two unmerged blocks, one of them mirrored."""
+    block = make("cube", size=27)
+    points = block.points + [np.ptp(block.points[:, 0]), 0, 0]
+    mirrored = block.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    return Mesh(np.vstack([block.points, points]), np.vstack([block.hexes, mirrored + block.n_nodes]), name="blocks")
 
 
 @pytest.fixture
@@ -39,14 +39,14 @@ def buttons(panel, text):
     return [one for one in panel.findChildren(QPushButton) if one.text() == text and one.isVisible()]
 
 
-def said(panel):
+def texts(panel):
     return " ".join(label.text() for label in panel.findChildren(QLabel) if label.isVisible())
 
 
-def test_findings_are_listed_with_their_places(window, panel):
-    assert "Mirrored parts" in said(panel)
-    assert "blocks that are not merged" in said(panel)
-    assert "Hexes 27, 28, 29" in said(panel)
+def test_findings_are_listed_with_their_locations(window, panel):
+    assert "Mirrored parts" in texts(panel)
+    assert "blocks that are not merged" in texts(panel)
+    assert "Hexes 27, 28, 29" in texts(panel)
 
 
 def test_a_finding_is_shown_in_the_view(window, panel):
@@ -54,21 +54,21 @@ def test_a_finding_is_shown_in_the_view(window, panel):
     assert set(range(27, 54)) == set(window.session.view.look.isolation.hexes)
 
 
-def mend(qtbot, session, button):
+def repair(qtbot, session, button):
     """Press a button that repairs, and wait until the mesh is repaired."""
     with qtbot.waitSignal(session.repairer.ended, timeout=PATIENCE):
         press(button)
 
 
 @pytest.mark.slow
-def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
+def test_each_finding_is_repaired_by_a_click_and_undone(window, panel, qtbot):
     session = window.session
     before = session.document.now.mesh
-    mend(qtbot, session, buttons(panel, "Repair")[0])
+    repair(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.summary.inverted == 0
     assert session.document.undo_title == "mend mirrored parts"
     qtbot.waitUntil(lambda: len(buttons(panel, "Repair")) == 1, timeout=PATIENCE)
-    mend(qtbot, session, buttons(panel, "Repair")[0])
+    repair(qtbot, session, buttons(panel, "Repair")[0])
     assert session.document.now.mesh.n_nodes == 2 * 64 - 16
     session.commands.undo()
     session.commands.undo()
@@ -78,10 +78,10 @@ def test_each_is_mended_by_a_click_and_undo_takes_it_back(window, panel, qtbot):
 
 
 @pytest.mark.slow
-def test_all_is_mended_at_once_and_methods_run_on_the_mended_mesh(window, panel, qtbot):
+def test_all_is_repaired_at_once_and_methods_run_on_the_repaired_mesh(window, panel, qtbot):
     press(buttons(panel, "Repair all")[0])
     window.refresh()
-    qtbot.waitUntil(lambda: "No problems found" in said(panel), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: "No problems found" in texts(panel), timeout=PATIENCE)
     session = window.session
     assert session.document.start.mesh is session.document.now.mesh
     with qtbot.waitSignal(session.run.ended, timeout=PATIENCE):

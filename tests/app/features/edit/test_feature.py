@@ -26,7 +26,7 @@ def test_keys_undo_and_redo_a_run(window, qtbot):
     assert window.session.document.now is after
 
 
-def test_the_menu_says_what_is_undone(window):
+def test_the_menu_names_the_change_that_is_undone(window):
     undo, redo = window.action("undo"), window.action("redo")
     assert not undo.isEnabled()
     assert not redo.isEnabled()

@@ -1,4 +1,4 @@
-"""The figure set of what a window shows."""
+"""Figure sets exported from the window."""
 
 import argparse
 import json
@@ -13,7 +13,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.cli import figure_set
-from hexmend_app.features.figures.shown import shown_in
+from hexmend_app.features.figures.versions import versions_of
 from hexmend_app.picture import read_scene
 from tests.app.driving import LEFT
 from tests.app.features.timeline.test_feature import stepped
@@ -21,48 +21,48 @@ from tests.patience import PATIENCE
 
 
 @pytest.fixture
-def asked(tmp_path, monkeypatch):
-    folder = tmp_path / "set"
-    monkeypatch.setattr("hexmend_app.features.figures.feature.ask_figures", lambda parent, stem: str(folder))
-    return folder
+def folder(tmp_path, monkeypatch):
+    path = tmp_path / "set"
+    monkeypatch.setattr("hexmend_app.features.figures.feature.ask_figures", lambda parent, stem: str(path))
+    return path
 
 
 @pytest.mark.slow
-def test_the_set_shows_what_was_opened_what_is_and_what_was_compared(window, qtbot, asked):
+def test_the_set_contains_the_opened_the_current_and_the_compared_meshes(window, qtbot, folder):
     stepped(window, qtbot, 4)
     end_run(window.session)
     comparison = window.session.comparison
     comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=3))
     qtbot.waitUntil(lambda: not comparison.busy, timeout=PATIENCE)
-    names = [name for name, *_ in shown_in(window.session)]
+    names = [name for name, *_ in versions_of(window.session)]
     assert names == ["initial", "Local steepest descent", "Laplacian", "GETMe, simultaneous"]
     window.session.view.colour_by("q-change")
     window.refresh()
     window.window_actions["figure_set"].trigger()
     qtbot.waitUntil(lambda: not window.features["figures"].going_on, timeout=PATIENCE)
     assert "Figure set saved" in " ".join(window.messages.messages()[-1])
-    parts = {path.stem for path in asked.glob("*.png")}
+    parts = {path.stem for path in folder.glob("*.png")}
     assert parts == {"surface", "cut", "distributions", "convergence"}
-    rows = json.loads((asked / "table.json").read_text())["rows"]
+    rows = json.loads((folder / "table.json").read_text())["rows"]
     assert [row["name"] for row in rows] == names[1:]
-    assert read_scene(asked / "scene.toml").colours.metric == "q"  # a change needs a mesh that has moved
-    with Image.open(asked / "surface.png") as picture:
+    assert read_scene(folder / "scene.toml").colours.metric == "q"  # the change of q needs a smoothed mesh
+    with Image.open(folder / "surface.png") as picture:
         assert picture.convert("L").getextrema()[0] < 100
-    commands = [line for line in (asked / "commands.sh").read_text().splitlines() if line.startswith("hexmend")]
+    commands = [line for line in (folder / "commands.sh").read_text().splitlines() if line.startswith("hexmend")]
     assert len(commands) == 5
-    words = shlex.split(commands[0])
-    assert f"{asked}/run.toml,{asked}/laplacian.toml,{asked}/getme.toml" in words
-    drawn = (asked / "distributions.svg").read_text()
-    again = figure_set.command
+    arguments = shlex.split(commands[0])
+    assert f"{folder}/run.toml,{folder}/laplacian.toml,{folder}/getme.toml" in arguments
+    figure = (folder / "distributions.svg").read_text()
+    command = figure_set.command
     parser = argparse.ArgumentParser()
-    again.arguments(parser)
-    (repeated,) = [shlex.split(one)[2:] for one in commands if one.endswith("distributions")]
-    assert again.run(parser.parse_args(repeated)) == 0
-    assert (asked / "distributions.svg").read_text() == drawn
-    assert str(window.session.document.path) in words
+    command.arguments(parser)
+    (repeated,) = [shlex.split(line)[2:] for line in commands if line.endswith("distributions")]
+    assert command.run(parser.parse_args(repeated)) == 0
+    assert (folder / "distributions.svg").read_text() == figure
+    assert str(window.session.document.path) in arguments
 
 
-def test_it_can_be_given_up(window, qtbot, asked):
+def test_the_export_can_be_cancelled(window, qtbot, folder):
     window.window_actions["figure_set"].trigger()
     feature = window.features["figures"]
     assert feature.going_on
@@ -70,11 +70,11 @@ def test_it_can_be_given_up(window, qtbot, asked):
     cancel = next(b for b in window.busy.findChildren(QPushButton) if b.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
     assert not feature.going_on
-    assert not (asked / "captions.md").exists()
+    assert not (folder / "captions.md").exists()
 
 
-def test_a_folder_that_cannot_be_made_is_told(window, asked):
-    asked.write_text("a file")
+def test_a_folder_that_cannot_be_created_is_reported(window, folder):
+    folder.write_text("a file")
     window.window_actions["figure_set"].trigger()
     assert not window.features["figures"].going_on
     assert "is a file" in " ".join(window.messages.messages()[-1])

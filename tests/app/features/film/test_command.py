@@ -10,15 +10,26 @@ from hexmend.run import memory
 
 def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
     path = tmp_path / "run.gif"
-    words = ["--method", "laplacian", "--max-iterations", "9", "--frames", "4", "--size", "320x240", "--clip", "x:0.5"]
-    assert main(["film", str(mesh_file), "-o", str(path), *words]) == 0
+    options = [
+        "--method",
+        "laplacian",
+        "--max-iterations",
+        "9",
+        "--frames",
+        "4",
+        "--size",
+        "320x240",
+        "--clip",
+        "x:0.5",
+    ]
+    assert main(["film", str(mesh_file), "-o", str(path), *options]) == 0
     assert "4 frames of 320 × 240 pixels" in capsys.readouterr().out
     with Image.open(path) as film:
         assert (film.n_frames, film.size) == (4, (320, 240))
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("options", "message"),
     [
         (["-o", "run.avi"], "Use .mp4, .gif, .png or .webp."),
         (["-o", "run.gif", "--frames", "1"], "--frames '1' cannot be used: expected a whole number from 2 to 1000"),
@@ -28,59 +39,59 @@ def test_a_run_becomes_an_animation(mesh_file, tmp_path, capsys):
         (["-o", "run.gif", "--method", "lapalcian"], "lapalcian"),
     ],
 )
-def test_what_cannot_be_filmed_is_said_before_the_run(mesh_file, tmp_path, monkeypatch, capsys, words, said):
+def test_wrong_options_are_reported_before_the_run(mesh_file, tmp_path, monkeypatch, capsys, options, message):
     monkeypatch.chdir(tmp_path)
-    assert main(["film", str(mesh_file), *words]) != 0
-    assert said in capsys.readouterr().err
+    assert main(["film", str(mesh_file), *options]) != 0
+    assert message in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_film_for_which_memory_will_not_suffice_is_refused(mesh_file, tmp_path, monkeypatch, capsys):
+def test_a_film_that_needs_too_much_memory_is_refused(mesh_file, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(memory, "available", lambda: 1000)
     assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.gif"), "--method", "laplacian"]) == 3
     assert capsys.readouterr().err.startswith("hexmend: Laplacian on ")
     assert not (tmp_path / "run.gif").exists()
 
 
-def test_a_film_for_slides_plays(mesh_file, tmp_path):
+def test_an_mp4_film_plays(mesh_file, tmp_path):
     av = pytest.importorskip("av")
     path = tmp_path / "run.mp4"
-    words = ["--method", "laplacian", "--max-iterations", "9", "--frames", "4", "--size", "401x241", "--rate", "12"]
-    assert main(["film", str(mesh_file), "-o", str(path), *words, "--histogram", "--arrows", "sight"]) == 0
+    options = ["--method", "laplacian", "--max-iterations", "9", "--frames", "4", "--size", "401x241", "--rate", "12"]
+    assert main(["film", str(mesh_file), "-o", str(path), *options, "--histogram", "--arrows", "sight"]) == 0
     with av.open(str(path)) as film:
         (stream,) = film.streams.video
         assert (stream.codec_context.name, stream.pix_fmt, stream.average_rate) == ("h264", "yuv420p", 12)
         frames = [frame.to_ndarray(format="rgb24").astype(int) for frame in film.decode(stream)]
-    assert len(frames) == 8 + 2 + 8  # the first and the last stand
+    assert len(frames) == 8 + 2 + 8  # the first and the last frame are repeated
     assert {frame.shape for frame in frames} == {(242, 402, 3)}
     assert abs(frames[0] - frames[-1]).max() > 100
     assert abs(frames[0] - frames[5]).mean() < 1
 
 
-def test_without_what_writes_it_a_film_for_slides_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, capsys):
+def test_without_pyav_an_mp4_film_is_refused_before_the_run(mesh_file, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("hexmend_app.scene.film.movie.find_spec", lambda name: None)
     assert main(["film", str(mesh_file), "-o", str(tmp_path / "run.mp4"), "--method", "laplacian"]) == 3
     assert 'pip install "hexmend[film]"' in capsys.readouterr().err
 
 
-def test_a_histogram_stands_beside(mesh_file, tmp_path):
-    taken = []
-    for words in ([], ["--histogram"]):
+def test_a_histogram_is_drawn_next_to_the_mesh(mesh_file, tmp_path):
+    frames = []
+    for options in ([], ["--histogram"]):
         path = tmp_path / "run.png"
         run = ["--method", "laplacian", "--max-iterations", "2", "--size", "640x400"]
-        assert main(["film", str(mesh_file), "-o", str(path), *run, *words]) == 0
+        assert main(["film", str(mesh_file), "-o", str(path), *run, *options]) == 0
         with Image.open(path) as film:
-            taken.append(np.asarray(film.convert("RGB")).astype(int))
-    without, beside = taken
+            frames.append(np.asarray(film.convert("RGB")).astype(int))
+    without, with_histogram = frames
     right = slice(640 - int(0.32 * 640), None)
-    assert (beside[60:340, right] == 255).all(axis=2).mean() > 0.3
+    assert (with_histogram[60:340, right] == 255).all(axis=2).mean() > 0.3
     assert (without[60:340, right] == 255).all(axis=2).mean() < 0.1
 
 
 def test_a_colour_bar_has_no_bands(mesh_file, tmp_path):
     path = tmp_path / "run.gif"
-    words = ["--method", "laplacian", "--max-iterations", "2", "--size", "960x600"]
-    assert main(["film", str(mesh_file), "-o", str(path), *words]) == 0
+    options = ["--method", "laplacian", "--max-iterations", "2", "--size", "960x600"]
+    assert main(["film", str(mesh_file), "-o", str(path), *options]) == 0
     with Image.open(path) as film:
         bar = np.asarray(film.convert("RGB"))[-34, 100:600].astype(int)
     assert abs(np.diff(bar, axis=0)).max() <= 8

@@ -1,4 +1,4 @@
-"""Films of a run, drawn beside the window."""
+"""Films of a run, drawn in the background."""
 
 from itertools import pairwise
 
@@ -16,22 +16,22 @@ from tests.patience import PATIENCE
 
 
 @pytest.fixture(autouse=True)
-def agreed(monkeypatch):
-    """The dialog is agreed to as a hand would have it."""
+def accepted(monkeypatch):
+    """Accept the dialog with a width of 640 pixels and 20 frames per second."""
 
-    def agree(dialog):
+    def accept(dialog):
         size = named(dialog, QComboBox, "Size")
         size.setCurrentIndex(size.findData(640))
         named(dialog, QSpinBox, "Rate").setValue(20)
         return True
 
-    monkeypatch.setattr(FilmDialog, "exec", agree)
+    monkeypatch.setattr(FilmDialog, "exec", accept)
 
 
-def test_the_dialog_shows_what_was_wanted_and_gives_what_is(shown):
-    wanted = FilmChoice(1280, 25, 100, True)
-    dialog = shown(FilmDialog(wanted, (1000, 600), 40))
-    assert dialog.choice() == wanted
+def test_the_dialog_shows_and_returns_options(shown):
+    choice = FilmChoice(1280, 25, 100, True)
+    dialog = shown(FilmDialog(choice, (1000, 600), 40))
+    assert dialog.choice() == choice
     assert named(dialog, QComboBox, "Size").currentText() == "1280 × 768 pixels"
     tick = named(dialog, QCheckBox, "Histogram")
     QTest.mouseClick(tick, LEFT, pos=QPoint(8, tick.height() // 2))
@@ -40,20 +40,20 @@ def test_the_dialog_shows_what_was_wanted_and_gives_what_is(shown):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".gif", ".png", ".webp"])
-def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkeypatch, suffix):
+def test_a_film_shows_the_run_as_in_the_view(window, qtbot, tmp_path, monkeypatch, suffix):
     record = stepped(window, qtbot, 5)
     window.canvas.look_along("+x")
     path = tmp_path / f"run{suffix}"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
     shown = window.session.timeline.moment
     window.window_actions["film"].trigger()
-    said = [window.busy.text()]
+    texts = [window.busy.text()]
     show = window.busy.show_work
     monkeypatch.setattr(
-        window.busy, "show_work", lambda who, text, *others: (said.append(text), show(who, text, *others))
+        window.busy, "show_work", lambda owner, text, *others: (texts.append(text), show(owner, text, *others))
     )
     qtbot.waitUntil(lambda: not window.features["film"].going_on, timeout=PATIENCE)
-    assert said == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
+    assert texts == [*(f"Drawing frame {k} of 6…" for k in range(1, 7)), f"Writing {path.name}…"]
     assert "6 frames" in " ".join(window.messages.messages()[-1])
     with Image.open(path) as film:
         assert (film.n_frames, film.width) == (record.newest + 1, 640)
@@ -67,7 +67,7 @@ def test_a_film_shows_the_run_as_it_is_looked_at(window, qtbot, tmp_path, monkey
     assert window.busy.isHidden()
 
 
-def test_a_film_can_be_given_up_and_a_wrong_name_is_told(window, qtbot, tmp_path, monkeypatch):
+def test_a_film_can_be_cancelled_and_a_wrong_suffix_is_reported(window, qtbot, tmp_path, monkeypatch):
     stepped(window, qtbot, 5)
     path = tmp_path / "run.gif"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QLabel, QPushButton, QSlider, QStyle, QStyleOptionSlider, QTabBar
 from superqt import QRangeSlider
 
-from hexmend_app.features.cut.cut_panel import ClipPanel
+from hexmend_app.features.cut.cut_panel import CutPanel
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
@@ -21,13 +21,13 @@ _BOX = QPoint(8, 8)
 
 @pytest.fixture
 def panel(shown):
-    widget = shown(ClipPanel())
+    widget = shown(CutPanel())
     widget.set_bounds(_BOUNDS)
     return widget
 
 
 @pytest.fixture
-def heard(panel):
+def emitted(panel):
     planes = []
     panel.clip_changed.connect(planes.append)
     return planes
@@ -77,27 +77,27 @@ def handle(slider):
     )
 
 
-def test_without_a_mesh_nothing_can_be_clipped(shown):
-    panel = shown(ClipPanel())
+def test_the_panel_is_disabled_without_a_mesh(shown):
+    panel = shown(CutPanel())
     assert not on(panel).isEnabled()
     assert panel.clip() is None
 
 
-def test_switching_on_cuts_across_the_middle_and_off_again(panel, heard):
+def test_switching_on_cuts_across_the_middle_and_off_again(panel, emitted):
     switch_on(panel)
-    assert heard == [PlaneClip.at((1, 0, 0), (1, 15, 3))]
+    assert emitted == [PlaneClip.at((1, 0, 0), (1, 15, 3))]
     switch_on(panel)
-    assert heard[1:] == [None]
+    assert emitted[1:] == [None]
 
 
 @pytest.mark.parametrize(("key", "normal"), [("x", (1, 0, 0)), ("y", (0, 1, 0)), ("z", (0, 0, 1))])
-def test_axis_buttons_turn_the_plane_to_the_middle_of_the_mesh(panel, heard, key, normal):
+def test_axis_buttons_align_the_plane_and_centre_it(panel, emitted, key, normal):
     panel.set_clip(PlaneClip.at((1, 2, 3), (0, 0, 2)))
     QTest.mouseClick(axis(panel).button(key), _LEFT)
-    assert heard == [PlaneClip.at(normal, (1, 15, 3))]
+    assert emitted == [PlaneClip.at(normal, (1, 15, 3))]
 
 
-def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, heard):
+def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, emitted):
     panel.set_clip(PlaneClip.at((0, 1, 0), (1, 15, 3)))
     moved = slider(panel)
     start = handle(moved).center()
@@ -105,7 +105,7 @@ def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, heard):
     for dx in range(2, 42, 4):
         QTest.mouseMove(moved, start + QPoint(dx, 0))
     QTest.mouseRelease(moved, _LEFT, pos=start + QPoint(40, 0))
-    planes = [clip.planes[0] for clip in heard]
+    planes = [clip.planes[0] for clip in emitted]
     places = [plane.origin[1] for plane in planes]
     assert len(places) > 3
     assert places == sorted(places)
@@ -114,14 +114,14 @@ def test_dragging_the_slider_moves_the_plane_with_the_mouse(panel, heard):
     assert named(panel, QLabel, "Position in mesh units").text() == f"{places[-1]:.4g}"
 
 
-def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, heard):
+def test_keys_move_the_plane_by_a_thousandth_and_to_the_ends(panel, emitted):
     switch_on(panel)
     QTest.keyClick(slider(panel), Qt.Key.Key_Right)
-    assert heard[-1].planes[0].origin[0] == pytest.approx(1 + 4 / 1000)
+    assert emitted[-1].planes[0].origin[0] == pytest.approx(1 + 4 / 1000)
     QTest.keyClick(slider(panel), Qt.Key.Key_End)
-    assert heard[-1].planes[0].origin[0] == pytest.approx(3)
+    assert emitted[-1].planes[0].origin[0] == pytest.approx(3)
     QTest.keyClick(slider(panel), Qt.Key.Key_Home)
-    assert heard[-1].planes[0].origin[0] == pytest.approx(-1)
+    assert emitted[-1].planes[0].origin[0] == pytest.approx(-1)
 
 
 @pytest.mark.parametrize(("place", "text"), [(-1.356e-5, "0"), (1e-6, "0"), (-0.02, "−0.02"), (1.356, "1.356")])
@@ -130,42 +130,42 @@ def test_a_position_next_to_zero_reads_zero(panel, place, text):
     assert named(panel, QLabel, "Position in mesh units").text() == text
 
 
-def test_flipping_hides_the_other_side_in_the_same_place(panel, heard):
+def test_flipping_hides_the_other_side_in_the_same_place(panel, emitted):
     plane = PlaneClip.at((0, 1, 0), (1, 7, 3))
     panel.set_clip(plane)
     before = slider(panel).value()
     QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert heard == [plane.with_plane(0, plane.planes[0].flipped())]
+    assert emitted == [plane.with_plane(0, plane.planes[0].flipped())]
     assert slider(panel).value() == before
     assert axis(panel).value() == "y"
     QTest.mouseClick(named(panel, QPushButton, "Flip"), _LEFT)
-    assert heard[-1] == plane
+    assert emitted[-1] == plane
 
 
-def test_the_cut_is_whole_or_smooth(panel, heard):
+def test_the_cut_is_whole_or_smooth(panel, emitted):
     switch_on(panel)
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert heard[-1].crinkle is False
+    assert emitted[-1].crinkle is False
     QTest.keyClick(cut(panel).button("smooth"), Qt.Key.Key_Left)
     assert cut(panel).value() == "crinkle"
-    assert heard[-1].crinkle is True
+    assert emitted[-1].crinkle is True
 
 
-def test_handles_are_announced(panel, qtbot):
+def test_the_handles_check_box_emits_a_signal(panel, qtbot):
     switch_on(panel)
     with qtbot.waitSignal(panel.handles_changed) as caught:
         QTest.mouseClick(named(panel, QCheckBox, "Handles"), _LEFT, pos=_BOX)
     assert caught.args == [False]
 
 
-def test_a_dragged_plane_is_shown_free_and_silently(panel, heard):
+def test_a_rotated_plane_is_shown_as_free_without_a_signal(panel, emitted):
     panel.set_clip(PlaneClip.at((1, 1, 0), (1, 15, 3), crinkle=False))
     assert axis(panel).value() == "free"
     assert cut(panel).value() == "smooth"
     panel.set_clip(None)
     panel.set_handles(False)
     panel.set_bounds(None)
-    assert heard == []
+    assert emitted == []
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -192,56 +192,56 @@ def texts(panel):
     return [tabs(panel).tabText(k) for k in range(tabs(panel).count())]
 
 
-def test_planes_are_added_chosen_and_removed(panel, heard, qtbot):
+def test_planes_are_added_selected_and_removed(panel, emitted, qtbot):
     switch_on(panel)
     assert not remove(panel).isEnabled()
     assert not named(panel, Segmented, "Hide").isVisible()
     QTest.mouseClick(add(panel), _LEFT)
-    assert [plane.normal for plane in heard[-1].planes] == [(1, 0, 0), (0, 1, 0)]
+    assert [plane.normal for plane in emitted[-1].planes] == [(1, 0, 0), (0, 1, 0)]
     assert (texts(panel), tabs(panel).currentIndex()) == (["1", "2"], 1)
     QTest.keyClick(slider(panel), Qt.Key.Key_End)
-    assert heard[-1].planes[0].origin == (1, 15, 3)
-    assert heard[-1].planes[1].origin[1] == pytest.approx(30)
+    assert emitted[-1].planes[0].origin == (1, 15, 3)
+    assert emitted[-1].planes[1].origin[1] == pytest.approx(30)
     with qtbot.waitSignal(panel.plane_chosen) as chosen:
         QTest.mouseClick(tabs(panel), _LEFT, pos=tabs(panel).tabRect(0).center())
     assert chosen.args == [0]
     assert axis(panel).value() == "x"
     QTest.mouseClick(named(panel, Segmented, "Hide").button("all"), _LEFT)
-    assert heard[-1].notch
+    assert emitted[-1].notch
     QTest.mouseClick(remove(panel), _LEFT)
-    assert [plane.normal for plane in heard[-1].planes] == [(0, 1, 0)]
+    assert [plane.normal for plane in emitted[-1].planes] == [(0, 1, 0)]
     assert texts(panel) == ["1"]
 
 
-def test_more_planes_than_six_are_not_offered(panel, heard):
+def test_at_most_six_planes_can_be_added(panel, emitted):
     switch_on(panel)
     for _ in range(7):
         QTest.mouseClick(add(panel), _LEFT)
-    assert len(heard[-1].planes) == 6
+    assert len(emitted[-1].planes) == 6
     assert not add(panel).isEnabled()
 
 
-def test_a_box_is_moved_by_its_sliders_and_turned_inside_out(panel, heard):
+def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     switch_on(panel)
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
-    assert heard[-1] == BoxClip((0, 7.5, 2.5), (2, 22.5, 3.5))
+    assert emitted[-1] == BoxClip((0, 7.5, 2.5), (2, 22.5, 3.5))
     assert not slider(panel).isVisible()
     sides = named(panel, QRangeSlider, "Y extent of the box")
     QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
     QTest.mouseClick(named(panel, Segmented, "Hide side of the box").button("all"), _LEFT)
-    box = heard[-1]
+    box = emitted[-1]
     assert (box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.high[1] > 22.5
     assert (box.high[0], box.high[2]) == (2, 3.5)
     QTest.mouseClick(kind(panel).button("planes"), _LEFT)
-    assert heard[-1] == PlaneClip.at((1, 0, 0), (1, 15, 3))
+    assert emitted[-1] == PlaneClip.at((1, 0, 0), (1, 15, 3))
     QTest.mouseClick(kind(panel).button("box"), _LEFT)
-    assert heard[-1] == box
+    assert emitted[-1] == box
 
 
-def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, heard):
+def test_a_box_dragged_in_the_view_is_not_rounded_to_the_sliders(panel, emitted):
     box = BoxClip((0.12345, 1, 2), (2, 20.54321, 3))
     panel.set_clip(box)
     QTest.mouseClick(cut(panel).button("smooth"), _LEFT)
-    assert (heard[-1].low, heard[-1].high) == (box.low, box.high)
-    assert not heard[-1].crinkle
+    assert (emitted[-1].low, emitted[-1].high) == (box.low, box.high)
+    assert not emitted[-1].crinkle

@@ -46,7 +46,7 @@ def rendered(tmp_path, scene, *meshes):
 
 
 @pytest.mark.slow
-def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, tmp_path):
+def test_the_command_line_draws_the_same_hexes_as_the_window(window, moved, tmp_path):
     scene = window.canvas.scene(Page(pixels=(400, 300)))
     assert window.features["save"].picture(tmp_path / "p.png", (400, 300))
     seen = np.asarray(Image.open(tmp_path / "p.png")).astype(int)
@@ -57,7 +57,7 @@ def test_the_command_line_draws_the_hexes_that_the_window_shows(window, moved, t
 
 
 @pytest.mark.slow
-def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path):
+def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_path):
     assert window.features["save"].picture(tmp_path / "p.png", (200, 150))
     assert window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     for name in ("p.png", "work.hexmend"):
@@ -73,7 +73,7 @@ def test_a_picture_and_a_session_bring_them_back(window, moved, qtbot, tmp_path)
     assert (window.canvas.viewport.kept() != moved).any()
 
 
-def test_a_preview_of_another_cut_leaves_the_view_as_it_is(window, moved):
+def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
     scene = window.canvas.scene(Page(pixels=(100, 80)))
     window.canvas.sheet(replace(scene, cut=Cut.as_in(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
     window.session.view.change(shrink=0.1)
@@ -81,7 +81,7 @@ def test_a_preview_of_another_cut_leaves_the_view_as_it_is(window, moved):
     np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)
 
 
-def test_a_scene_of_a_mesh_that_has_not_moved_names_no_hexes(window, qtbot):
+def test_a_scene_of_an_unmoved_mesh_lists_no_hexes(window, qtbot):
     window.session.view.set_clip(CLIP)
     window.refresh()
     assert window.canvas.scene(Page()).cut.hexes == ""

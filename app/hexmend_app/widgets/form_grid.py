@@ -1,0 +1,16 @@
+"""Grid layout of forms in panels: labels at the left, widgets that stretch at the right."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QGridLayout, QWidget
+
+
+def form_grid(parent: QWidget, widest_label: str = "") -> QGridLayout:
+    """Return the layout of `parent`, whose label column is at least as wide as a text."""
+    grid = QGridLayout(parent)
+    grid.setContentsMargins(0, 0, 0, 0)
+    grid.setHorizontalSpacing(8)
+    grid.setVerticalSpacing(7)
+    grid.setColumnStretch(1, 1)
+    grid.setColumnMinimumWidth(0, parent.fontMetrics().horizontalAdvance(widest_label))
+    return grid
