@@ -93,7 +93,7 @@ def histogram():
     widget.set_initial(FIGURES.q, FIGURES.inverted)
     widget.set_current(FIGURES.q**2, FIGURES.inverted)
     widget.set_range(ValueRange("q", 0.2, 0.7))
-    widget.set_kept([(4, "kept", FIGURES.q**3, FIGURES.inverted)])
+    widget.set_snapshots([(4, "kept", FIGURES.q**3, FIGURES.inverted)])
     return widget
 
 

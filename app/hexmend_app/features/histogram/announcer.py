@@ -1,4 +1,4 @@
-"""Rate-limited signal for a choice that the user makes by dragging."""
+"""Rate-limited signal for a value that the user changes by dragging."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ _PERIOD_MS = 33
 
 
 class Announcer(QObject):
-    """Tells the newest of many values at most thirty times a second, and knows what was told when it is heard again.
+    """Emits the latest of many values at most thirty times a second, and recognises its own values when they return.
+
+    A receiver of the signal may set the value again, while the user has already dragged on: such an outdated value
+    must not replace the pending one.
 
     Signals
     -------
@@ -23,28 +26,28 @@ class Announcer(QObject):
         self._throttler = QSignalThrottler(parent=self)
         self._throttler.setTimeout(_PERIOD_MS)
         self._throttler.triggered.connect(self._announce)
-        self._newest: object = None
-        self._known: object = None  # what everybody else knows
-        self._waits = False
+        self._latest: object = None
+        self._announced: object = None  # or received since
+        self._pending = False
 
-    def tell(self, value: object) -> None:
+    def send(self, value: object) -> None:
         """Announce a value soon."""
-        self._newest, self._waits = value, True
+        self._latest, self._pending = value, True
         self._throttler.throttle()
 
-    def tell_instead(self, value: object) -> None:
-        """Announce another value than the one that waits; nothing where none does."""
-        self._newest = value
+    def replace_pending(self, value: object) -> None:
+        """Replace the pending value; nothing is announced if there is none."""
+        self._latest = value
 
-    def hear(self, value: object) -> bool:
-        """Take what others know now, and give up what waits; not where that is only what was announced last."""
-        if self._waits and value == self._known:
+    def receive(self, value: object) -> bool:
+        """Accept a value from outside and drop the pending one; ignore an outdated value and return False."""
+        if self._pending and value == self._announced:
             return False
         self._throttler.cancel()
-        self._newest = self._known = value
-        self._waits = False
+        self._latest = self._announced = value
+        self._pending = False
         return True
 
     def _announce(self) -> None:
-        self._known, self._waits = self._newest, False
-        self.announced.emit(self._newest)
+        self._announced, self._pending = self._latest, False
+        self.announced.emit(self._latest)

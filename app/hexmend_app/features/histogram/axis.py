@@ -1,4 +1,4 @@
-"""The axis of the histogram: which values the bins span, and where bars stand apart from them."""
+"""Axis of the histogram: range of the bins, positions of the separate bars, ticks and texts."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from hexmend.quality import METRICS
 from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.scene.colour.colouring import range_label
 
-#: Where on the plot the bins lie: from 0 to 1, whatever the metric.
+#: Left and right ends of the separate bars on the plot, on which the bins span 0 to 1.
 _INVERTED = (-0.30, -0.18)
 _BELOW, _ABOVE = (-0.06, -0.02), (1.02, 1.07)
-_TICKS = 6
+_MAX_STEPS = 6
 
 
 @dataclass(frozen=True)
 class Axis:
-    """Values from `low` to `high`, drawn from 0 to 1.
+    """Axis of a metric, with values from `low` to `high` at the positions 0 to 1 of the plot.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ class Axis:
         A name of `hexmend.quality.METRICS`.
     low, high : float
     step : float
-        Between two ticks.
+        Distance of two ticks.
     open_low, open_high : bool
-        Whether values beyond the end are counted in a bar of their own.
+        True if values beyond the end are counted in a separate bar.
     """
 
     metric: str
@@ -41,17 +41,17 @@ class Axis:
 
     @classmethod
     def fitted(cls, metric: str, values: np.ndarray, inverted: np.ndarray) -> Axis:
-        """The axis of a metric for a mesh, which holds still while the mesh changes.
+        """Return the axis of a metric for a mesh; it stays the same while the mesh changes.
 
-        Negative values belong to inverted elements, which stand apart. Where the metric has no other bound, the axis
-        spans 99 % of the sound elements, but not beyond three times the distance of the quartiles from them, and is
-        rounded outward to ticks.
+        The axis begins at 0 or higher: inverted hexes, which may have negative values, have a separate bar. If the
+        metric is unbounded, the axis spans 99 % of the valid hexes, but at most three interquartile ranges beyond the
+        quartiles, rounded outward to ticks.
 
         Parameters
         ----------
         metric : str
         values : (m,) float64
-            At the start.
+            Values of all hexes at the start.
         inverted : (m,) bool
 
         Examples
@@ -59,103 +59,102 @@ class Axis:
         >>> Axis.fitted("aspect-ratio", np.linspace(1, 2.7, 50), np.zeros(50, bool))
         Axis(metric='aspect-ratio', low=1.0, high=2.8, step=0.3, open_low=False, open_high=True)
         """
-        least, most = METRICS[metric].full_range
-        least = max(least, 0.0)
-        if math.isfinite(most):
-            return cls(metric, least, most, _step(least, most))
-        sound = values[np.isfinite(values) & ~inverted]
-        low, high = _bulk(sound, least, METRICS[metric].acceptable[1])
-        open_low = low - least > (high - least) / 2
-        low, high, step = _rounded_outward(low if open_low else least, high, fixed=not open_low)
+        minimum, maximum = METRICS[metric].full_range
+        minimum = max(minimum, 0.0)
+        if math.isfinite(maximum):
+            return cls(metric, minimum, maximum, _step(minimum, maximum))
+        valid = values[np.isfinite(values) & ~inverted]
+        low, high = _bulk(valid, minimum, METRICS[metric].acceptable[1])
+        open_low = low - minimum > (high - minimum) / 2
+        low, high, step = _round_outward(low if open_low else minimum, high, fixed=not open_low)
         return cls(metric, low, high, step, open_low, open_high=True)
 
-    # Between values and places on the plot
+    # Positions on the plot
 
-    def place(self, value: float) -> float:
-        """Return a value's position on the plot; beyond the ends, the outer side of the end bar."""
+    def position(self, value: float) -> float:
+        """Return the position of a value on the plot; beyond the ends, the outer side of the end bar."""
         if value < self.low:
             return (self.below or (0.0, 0.0))[0]
         if value > self.high:
             return (self.above or (1.0, 1.0))[1]
         return (value - self.low) / (self.high - self.low)
 
-    def span(self, chosen: ValueRange) -> tuple[float, float]:
-        """Left and right of a range on the plot; from the bar of inverted elements on, where nothing is left out."""
-        least = METRICS[self.metric].full_range[0]
-        joined = chosen.inverted and chosen.low <= least
-        left = self.inverted[0] if joined else self.place(chosen.low)
-        return left, self.inverted[1] if chosen.high == -math.inf else self.place(chosen.high)
-
-    @property
-    def decimals(self) -> int:
-        """Digits after the point that a hundredth of the axis needs."""
-        return -math.floor(math.log10((self.high - self.low) / 100) + 1e-9)
-
-    @property
-    def grain(self) -> float:
-        """A hundredth of the axis, by which its numbers are stepped."""
-        return 10.0**-self.decimals
+    def span(self, range: ValueRange) -> tuple[float, float]:
+        """Return left and right end of a range on the plot, with the bar of inverted hexes if it adjoins the range."""
+        joined = range.inverted and range.low <= METRICS[self.metric].full_range[0]
+        left = self.inverted[0] if joined else self.position(range.low)
+        return left, self.inverted[1] if range.high == -math.inf else self.position(range.high)
 
     @property
     def inverted(self) -> tuple[float, float]:
-        """Left and right of the bar of inverted elements."""
+        """Left and right end of the bar of inverted hexes."""
         shift = _BELOW[0] if self.open_low else 0.0
         return _INVERTED[0] + shift, _INVERTED[1] + shift
 
     @property
     def below(self) -> tuple[float, float] | None:
-        """Left and right of the bar of values below the axis; None where there are none."""
+        """Left and right end of the bar of values below the axis; None without this bar."""
         return _BELOW if self.open_low else None
 
     @property
     def above(self) -> tuple[float, float] | None:
-        """Left and right of the bar of values above the axis; None where there are none."""
+        """Left and right end of the bar of values above the axis; None without this bar."""
         return _ABOVE if self.open_high else None
 
     @property
-    def reach(self) -> tuple[float, float]:
-        """Return the limits of a brushed range: everything that is counted."""
+    def brush_limits(self) -> tuple[float, float]:
+        """Left and right limit of a brushed range, which includes all bars."""
         return self.inverted[0], (self.above or (1.0, 1.0))[1]
 
     @property
     def extent(self) -> tuple[float, float]:
-        """Left and right of the plot."""
+        """Left and right end of the plot."""
         return self.inverted[0] - 0.10, 1.11 if self.open_high else 1.06
 
-    # In words
+    # Texts
+
+    @property
+    def decimals(self) -> int:
+        """Decimals that a hundredth of the axis needs."""
+        return -math.floor(math.log10((self.high - self.low) / 100) + 1e-9)
+
+    @property
+    def resolution(self) -> float:
+        """About a hundredth of the axis, the step of its numbers."""
+        return 10.0**-self.decimals
 
     @property
     def exponent(self) -> int:
-        """The power of ten that ticks leave to the title."""
-        size = max(abs(self.low), abs(self.high))
-        return 0 if 1e-3 < size < 1e5 else math.floor(math.log10(size))
+        """Power of ten in the title instead of in the ticks."""
+        largest = max(abs(self.low), abs(self.high))
+        return 0 if 1e-3 < largest < 1e5 else math.floor(math.log10(largest))
 
     @property
     def title(self) -> str:
-        """The metric with its unit, as it stands below the plot."""
+        """Title of the metric with power of ten and unit."""
         metric = METRICS[self.metric]
         power = f"10{str(self.exponent).translate(_SUPERSCRIPT)}" if self.exponent else ""
         unit = " ".join(part for part in (power, metric.unit) if part)
         return f"{metric.title} [{unit}]" if unit else metric.title
 
     def ticks(self) -> list[tuple[float, str]]:
-        """Places and texts below the plot, those of the bars that stand apart first."""
-        marks = [(sum(self.inverted) / 2, "inverted")]
+        """Return positions and texts of the ticks, those of the separate bars first."""
+        ticks = [(sum(self.inverted) / 2, "inverted")]
         for bar, sign, end in ((self.below, "<", self.low), (self.above, "≥", self.high)):
             if bar is not None:
-                marks.append((sum(bar) / 2, f"{sign} {self._tick(end)}"))
+                ticks.append((sum(bar) / 2, f"{sign} {self._tick_text(end)}"))
         for k in range(round((self.high - self.low) / self.step) + 1):
             value = self.low + k * self.step
             if not (k == 0 and self.open_low) and not (value > self.high - self.step / 2 and self.open_high):
-                marks.append((self.place(min(value, self.high)), self._tick(value)))
-        return marks
+                ticks.append((self.position(min(value, self.high)), self._tick_text(value)))
+        return ticks
 
-    def _tick(self, value: float) -> str:
+    def _tick_text(self, value: float) -> str:
         scale = 10.0**self.exponent
         return range_label(value / scale, self.low / scale, self.high / scale)
 
     def text(self, value: float) -> str:
-        """A value to a hundredth of the axis.
+        """Write a value to a hundredth of the axis.
 
         >>> Axis("q").text(0.5), Axis("max-angle", 0, 180).text(90), Axis("volume", 0, 2e-5).text(1.25e-5)
         ('0.50', '90', '1.25e-05')
@@ -164,10 +163,10 @@ class Axis:
             return "∞" if value > 0 else "−∞"
         return f"{value:.6g}" if not 0 <= self.decimals <= 4 else f"{value:.{self.decimals}f}"
 
-    def end(self, value: float) -> str:
-        """An end of a range, with two more digits where it needs them.
+    def end_text(self, value: float) -> str:
+        """Write an end of a range, with up to two more decimals than `text`.
 
-        >>> Axis("q").end(0.505), Axis("q").end(0.49999999999999994)
+        >>> Axis("q").end_text(0.505), Axis("q").end_text(0.49999999999999994)
         ('0.505', '0.50')
         """
         if not (math.isfinite(value) and 0 <= self.decimals <= 4):
@@ -180,42 +179,45 @@ class Axis:
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def _bulk(sound: np.ndarray, least: float, acceptable: float) -> tuple[float, float]:
-    """From where to where most values lie; never nothing."""
-    if not sound.size:
-        return least, acceptable if math.isfinite(acceptable) else least + 1.0
-    low, lower, upper, high = (float(v) for v in np.percentile(sound, (0.5, 25, 75, 99.5)))
+def _bulk(valid: np.ndarray, minimum: float, acceptable: float) -> tuple[float, float]:
+    """Return a range, never empty, with most of the values, and not below `minimum`."""
+    if not valid.size:
+        return minimum, acceptable if math.isfinite(acceptable) else minimum + 1.0
+    low, lower, upper, high = (float(v) for v in np.percentile(valid, (0.5, 25, 75, 99.5)))
     fence = 3 * (upper - lower)
-    low = max(low, lower - fence, least)
+    low = max(low, lower - fence, minimum)
     high = max(min(high, upper + fence), low)
     if high - low <= 1e-6 * abs(high):
-        low, high = max(low / 2, least), 1.5 * high or (acceptable if math.isfinite(acceptable) else 1.0)
+        low, high = max(low / 2, minimum), 1.5 * high or (acceptable if math.isfinite(acceptable) else 1.0)
     return low, high
 
 
-def _steps(span: float) -> list[float]:
-    """Round numbers upwards from a tenth of a span."""
+def _round_steps(span: float) -> list[float]:
+    """Return round numbers from about a tenth of a span upwards."""
     power = math.floor(math.log10(span) - 1)
     return [float(f"{m}e{p}") for p in (power, power + 1) for m in (1, 1.5, 2, 2.5, 3, 4, 5)]
 
 
 def _step(low: float, high: float) -> float:
-    """The finest round step that divides a span into few parts."""
+    """Return the finest round step that divides a span into at most `_MAX_STEPS` equal parts, or a fifth of it."""
     span = high - low
-    whole = [s for s in _steps(span) if span / s <= _TICKS + 1e-9 and abs(span / s - round(span / s)) < 1e-9]
-    return whole[0] if whole else span / 5
+    for step in _round_steps(span):
+        count = span / step
+        if count <= _MAX_STEPS + 1e-9 and abs(count - round(count)) < 1e-9:
+            return step
+    return span / 5
 
 
-def _rounded_outward(low: float, high: float, fixed: bool) -> tuple[float, float, float]:
-    """Ends that are a few round steps apart, and the step; a `fixed` low end stays."""
-    for step in _steps(high - low):
+def _round_outward(low: float, high: float, fixed: bool) -> tuple[float, float, float]:
+    """Return ends that enclose a span in at most `_MAX_STEPS` round steps, and the step; a `fixed` low end stays."""
+    for step in _round_steps(high - low):
         first = low if fixed else math.floor(low / step + 1e-9) * step
         count = math.ceil((high - first) / step - 1e-9)
-        if count <= _TICKS:
-            return _clean(first, step), _clean(first + count * step, step), step
+        if count <= _MAX_STEPS:
+            return _remove_rounding(first, step), _remove_rounding(first + count * step, step), step
     raise ValueError(f"there is no axis from {low} to {high}")
 
 
-def _clean(value: float, step: float) -> float:
-    """Without the rounding errors of adding steps up."""
+def _remove_rounding(value: float, step: float) -> float:
+    """Remove the rounding error of a multiple of a step."""
     return round(value, 3 - math.floor(math.log10(step)))

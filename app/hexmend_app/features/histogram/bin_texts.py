@@ -1,4 +1,4 @@
-"""Texts of the histogram: the bin under the mouse and the range shown."""
+"""Texts of the histogram: tooltip of a bin and summary of the range."""
 
 from __future__ import annotations
 
@@ -14,75 +14,91 @@ from hexmend_app.widgets.metric_texts import in_sentence
 from hexmend_app.widgets.wording import counted
 
 
-def describe(drawn: Sequence[Series], x: float, cumulative: bool) -> str:
-    """The counts of the bin at x of the plot, or the shares up to it, of all that is drawn; "" beside the bins."""
-    found = _bin_at(drawn[0].part, x, cumulative) if drawn else None
+def describe_bin(series: Sequence[Series], x: float, cumulative: bool) -> str:
+    """Describe the bin or bar at a position of the plot.
+
+    Parameters
+    ----------
+    series : sequence of Series
+    x : float
+        Position on the plot, on which the bins span 0 to 1.
+    cumulative : bool
+        Give the shares up to the end of the bin instead of its counts.
+
+    Returns
+    -------
+    str
+        A line with the range of values, and a line for each series; "" if there is no bin at `x`.
+    """
+    found = _bin_at(series[0].distribution, x, cumulative) if series else None
     if found is None:
         return ""
     title, count = found
-    rows = [title]
-    for one in drawn:
-        number = count(one.part.cumulated() if cumulative else one.part)
-        share = f"{100 * number / max(one.part.total, 1):.4g} %, " if cumulative else ""
-        rows.append(f"{one.name}: {share}{counted(number, 'hex')}")
-    return "\n".join(rows)
+    lines = [title]
+    for one in series:
+        number = count(one.distribution.cumulated() if cumulative else one.distribution)
+        share = f"{100 * number / max(one.distribution.total, 1):.4g} %, " if cumulative else ""
+        lines.append(f"{one.name}: {share}{counted(number, 'hex')}")
+    return "\n".join(lines)
 
 
-def _bin_at(part: Distribution, x: float, cumulative: bool) -> tuple[str, Callable[[Distribution], int]] | None:
-    """Return the name of the bin at x, and a function that gets its count from a distribution."""
-    axis = part.axis
-    words = in_sentence(METRICS[axis.metric])
+def _bin_at(shown: Distribution, x: float, cumulative: bool) -> tuple[str, Callable[[Distribution], int]] | None:
+    """Return the title of the bin at x, and a function that gets its count from a distribution."""
+    axis = shown.axis
+    metric = in_sentence(METRICS[axis.metric])
     low, high = axis.text(axis.low), axis.text(axis.high)
+    below = f"inverted, or {metric} < {low}" if cumulative else f"{metric} < {low}"
     for bar, title, count in (
-        (axis.inverted, "inverted", lambda part: part.inverted),
-        (axis.below, f"inverted, or {words} < {low}" if cumulative else f"{words} < {low}", lambda part: part.below),
-        (axis.above, "all" if cumulative else f"{words} ≥ {high}", lambda part: part.above),
+        (axis.inverted, "inverted", lambda distribution: distribution.inverted),
+        (axis.below, below, lambda distribution: distribution.below),
+        (axis.above, "all" if cumulative else f"{metric} ≥ {high}", lambda distribution: distribution.above),
     ):
         if bar is not None and bar[0] <= x <= bar[1]:
             return title, count
     if not 0 <= x < 1:
         return None
-    at = int(x * len(part.counts))
-    low, high = _bin_texts(part, at)
-    title = f"inverted, or {words} up to {high}" if cumulative else f"{words} {low} – {high}"
-    return title, lambda part: int(part.counts[at])
+    index = int(x * len(shown.counts))
+    low, high = _bin_ends(shown, index)
+    title = f"inverted, or {metric} up to {high}" if cumulative else f"{metric} {low} – {high}"
+    return title, lambda distribution: int(distribution.counts[index])
 
 
-def _bin_texts(part: Distribution, at: int) -> tuple[str, str]:
-    """The ends of a bin, in as many digits as its width needs."""
-    width = (part.axis.high - part.axis.low) / len(part.counts)
-    ends = part.axis.low + width * at, part.axis.low + width * (at + 1)
-    if not 0 <= part.axis.decimals <= 4:
-        return tuple(part.axis.text(end) for end in ends)
+def _bin_ends(shown: Distribution, index: int) -> tuple[str, str]:
+    """Write the ends of a bin with as many decimals as its width needs."""
+    axis = shown.axis
+    width = (axis.high - axis.low) / len(shown.counts)
+    ends = axis.low + width * index, axis.low + width * (index + 1)
+    if not 0 <= axis.decimals <= 4:
+        return tuple(axis.text(end) for end in ends)
     decimals = next((d for d in range(7) if abs(round(width, d) - width) < 0.05 * width), 7)
     return tuple(f"{end:.{decimals}f}" for end in ends)
 
 
-def sentence(now: Distribution | None, chosen: ValueRange | None) -> str:
-    """Return the text for the number of elements, or of those shown by a range of their metric."""
+def range_summary(now: Distribution | None, range: ValueRange | None) -> str:
+    """Describe the number of hexes in a range of their metric, or of all hexes if the range is None."""
     if now is None:
         return "No mesh is open."
-    if chosen is None:
+    if range is None:
         return f"{counted(now.total, 'hex')}, {now.inverted:,} inverted"
-    return f"{now.within(chosen):,} of {counted(now.total, 'hex')}{_where(now, chosen)}"
+    return f"{now.within(range):,} of {counted(now.total, 'hex')}{_description(now, range)}"
 
 
-def _where(now: Distribution, chosen: ValueRange) -> str:
-    if chosen.high == -math.inf:
-        return ", the inverted ones"
-    values = _values(now.axis, chosen)
+def _description(now: Distribution, range: ValueRange) -> str:
+    if range.high == -math.inf:
+        return ", inverted only"
+    values = _values(now.axis, range)
     if not now.inverted:
         return values
     if not values:
-        return ", all but the inverted ones"
-    return f"{values}, and the {now.inverted:,} inverted" if chosen.inverted else values
+        return ", inverted hidden"
+    return f"{values}, and the {now.inverted:,} inverted" if range.inverted else values
 
 
-def _values(axis: Axis, chosen: ValueRange) -> str:
-    """Return the text for the values a range bounds; "" if it bounds none."""
-    least, most = METRICS[axis.metric].full_range
-    low, high = axis.end(chosen.low), axis.end(chosen.high)
+def _values(axis: Axis, range: ValueRange) -> str:
+    """Describe the bounds of a range; "" if it has none."""
+    minimum, maximum = METRICS[axis.metric].full_range
+    low, high = axis.end_text(range.low), axis.end_text(range.high)
     unit = f" {METRICS[axis.metric].unit}".rstrip()
-    if chosen.high >= most:
-        return "" if chosen.low <= least else f" from {low}{unit}"
-    return f" up to {high}{unit}" if chosen.low <= least else f" in {low} – {high}{unit}"
+    if range.high >= maximum:
+        return "" if range.low <= minimum else f" from {low}{unit}"
+    return f" up to {high}{unit}" if range.low <= minimum else f" in {low} – {high}{unit}"

@@ -1,4 +1,4 @@
-"""Counting for the histogram: arrays in, arrays out."""
+"""Counts of hexes in the bins of the histogram, and round numbers for the axis of counts."""
 
 from __future__ import annotations
 
@@ -13,24 +13,25 @@ from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.scene.colour.value_range import within
 
-#: Bins at first, and how few and how many there can be.
-BINS, FEWEST, MOST = 50, 10, 200
+#: Default, minimum and maximum number of bins.
+DEFAULT_BINS, MIN_BINS, MAX_BINS = 50, 10, 200
 
 
 @dataclass(frozen=True, eq=False)
 class Distribution:
-    """Distribution of the elements' values.
+    """Distribution of the values of a metric over the hexes of a mesh.
 
     Parameters
     ----------
     values : (m,) float64
-        Of a metric.
     is_inverted : (m,) bool
     axis : Axis
     counts : (bins,) int64
-        Elements that are not inverted, by value.
-    inverted, below, above : int
-        Inverted elements, and others beyond the ends of the axis.
+        Number of hexes in each bin that are not inverted.
+    inverted : int
+        Number of inverted hexes.
+    below, above : int
+        Number of other hexes below and above the axis.
     """
 
     values: np.ndarray
@@ -43,48 +44,63 @@ class Distribution:
 
     @property
     def total(self) -> int:
-        """Number of elements."""
+        """Number of hexes."""
         return len(self.values)
 
     @property
     def edges(self) -> np.ndarray:
-        """Ends of the bins as values, (bins + 1,) float64."""
+        """Values at the ends of the bins, (bins + 1,) float64."""
         return np.linspace(self.axis.low, self.axis.high, len(self.counts) + 1)
 
     @property
     def cells(self) -> Cells:
-        """Everything that counts elements, from left to right."""
+        """All bars and bins, from left to right."""
         return Cells(self.axis, len(self.counts))
 
     def cumulated(self) -> Distribution:
-        """The same with each count raised by those left of it: inverted elements first, those above the axis last."""
+        """Return the cumulative distribution: inverted hexes first, those above the axis last."""
         below = self.inverted + self.below
         counts = below + np.cumsum(self.counts)
         return Distribution(self.values, self.is_inverted, self.axis, counts, self.inverted, below, self.total)
 
-    def within(self, chosen: ValueRange) -> int:
-        """Return the number of elements that a range of the axis' metric shows."""
-        return int(np.count_nonzero(within(self.values, self.is_inverted, chosen)))
+    def within(self, range: ValueRange) -> int:
+        """Return the number of hexes in a range of the axis' metric."""
+        return int(np.count_nonzero(within(self.values, self.is_inverted, range)))
 
 
-def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int = BINS) -> Distribution:
-    """Count (m,) values, of which (m,) bool `inverted` says which have no place among the bins.
+def distribute(values: np.ndarray, inverted: np.ndarray, axis: Axis, bins: int = DEFAULT_BINS) -> Distribution:
+    """Count hexes by value.
 
-    >>> part = distribute(np.array([0.0, 0.011, 1.0, 0.3]), np.array([False, False, False, True]), Axis("q"))
-    >>> part.counts[[0, 49]].tolist(), part.inverted
+    Parameters
+    ----------
+    values : (m,) float
+    inverted : (m,) bool
+        Hexes that are counted in a separate bar.
+    axis : Axis
+    bins : int
+
+    Raises
+    ------
+    ValueError
+        If `values` and `inverted` differ in shape.
+
+    Examples
+    --------
+    >>> counted = distribute(np.array([0.0, 0.011, 1.0, 0.3]), np.array([False, False, False, True]), Axis("q"))
+    >>> counted.counts[[0, 49]].tolist(), counted.inverted
     ([2, 1], 1)
     """
     values, inverted = np.asarray(values, dtype=np.float64), np.asarray(inverted, dtype=bool)
     if values.ndim != 1 or values.shape != inverted.shape:
         raise ValueError(
-            f"values have shape {values.shape} and inverted {inverted.shape}: expected one row of the same length each"
+            f"values have shape {values.shape} and inverted {inverted.shape}: expected 1-D arrays of the same length"
         )
     counts = bin_counts(values, inverted, (axis.low, axis.high), bins, axis.open_low, axis.open_high)
     return Distribution(values, inverted, axis, counts[:bins], *(int(counts[bins + k]) for k in (2, 1, 0)))
 
 
 def round_up(value: float) -> float:
-    """The next round number that is not less, so that an axis holds still while counts change.
+    """Return the next round number, at least 1, so that an axis does not change with every count.
 
     >>> [round_up(v) for v in (0.5, 1.1, 640, 32735)]
     [1.0, 1.5, 800.0, 40000.0]
@@ -95,7 +111,7 @@ def round_up(value: float) -> float:
 
 
 def decades(top: float) -> list[int]:
-    """Powers of ten from 1 up to `top`.
+    """List the powers of ten from 1 up to `top`.
 
     >>> decades(40000)
     [1, 10, 100, 1000, 10000]

@@ -1,4 +1,4 @@
-"""A plot's view in which a range of x is brushed with the mouse."""
+"""View of a plot in which the mouse brushes a range of positions."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGraphicsSceneHoverEvent
 
-#: Pixels around an edge of the range in which a drag moves that edge.
-_REACH = 6
+#: Distance from an end of the range, in pixels, within which a drag moves this end.
+_GRAB_DISTANCE = 6
 
-_SHAPES = {
+_CURSORS = {
     "new": Qt.CursorShape.CrossCursor,
     "move": Qt.CursorShape.SizeAllCursor,
     "bar": Qt.CursorShape.PointingHandCursor,
@@ -17,26 +17,27 @@ _SHAPES = {
 
 
 class BrushView(pg.ViewBox):
-    """Drags select a range of places: on open ground a new one, on an edge that edge, inside the range all of it.
+    """View in which a drag moves the range, one of its ends, or outside of it begins a new range.
 
-    Its owner sets the range that is shown; the view never does.
+    The view announces brushed ranges but does not set `range`, which is up to its owner.
 
     Attributes
     ----------
     range : (low, high) or None
-    reach : (low, high)
-        No range goes beyond these.
+        Positions of the range that is shown.
+    limits : (low, high)
+        Limits of brushed ranges.
     bar : (left, right) or None
-        Where a click means a bar; None where there is nothing in it.
+        Ends of the bar that can be clicked; None if it is empty.
 
     Signals
     -------
     brushed((low, high))
-        While the mouse is dragged.
+        The user dragged to this range.
     cleared
-        Double click.
+        The user double-clicked outside of the bar.
     bar_clicked
-        A click on the bar.
+        The user clicked the bar.
     """
 
     brushed = Signal(object)
@@ -46,10 +47,10 @@ class BrushView(pg.ViewBox):
     def __init__(self):
         super().__init__(enableMenu=False, defaultPadding=0)
         self.range: tuple[float, float] | None = None
-        self.reach = (0.0, 1.0)
+        self.limits = (0.0, 1.0)
         self.bar: tuple[float, float] | None = None
         self._mode = ""
-        self._grabbed = (0.0, 0.0)
+        self._range_at_start = (0.0, 0.0)
         self.setAcceptHoverEvents(True)
 
     def _mode_at(self, x: float) -> str:
@@ -57,35 +58,33 @@ class BrushView(pg.ViewBox):
         if self.range is None:
             return "new"
         low, high = self.range
-        reach = _REACH * self.viewPixelSize()[0]
-        if min(abs(x - low), abs(x - high)) <= reach:
+        if min(abs(x - low), abs(x - high)) <= _GRAB_DISTANCE * self.viewPixelSize()[0]:
             return "low" if abs(x - low) < abs(x - high) else "high"
         return "move" if low < x < high else "new"
 
     def mouseDragEvent(self, ev, axis=None) -> None:
-        """Brush."""
+        """Move the range or one of its ends, or begin a new range."""
         if ev.button() != Qt.MouseButton.LeftButton:
             ev.ignore()
             return
         ev.accept()
-        began = self.mapToView(ev.buttonDownPos()).x()
+        start = self.mapToView(ev.buttonDownPos()).x()
         x = self.mapToView(ev.pos()).x()
         if ev.isStart():
-            self._mode = self._mode_at(began)
-            self._grabbed = self.range or (began, began)
-        low, high = self._grabbed
+            self._mode = self._mode_at(start)
+            self._range_at_start = self.range or (start, start)
+        (low, high), (minimum, maximum) = self._range_at_start, self.limits
         if self._mode == "move":
-            shift = min(max(x - began, self.reach[0] - low), self.reach[1] - high)
+            shift = min(max(x - start, minimum - low), maximum - high)
             ends = (low + shift, high + shift)
         else:
-            fixed = {"low": high, "high": low, "new": began}[self._mode]
+            fixed = {"low": high, "high": low, "new": start}[self._mode]
             ends = (min(fixed, x), max(fixed, x))
-        least, most = self.reach
-        low, high = (min(max(end, least), most) for end in ends)
+        low, high = (min(max(end, minimum), maximum) for end in ends)
         self.brushed.emit((low, high))
 
     def mouseClickEvent(self, ev) -> None:
-        """Tell a click on the bar; clear on a double click elsewhere."""
+        """Announce a click on the bar, or a double click elsewhere."""
         if ev.button() != Qt.MouseButton.LeftButton:
             return
         on_bar = self._on_bar(self.mapToView(ev.pos()).x())
@@ -100,11 +99,11 @@ class BrushView(pg.ViewBox):
         return self.bar is not None and self.bar[0] <= x <= self.bar[1]
 
     def wheelEvent(self, ev, axis=None) -> None:
-        """Leave the wheel to the panel, which scrolls."""
+        """Leave the wheel to the parent, which scrolls."""
         ev.ignore()
 
     def hoverMoveEvent(self, event: QGraphicsSceneHoverEvent) -> None:
-        """Show by the pointer's shape what a drag would do."""
+        """Show by the cursor what a drag or click would do."""
         x = self.mapToView(event.pos()).x()
         mode = "bar" if self._on_bar(x) else self._mode_at(x)
-        self.setCursor(_SHAPES.get(mode, Qt.CursorShape.SplitHCursor))
+        self.setCursor(_CURSORS.get(mode, Qt.CursorShape.SplitHCursor))

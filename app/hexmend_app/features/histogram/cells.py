@@ -1,4 +1,4 @@
-"""The places where the histogram counts, and the ranges that show exactly what some of them count."""
+"""Cells of the histogram, which are bins and separate bars, and the ranges of values that match them exactly."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from hexmend_app.picture.appearance import ValueRange
 
 @dataclass(frozen=True)
 class Cells:
-    """Bar of the inverted, bar below the axis if there is one, bins, bar above if there is one: numbered so from 0.
+    """Bars and bins of a histogram, numbered from 0 at the left.
+
+    They are the bar of inverted hexes, the bar below an axis with an open low end, the bins, and the bar above an axis
+    with an open high end.
 
     Parameters
     ----------
@@ -24,29 +27,36 @@ class Cells:
     bins: int
 
     def __len__(self) -> int:
-        return self._first + self.bins + self.axis.open_high
+        return self._first_bin + self.bins + self.axis.open_high
 
-    def place(self, at: int) -> tuple[float, float]:
-        """Left and right of a cell on the plot."""
-        k = at - self._first
-        if at == 0:
+    def span(self, cell: int) -> tuple[float, float]:
+        """Return left and right end of a cell on the plot."""
+        k = cell - self._first_bin
+        if cell == 0:
             return self.axis.inverted
         if k < 0:
             return self.axis.below
         return self.axis.above if k == self.bins else (k / self.bins, (k + 1) / self.bins)
 
     def nearest(self, left: float, right: float) -> tuple[int, int]:
-        """The first and the last of the cells whose ends are nearest to two places; never none."""
-        places = [self.place(at) for at in range(len(self))]
-        first = min(range(len(self)), key=lambda at: abs(places[at][0] - left))
-        last = min(range(len(self)), key=lambda at: abs(places[at][1] - right))
-        if last < first:  # both are nearest to what is between two cells
-            first = last = min(range(len(self)), key=lambda at: abs(sum(places[at]) - left - right))
+        """Return the first and the last cell of the range of cells that is nearest to two positions on the plot."""
+        spans = [self.span(cell) for cell in range(len(self))]
+        first = min(range(len(self)), key=lambda cell: abs(spans[cell][0] - left))
+        last = min(range(len(self)), key=lambda cell: abs(spans[cell][1] - right))
+        if last < first:  # both positions are in the gap between two cells, or in one cell
+            first = last = min(range(len(self)), key=lambda cell: abs(sum(spans[cell]) - left - right))
         return first, last
 
     def range(self, first: int, last: int) -> ValueRange | None:
-        """Return the range that shows only the elements counted in cells `first` to `last`; None if that is all.
+        """Return the range of exactly the hexes that are counted in cells `first` to `last`; None for all cells.
 
+        Raises
+        ------
+        ValueError
+            If the cells do not exist or are in the wrong order.
+
+        Examples
+        --------
         >>> Cells(Axis("q"), 50).range(1, 25)
         ValueRange(metric='q', low=0.0, high=0.49999999999999994, inverted=False)
         """
@@ -56,24 +66,23 @@ class Cells:
             return None
         if last == 0:
             return ValueRange(self.axis.metric, -math.inf, -math.inf, inverted=True)
-        low, high = METRICS[self.axis.metric].full_range  # these bound nothing
+        low, high = METRICS[self.axis.metric].full_range  # unbounded
         if first > 1:
-            low = self._least(first)
+            low = self._smallest_value(first)
         if last < len(self) - 1:
-            high = math.nextafter(self._least(last + 1), -math.inf)
+            high = math.nextafter(self._smallest_value(last + 1), -math.inf)
         return ValueRange(self.axis.metric, low, high, inverted=first == 0)
 
     @property
-    def _first(self) -> int:
-        """The number of the first bin."""
+    def _first_bin(self) -> int:
         return 1 + self.axis.open_low
 
-    def _least(self, at: int) -> float:
-        """The least value that is counted in a cell or beyond it; not of the first that counts values.
+    def _smallest_value(self, cell: int) -> float:
+        """Return the smallest value that is counted in a cell from 2 on, or right of it.
 
-        Counting rounds, so that a value beside the end of a bin may be counted on the end's other side.
+        Because of rounding, a value next to the end of a bin may be counted on the other side of this end.
         """
-        axis, k = self.axis, at - self._first
+        axis, k = self.axis, cell - self._first_bin
         scale = self.bins / (axis.high - axis.low)
         value = axis.low + k / scale
         while (value - axis.low) * scale >= k:

@@ -1,4 +1,4 @@
-"""A number at an end of the range that is shown."""
+"""Spin box for an end of a range of values."""
 
 from __future__ import annotations
 
@@ -12,91 +12,90 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.theme.style import tabular
 
-#: Stands for infinity in a spin box, which has no other number for it.
+#: Represents infinity, which a spin box cannot have as value.
 _HUGE = 1e300
 
-#: Pixels that it has at least and wants at most. The least is the same for every metric, or the column would grow and
-#: shrink as others are chosen.
-_LEAST, _MOST = 68, 80
+#: Minimum and maximum width in pixels. The minimum does not depend on the metric, so that the width of the column of
+#: panels does not either.
+_MIN_WIDTH, _MAX_WIDTH = 68, 80
 
 
 class EndBox(QDoubleSpinBox):
-    """A number in any notation, or ∞ where the axis goes on without end."""
+    """Spin box for a number in any notation, or ∞ if the metric is unbounded."""
 
     def __init__(self) -> None:
         super().__init__()
         self._axis = Axis("q")
-        # A half-typed number is not a wish.
-        self.setKeyboardTracking(False)
+        self.setKeyboardTracking(False)  # an incomplete number is no value
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.setFont(tabular(self.font()))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)  # which would have half of it; arrow keys step
+        self.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)  # too wide; arrow keys step
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
     def set_axis(self, axis: Axis) -> None:
-        """Take numbers of another metric."""
+        """Change the metric and the range of its values."""
         self._axis = axis
-        least, most = METRICS[axis.metric].full_range
-        self.setDecimals(max(axis.decimals, 2) + 2)  # as many as `Axis.end` writes
-        self.setRange(max(least, -_HUGE), min(most, _HUGE))
-        self.setSingleStep(axis.grain)
+        minimum, maximum = METRICS[axis.metric].full_range
+        self.setDecimals(max(axis.decimals, 2) + 2)  # as many as `Axis.end_text` writes
+        self.setRange(max(minimum, -_HUGE), min(maximum, _HUGE))
+        self.setSingleStep(axis.resolution)
 
     def end(self) -> float:
-        """The number, infinite where there is no bound."""
+        """Return the number, which may be infinite."""
         value = self.value()
         if abs(value) >= _HUGE:
             return math.copysign(math.inf, value)
         return round(value, self.decimals())
 
     def set_end(self, value: float) -> None:
-        """Show a number, without a signal."""
+        """Show a number without emitting a signal."""
         with QSignalBlocker(self):
             self.setValue(value)
 
     def textFromValue(self, value: float) -> str:
-        """The number as the axis writes it."""
-        text = self._axis.end(math.copysign(math.inf, value) if abs(value) >= _HUGE else value)
+        """Write a number as the axis does."""
+        text = self._axis.end_text(math.copysign(math.inf, value) if abs(value) >= _HUGE else value)
         return text.replace("-", "−")
 
     def valueFromText(self, text: str) -> float:
-        """The number of a text that `validate` accepts."""
+        """Read a text that `validate` accepts."""
         return min(max(_number(text), self.minimum()), self.maximum())
 
     def validate(self, text: str, position: int) -> tuple:
-        """Any notation of a number, finished or not."""
+        """Accept any notation of a number; a text with only its characters is incomplete."""
         try:
             _number(text)
         except ValueError:
-            started = all(letter in "0123456789.+-−eE∞inf" for letter in text)
-            return (QValidator.State.Intermediate if started else QValidator.State.Invalid), text, position
+            incomplete = all(letter in "0123456789.+-−eE∞inf" for letter in text)
+            return (QValidator.State.Intermediate if incomplete else QValidator.State.Invalid), text, position
         return QValidator.State.Acceptable, text, position
 
     def fixup(self, text: str) -> str:
-        """Replace an unfinished entry by the current value."""
+        """Replace an incomplete entry by the current value."""
         return self.textFromValue(self.value())
 
     def stepBy(self, steps: int) -> None:
-        """Step by a hundredth of the axis; from infinity back to its end."""
+        """Step by a hundredth of the axis; from infinity to the end of the axis."""
         if abs(self.value()) >= _HUGE:
             self.setValue(self._axis.high if self.value() > 0 else self._axis.low)
         else:
             super().stepBy(steps)
 
     def sizeHint(self) -> QSize:
-        """Wide enough for the axis' numbers."""
+        """Return a size for the numbers of the axis."""
         middle = self._axis.low + 0.567 * (self._axis.high - self._axis.low)
         texts = [self.textFromValue(value) for value in (middle, self._axis.high, self.minimum())]
         widest = max(self.fontMetrics().horizontalAdvance(text) for text in (*texts, "0.00"))
-        return QSize(min(max(widest + 14, _LEAST), _MOST), super().sizeHint().height())
+        return QSize(min(max(widest + 14, _MIN_WIDTH), _MAX_WIDTH), super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:
-        """Wide enough for most numbers."""
-        return QSize(_LEAST, super().minimumSizeHint().height())
+        """Return a size for most numbers."""
+        return QSize(_MIN_WIDTH, super().minimumSizeHint().height())
 
 
 def _number(text: str) -> float:
-    """Any notation of a number, infinity among them; ValueError for what is none."""
+    """Read a number in any notation, also infinity; raise ValueError for other texts and nan."""
     number = float(text.strip().replace("−", "-").replace("∞", "inf"))
     if math.isnan(number):
         raise ValueError(text)

@@ -1,4 +1,4 @@
-"""Histogram feature: connects the mesh and its snapshots to the histogram."""
+"""Histogram of a metric of the mesh and of its snapshots."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*
 
 
 class FeatureHistogram(Feature):
-    """Brings the values of one metric to the histogram, and the range brushed there to the view.
+    """Shows the values of a metric in the histogram, and hides the hexes outside of the range brushed there.
 
-    The histogram counts what the colours show, so that the picture and the plot tell of the same thing, until the user
-    chooses a metric there. A brushed range holds its metric: then other colours can be laid over what it leaves.
+    The metric is that of the colours until the user selects another. It stays the same while a range is brushed, so
+    that the remaining hexes can be coloured by other metrics.
     """
 
     order = 40
@@ -37,16 +37,17 @@ class FeatureHistogram(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self._document, self._kept = self.session.document, self.session.snapshots
+        self._document, self._snapshots = self.session.document, self.session.snapshots
         self._seen = ChangeTracker()
-        self._style = ChartStyle()  # what the last figure was like
-        self._kept_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
+        self._style = ChartStyle()  # of the last export
+        #: Metric, points and values of the snapshots, by slot.
+        self._snapshot_values: dict[int, tuple[str, np.ndarray, np.ndarray]] = {}
         panel = self.panel = QualityHistogram()
         panel.metric_chosen.connect(self._on_metric)
-        panel.range_changed.connect(lambda chosen: view.change(quality_range=chosen))
+        panel.range_changed.connect(lambda range: view.change(quality_range=range))
         panel.keep_requested.connect(self._keep)
-        panel.renamed.connect(self._kept.rename)
-        panel.removed.connect(self._kept.remove)
+        panel.renamed.connect(self._snapshots.rename)
+        panel.removed.connect(self._snapshots.remove)
         panel.save_requested.connect(self.ask)
         panel.inverted_requested.connect(self._isolate_inverted)
 
@@ -62,7 +63,7 @@ class FeatureHistogram(Feature):
         )
 
     def panels(self) -> Sequence[Panel]:
-        """The histogram."""
+        """Return the histogram."""
         return (
             Panel(
                 id="histogram",
@@ -70,25 +71,21 @@ class FeatureHistogram(Feature):
                 widget=self.panel,
                 place=PanelPlace.FACTS,
                 order=10,
-                help="How many hexes have which quality; drag over it to show those alone.",
+                help="Distribution of a quality metric; drag over it to show only the hexes of a range.",
             ),
         )
 
     @property
     def metric(self) -> str:
-        """Return the metric counted; q if the colours show a displacement, which needs two meshes."""
-        shown = self._view.look.scale.metric
-        return self._view.counted or ("q" if shown in DISPLACEMENT_QUANTITIES else shown)
+        """Metric of the histogram; q if the colours show a displacement, which is not a metric of one mesh."""
+        coloured = self._view.look.scale.metric
+        return self._view.counted or ("q" if coloured in DISPLACEMENT_QUANTITIES else coloured)
 
     def refresh(self) -> None:
-        """Count the hexes as they are now."""
+        """Show the present distribution, the snapshots and the range."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        if (
-            self._view.counted is None
-            and look.quality_range is not None
-            and look.quality_range.metric != look.scale.metric
-        ):
+        if self._view.counted is None and look.quality_range and look.quality_range.metric != look.scale.metric:
             self._view.counted = look.quality_range.metric
         self.session.run.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
@@ -105,8 +102,8 @@ class FeatureHistogram(Feature):
         if self._seen.changed("start", self.metric, start):
             self.panel.set_initial(self._values(start), start.figures.inverted)
             self._seen.changed("now")
-        if self._seen.changed("kept", self.metric, self._kept.all, start):
-            self._show_kept()
+        if self._seen.changed("snapshots", self.metric, self._snapshots.all, start):
+            self._show_snapshots()
         if self._seen.changed("now", self.metric, now):
             self.panel.set_current(self._values(now), now.figures.inverted)
 
@@ -115,66 +112,65 @@ class FeatureHistogram(Feature):
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
-        chosen = self._view.look.quality_range
-        if chosen is not None and chosen.metric != self.metric:
-            self._view.change(quality_range=None)  # what it hides could no longer be told from the plot
+        range = self._view.look.quality_range
+        if range is not None and range.metric != self.metric:
+            self._view.change(quality_range=None)  # the plot cannot show a range of another metric
         self.host.refresh_soon()
 
     def _isolate_inverted(self) -> None:
         now = self._document.now
         self._view.isolate(hexes_of_group("inverted", now.mesh, now.figures))
 
-    # What is kept
+    # Snapshots
 
     def _keep(self) -> None:
         now = self._document.now
         moment = self.session.history.moment_of(now)
-        self._kept.keep("kept" if moment is None else moment.name, now)
+        self._snapshots.keep("kept" if moment is None else moment.name, now)
 
-    def _show_kept(self) -> None:
-        kept = self._kept.all
-        self._kept_values = {one.slot: self._values_of(one) for one in kept}
-        self.panel.set_kept([(one.slot, one.name, self._kept_values[one.slot][2], one.inverted) for one in kept])
+    def _show_snapshots(self) -> None:
+        snapshots = self._snapshots.all
+        values = self._snapshot_values = {one.slot: self._values_of(one) for one in snapshots}
+        self.panel.set_snapshots([(one.slot, one.name, values[one.slot][2], one.inverted) for one in snapshots])
 
-    def _values_of(self, one: Snapshot) -> tuple[str, np.ndarray, np.ndarray]:
-        """The metric, the points and the values of what is kept: worked out when one of the first two is another."""
-        known = self._kept_values.get(one.slot)
-        if known is not None and known[0] == self.metric and known[1] is one.points:
+    def _values_of(self, snapshot: Snapshot) -> tuple[str, np.ndarray, np.ndarray]:
+        """Return metric, points and values of a snapshot, computed only if metric or points have changed."""
+        known = self._snapshot_values.get(snapshot.slot)
+        if known is not None and known[0] == self.metric and known[1] is snapshot.points:
             return known
         hexes = self._document.now.mesh.hexes
-        found = metric_values(self.metric, one.points, hexes, measure(one.points, hexes))
-        return self.metric, one.points, found
+        values = metric_values(self.metric, snapshot.points, hexes, measure(snapshot.points, hexes))
+        return self.metric, snapshot.points, values
 
     # Files
 
     def ask(self) -> None:
-        """Ask what the histogram is to be like and where it goes, and write it."""
-        if given := answer(self.dialog()):
-            path, self._style = given
+        """Show the export dialog and write the histogram."""
+        if path_and_style := answer(self.dialog()):
+            path, self._style = path_and_style
             self.save(path, self._style)
 
     def dialog(self) -> ChartDialog:
-        """The dialog that asks: sizes and names are as they were last."""
-        event = self._report(Path())
+        """Return the export dialog, with the sizes and names of the last export."""
+        event = self._export_event(Path())
         chart, proposed = figure(*event.given[1:], **event.options), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
-        """Write the histogram as figure, or its counts as CSV, by the suffix; whether it was."""
+        """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
         return self.host.try_and_report(
             "The histogram was not saved",
-            lambda: self.session.commands.export(self._report(Path(path), style)),
+            lambda: self.session.commands.export(self._export_event(Path(path), style)),
             f"Histogram saved to {path}",
         )
 
-    def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:
-        """The call that writes it."""
+    def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         panel, document = self.panel, self._document
         drawn = [("at the start", GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
-        for one in self._kept.all:
-            state = self.session.state_at(one.points)
-            mesh = document.now.mesh.with_points(one.points) if state is None else state
-            drawn.append((one.name, KEPT[one.slot].light, False, mesh))
+        for snapshot in self._snapshots.all:
+            state = self.session.state_at(snapshot.points)
+            mesh = document.now.mesh.with_points(snapshot.points) if state is None else state
+            drawn.append((snapshot.name, KEPT[snapshot.slot].light, False, mesh))
         options = {"bins": panel.head.bins.value(), "log": panel.log, "cumulative": panel.cumulative}
         if style is not None:
             options["style"] = style

@@ -1,4 +1,4 @@
-"""The row above the histogram: what it shows and how; what does not fit stands in a menu."""
+"""Row of controls above the histogram; controls that do not fit are only in a menu."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QSpinBox, QTo
 
 from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
-from hexmend_app.features.histogram.bins import BINS, FEWEST, MOST
+from hexmend_app.features.histogram.bins import DEFAULT_BINS, MAX_BINS, MIN_BINS
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 
-_CUMULATIVE = "Heights are the share of hexes with a value up to x, inverted ones first."
-_KEEP = "Keep the present distribution for comparison with later ones, to compare methods."
-_SAVE = "Save the histogram as it is drawn, as SVG, PDF or PNG, or its counts as CSV."
-_FULL = "At most six are kept: remove one first."
+_CUMULATIVE = "Show the share of hexes with a value up to x, inverted hexes first."
+_KEEP = "Keep the present distribution to compare it with later ones, for example of other methods."
+_SAVE = "Save the histogram as SVG, PDF or PNG, or its counts as CSV."
+_FULL = "Remove a distribution first: at most six can be kept."
 _BINS = "Number of bins."
 
 
@@ -37,16 +37,18 @@ class HistogramSettings:
 
 
 class HistogramHead(QWidget):
-    """Chooses metric, scale and bins; asks to keep and to save.
+    """Controls for metric, scale and bins, and to keep or save the distribution.
 
     Signals
     -------
     metric_chosen(str)
-        The user chose a metric, or "", that of the colours.
+        The user selected a metric, or "" for that of the colours.
     scale_changed
-        Linear or logarithmic, counts or shares.
+        The heights changed between linear and logarithmic, or counts and cumulative shares.
     bins_changed
+        The number of bins changed.
     keep_requested, save_requested
+        The user asked to keep the present distribution, or to save the histogram.
     """
 
     metric_chosen = Signal(str)
@@ -70,8 +72,8 @@ class HistogramHead(QWidget):
         self.scale = Segmented(
             "Scale of the counts",
             [
-                ("linear", "Linear", "Heights in proportion to the number of hexes."),
-                ("log", "Log", "Logarithmic heights, so that a few bad hexes are visible among many good ones."),
+                ("linear", "Linear", "Linear heights."),
+                ("log", "Log", "Logarithmic heights, which show a few bad hexes among many good ones."),
             ],
         )
         self.scale.setFont(smaller(self.font()))
@@ -95,28 +97,28 @@ class HistogramHead(QWidget):
 
     def _make_bins(self) -> None:
         self.bins = QSpinBox()
-        self.bins.setRange(FEWEST, MOST)
+        self.bins.setRange(MIN_BINS, MAX_BINS)
         self.bins.setSingleStep(10)
-        self.bins.setValue(BINS)
+        self.bins.setValue(DEFAULT_BINS)
         self.bins.setSuffix(" bins")
         self.bins.setFont(tabular(smaller(self.font())))
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         set_help(self.bins, "Bins", _BINS)
         self.bins.valueChanged.connect(self._on_bins)
-        self._numbers = QActionGroup(self)
-        for number in (FEWEST, 20, BINS, 100, MOST):
-            action = QAction(str(number), self._numbers)
+        self._bin_actions = QActionGroup(self)
+        for number in (MIN_BINS, 20, DEFAULT_BINS, 100, MAX_BINS):
+            action = QAction(str(number), self._bin_actions)
             action.setCheckable(True)
-            action.setChecked(number == BINS)
+            action.setChecked(number == DEFAULT_BINS)
             action.triggered.connect(lambda _=False, number=number: self.bins.setValue(number))
 
     def _lay_out(self) -> None:
-        self.more = MenuButton("More", "Cumulative shares, the number of bins, keeping and saving.")
+        self.more = MenuButton("More", "Cumulative shares, number of bins, keep, save.")
         self.more.setIcon(icon("dots-vertical"))
         menu = self.more.menu()
         menu.addAction(self.cumulative)
-        menu.addMenu("Bins").addActions(self._numbers.actions())
+        menu.addMenu("Bins").addActions(self._bin_actions.actions())
         menu.addSeparator()
         menu.addActions([self.keep, self.save])
         buttons = {action: QToolButton() for action in (self.keep, self.cumulative)}
@@ -126,19 +128,19 @@ class HistogramHead(QWidget):
         for button in (*buttons.values(), self.more):
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
-        # In the order in which they are given up where room is short.
-        self._spare = (self.bins, buttons[self.cumulative], buttons[self.keep])
+        #: Controls that are hidden if the row is too narrow, in this order.
+        self._optional = (self.bins, buttons[self.cumulative], buttons[self.keep])
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)
         layout.addWidget(self.metric_box, 1)
         layout.addStretch()
-        for part in (self.scale, buttons[self.cumulative], self.bins, buttons[self.keep], self.more):
-            layout.addWidget(part)
+        for control in (self.scale, buttons[self.cumulative], self.bins, buttons[self.keep], self.more):
+            layout.addWidget(control)
 
     @property
     def log(self) -> bool:
-        """Return True if heights are logarithmic."""
+        """True if heights are logarithmic."""
         return self.scale.value() == "log"
 
     def settings(self) -> HistogramSettings:
@@ -146,47 +148,44 @@ class HistogramHead(QWidget):
         return HistogramSettings(self.log, self.cumulative.isChecked(), self.bins.value())
 
     def restore(self, settings: HistogramSettings) -> None:
-        """Set all of it, and say so."""
+        """Apply settings and emit the signals."""
         self.scale.set_value("log" if settings.log else "linear")
         self.cumulative.setChecked(settings.cumulative)
         self.bins.setValue(settings.bins)
         self.scale_changed.emit()
 
     def show_metric(self, name: str, as_colours: bool) -> None:
-        """Show which metric is drawn, and whether it is that of the colours by itself; without a signal."""
+        """Show a metric, without emitting a signal; `as_colours` if it follows the metric of the colours."""
         metric = METRICS[name]
-        if as_colours:
-            self.metric_box.setItemText(0, f"{metric.title} (as colours)")
-        else:
-            self.metric_box.setItemText(0, "As colours")
-        self.metric_box.setItemData(0, "Show whatever metric the colours show.", Qt.ItemDataRole.ToolTipRole)
+        self.metric_box.setItemText(0, f"{metric.title} (as colours)" if as_colours else "As colours")
+        self.metric_box.setItemData(0, "Use the metric of the colours.", Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
         set_help(self.metric_box, "Metric of the histogram", described(metric))
         self.metric_box.setToolTip(described(metric))
 
-    def set_offered(self, known: bool, full: bool) -> None:
-        """Say whether there is something to keep or save, and whether as much is kept as can be."""
-        self.save.setEnabled(known)
-        self.keep.setEnabled(known and not full)
+    def set_available(self, has_distribution: bool, full: bool) -> None:
+        """Enable saving if there is a distribution, and keeping unless the legend is `full`."""
+        self.save.setEnabled(has_distribution)
+        self.keep.setEnabled(has_distribution and not full)
         self.keep.setToolTip(f"<qt>{_FULL if full else _KEEP}</qt>")
 
     def minimumSizeHint(self) -> QSize:
-        """Without what can stand in the menu."""
-        parts = (self.metric_box, self.scale, self.more)
-        width = sum(part.minimumSizeHint().width() for part in parts) + 3 * self.layout().spacing()
-        return QSize(width, max(part.minimumSizeHint().height() for part in parts))
+        """Return the size without the optional controls."""
+        sizes = [control.minimumSizeHint() for control in (self.metric_box, self.scale, self.more)]
+        width = sum(size.width() for size in sizes) + 3 * self.layout().spacing()
+        return QSize(width, max(size.height() for size in sizes))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Show what there is room for."""
+        """Show the optional controls that fit."""
         super().resizeEvent(event)
         gap = self.layout().spacing()
-        space = self.width() - self.minimumSizeHint().width() - 50  # so that the metric's name is whole
-        for part in reversed(self._spare):
-            space -= part.sizeHint().width() + gap
-            part.setVisible(space >= 0)
+        space = self.width() - self.minimumSizeHint().width() - 50  # for the whole title of the metric
+        for control in reversed(self._optional):
+            space -= control.sizeHint().width() + gap
+            control.setVisible(space >= 0)
 
     def _on_bins(self) -> None:
-        with QSignalBlocker(self._numbers):
-            for action in self._numbers.actions():
+        with QSignalBlocker(self._bin_actions):
+            for action in self._bin_actions.actions():
                 action.setChecked(action.text() == str(self.bins.value()))
         self.bins_changed.emit()

@@ -1,4 +1,4 @@
-"""The histogram as a file: a figure, or its counts."""
+"""Export of the histogram as a picture, or of its counts as CSV."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from hexmend.report.charts import FIGURE_SUFFIXES, ChartStyle, write_chart
 from hexmend.report.documents import write_text
 from hexmend.report.histogram import Histogram, Outline
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import BINS, Distribution, distribute
+from hexmend_app.features.histogram.bins import DEFAULT_BINS, Distribution, distribute
 from hexmend_app.state.mesh.metric_cache import metric_values
 
-#: Kinds of file.
+#: Suffixes of the files that can be written.
 SUFFIXES = (*FIGURE_SUFFIXES, ".csv")
 
 
 @dataclass(frozen=True, eq=False)
 class _Line:
-    """A distribution as it is written."""
+    """A distribution with its name and style."""
 
     name: str
     colour: str
     filled: bool
-    part: Distribution
+    distribution: Distribution
 
 
 def write_histogram(
@@ -39,41 +39,42 @@ def write_histogram(
     metric: str,
     drawn: Sequence[tuple[str, str, bool, Mesh]],
     *,
-    bins: int = BINS,
+    bins: int = DEFAULT_BINS,
     log: bool = False,
     cumulative: bool = False,
     style: ChartStyle | None = None,
 ) -> None:
-    """Write how hexes are distributed, as SVG, PDF or PNG, or the counts as CSV, by the path's suffix.
+    """Write the histogram as SVG, PDF or PNG, or its counts as CSV, by the suffix.
 
     Parameters
     ----------
     path : path-like
     title : str
-        Above the figure.
+        Title above the figure.
     metric : str
         A name of `hexmend.quality.METRICS`.
     drawn : sequence of (name, colour, filled, Mesh)
-        What is drawn, at least one, in the order of the legend; the axis suits the first. Colours are #rrggbb.
+        Meshes, at least one, in the order of the legend; the axis fits the first. Colours are #rrggbb.
     bins : int
+        Number of bins.
     log : bool
-        Heights by powers of ten.
+        Draw logarithmic heights.
     cumulative : bool
-        Shares of hexes up to a value.
+        Write shares of hexes up to a value instead of counts.
     style : ChartStyle, optional
         Sizes and names.
 
     Raises
     ------
     HexmendError
-        For another suffix, or where the file cannot be written; the one that was there stays.
+        If the suffix is unknown or the file cannot be written; an existing file is left unchanged.
     """
     style = ChartStyle() if style is None else style
     if suffix_for(Path(path), "a histogram", SUFFIXES) == ".csv":
-        write_text(Path(path), _text(_counted(metric, drawn, bins, cumulative), cumulative, style.names))
+        write_text(Path(path), _csv_text(_count(metric, drawn, bins, cumulative), cumulative, style.names))
     else:
-        shown = figure(title, metric, drawn, bins=bins, log=log, cumulative=cumulative)
-        write_chart(Path(path), shown.draw, style)
+        chart = figure(title, metric, drawn, bins=bins, log=log, cumulative=cumulative)
+        write_chart(Path(path), chart.draw, style)
 
 
 def figure(
@@ -81,60 +82,63 @@ def figure(
     metric: str,
     drawn: Sequence[tuple[str, str, bool, Mesh]],
     *,
-    bins: int = BINS,
+    bins: int = DEFAULT_BINS,
     log: bool = False,
     cumulative: bool = False,
 ) -> Histogram:
-    """The histogram, on white paper; see `write_histogram`."""
-    lines = _counted(metric, drawn, bins, cumulative)
-    axis, outlines = lines[0].part.axis, []
-    for one in lines:
-        part = one.part
-        scale = 100 / max(part.total, 1) if cumulative else 1
-        bars = ((axis.inverted, part.inverted), (axis.below, part.below), (axis.above, part.above))
+    """Return the histogram as a figure for print; see `write_histogram`."""
+    lines = _count(metric, drawn, bins, cumulative)
+    axis, outlines = lines[0].distribution.axis, []
+    for line in lines:
+        counted = line.distribution
+        scale = 100 / max(counted.total, 1) if cumulative else 1
+        bars = ((axis.inverted, counted.inverted), (axis.below, counted.below), (axis.above, counted.above))
         outlines.append(
             Outline(
-                one.name,
-                one.colour,
-                [float(count * scale) for count in part.counts],
-                [(*place, count * scale) for place, count in bars if place is not None and count],
-                one.filled and not cumulative,
-                f"{part.inverted:,} inverted",
+                line.name,
+                line.colour,
+                [float(count * scale) for count in counted.counts],
+                [(*span, count * scale) for span, count in bars if span is not None and count],
+                line.filled and not cumulative,
+                f"{counted.inverted:,} inverted",
             )
         )
     label = "% of hexes up to x, inverted first" if cumulative else "hexes"
     return Histogram(outlines, title, axis.title, label, axis.ticks(), axis.extent, log)
 
 
-def _counted(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool) -> list[_Line]:
-    """The distributions, on the axis that suits the first."""
+def _count(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int, cumulative: bool) -> list[_Line]:
+    """Count the hexes of the meshes on the axis that fits the first."""
     axis, lines = None, []
     for name, colour, filled, mesh in drawn:
         figures = measure(mesh.points, mesh.hexes)
-        known = metric_values(metric, mesh.points, mesh.hexes, figures)
-        axis = axis or Axis.fitted(metric, known, figures.inverted)
-        part = distribute(known, figures.inverted, axis, bins)
-        lines.append(_Line(name, colour, filled, part.cumulated() if cumulative else part))
+        values = metric_values(metric, mesh.points, mesh.hexes, figures)
+        axis = axis or Axis.fitted(metric, values, figures.inverted)
+        distribution = distribute(values, figures.inverted, axis, bins)
+        lines.append(_Line(name, colour, filled, distribution.cumulated() if cumulative else distribution))
     return lines
 
 
-def _text(lines: Sequence[_Line], cumulative: bool, names: Mapping[str, str]) -> str:
-    """The counts, or the shares in percent, as CSV: a line a bin, inverted elements first; `names` as in a style."""
-    parts, axis = [one.part for one in lines], lines[0].part.axis
-    mark = "% of hexes up to: " if cumulative else ""
+def _csv_text(lines: Sequence[_Line], cumulative: bool, names: Mapping[str, str]) -> str:
+    """Write counts, or shares in percent, as CSV with a row per bar or bin; `names` replaces names of lines."""
+    columns, axis = [line.distribution for line in lines], lines[0].distribution.axis
+    prefix = "% of hexes up to: " if cumulative else ""
+    titles = [prefix + (names.get(line.name) or line.name) for line in lines]
     rows: list[list] = [
-        [f"{axis.metric} from", f"{axis.metric} to", *(mark + (names.get(one.name) or one.name) for one in lines)],
-        ["inverted", "inverted", *(part.inverted for part in parts)],
+        [f"{axis.metric} from", f"{axis.metric} to", *titles],
+        ["inverted", "inverted", *(column.inverted for column in columns)],
     ]
     if axis.below is not None:
-        rows.append(["-inf", f"{axis.low:.7g}", *(part.below for part in parts)])
-    for at, ends in enumerate(pairwise(f"{edge:.7g}" for edge in parts[0].edges)):
-        rows.append([*ends, *(int(part.counts[at]) for part in parts)])
+        rows.append(["-inf", f"{axis.low:.7g}", *(column.below for column in columns)])
+    for index, ends in enumerate(pairwise(f"{edge:.7g}" for edge in columns[0].edges)):
+        rows.append([*ends, *(int(column.counts[index]) for column in columns)])
     if axis.above is not None:
-        rows.append([f"{axis.high:.7g}", "inf", *(part.above for part in parts)])
+        rows.append([f"{axis.high:.7g}", "inf", *(column.above for column in columns)])
     if cumulative:
         for row in rows[1:]:
-            row[2:] = [f"{100 * count / max(part.total, 1):.6g}" for count, part in zip(row[2:], parts, strict=True)]
+            row[2:] = [
+                f"{100 * count / max(column.total, 1):.6g}" for count, column in zip(row[2:], columns, strict=True)
+            ]
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(rows)
     return out.getvalue()

@@ -1,4 +1,4 @@
-"""The histogram's legend: what is drawn in which colour, and what is kept, to be renamed or removed."""
+"""Legend of the histogram, in which snapshots can be renamed and removed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend_app.theme.palette import HOVER, KEPT
 from hexmend_app.theme.style import BLUE, FIELD, GREY, LINE, MUTED, icon, note, on_theme_change, set_help, smaller
 from hexmend_app.widgets.legend import Swatch, legend_entry
 
-_WIDEST, _HEIGHT = 150, 18
+_MAX_NAME_WIDTH, _HEIGHT = 150, 18
 
 
 def _sheet() -> str:
@@ -28,12 +28,14 @@ QToolButton:focus {{ border: 1px solid {BLUE}; }}
 
 
 class HistogramLegend(QWidget):
-    """Names the axis and what is drawn, in as many rows as it takes.
+    """Title of the axis and names of the distributions, in one or more rows.
 
     Signals
     -------
     renamed(slot, name)
+        The user renamed a snapshot.
     removed(slot)
+        The user removed a snapshot.
     """
 
     renamed = Signal(int, str)
@@ -46,7 +48,7 @@ class HistogramLegend(QWidget):
         self._flow.setHorizontalSpacing(2)
         self._flow.setVerticalSpacing(1)
         on_theme_change(self, lambda: self.setStyleSheet(_sheet()))
-        self.entries: dict[int, KeptEntry] = {}
+        self.entries: dict[int, SnapshotEntry] = {}
         self._title = note()
         self._title.setWordWrap(False)
         self._title.setSizePolicy(self.sizePolicy())
@@ -57,39 +59,39 @@ class HistogramLegend(QWidget):
         for text, colour in (("at the start", GREY), ("now", BLUE)):
             entry = legend_entry(text, colour)
             set_help(entry, text, help)
-            entry.setMinimumHeight(_HEIGHT)  # or a row of both kinds does not line up
+            entry.setMinimumHeight(_HEIGHT)  # aligns it with the entries of snapshots
             self._flow.addWidget(entry)
 
     def set_title(self, title: str) -> None:
-        """Name the axis of values."""
+        """Set the title of the axis of values."""
         self._title.setText(title)
 
     def size_within(self, width: int) -> QSize:
-        """Return the size for a width: one row if it fits, or more rows."""
-        parts = [self._flow.itemAt(at).sizeHint().width() for at in range(self._flow.count())]
-        width = min(sum(parts) + (len(parts) - 1) * self._flow.horizontalSpacing() + 1, max(width, 1))
+        """Return the size for a maximum width: one row if it fits, or more rows."""
+        widths = [self._flow.itemAt(index).sizeHint().width() for index in range(self._flow.count())]
+        width = min(sum(widths) + (len(widths) - 1) * self._flow.horizontalSpacing() + 1, max(width, 1))
         return QSize(width, self._flow.heightForWidth(width))
 
-    def set_kept(self, kept: Sequence[tuple[int, str]]) -> None:
-        """Take slots and names of what is kept."""
-        for slot in self.entries.keys() - {slot for slot, _ in kept}:
+    def set_snapshots(self, snapshots: Sequence[tuple[int, str]]) -> None:
+        """Show snapshots by slot and name."""
+        for slot in self.entries.keys() - {slot for slot, _ in snapshots}:
             entry = self.entries.pop(slot)
             self._flow.removeWidget(entry)
             entry.hide()
-            entry.deleteLater()  # its button is the one that was clicked
-        for slot, name in kept:
+            entry.deleteLater()  # not now: the signal may come from its own button
+        for slot, name in snapshots:
             if slot not in self.entries:
-                entry = self.entries[slot] = KeptEntry(slot)
+                entry = self.entries[slot] = SnapshotEntry(slot)
                 entry.name.renamed.connect(lambda name, slot=slot: self.renamed.emit(slot, name))
                 entry.cross.clicked.connect(lambda _=False, slot=slot: self.removed.emit(slot))
                 self._flow.addWidget(entry)
             self.entries[slot].name.show_name(name)
-            set_help(self.entries[slot].cross, f"Remove {name}", f"Keep {name} no longer.")
+            set_help(self.entries[slot].cross, f"Remove {name}", f"Remove {name} from the histogram.")
         self.updateGeometry()
 
 
-class KeptEntry(QWidget):
-    """A colour, a name that can be changed in place, and a cross."""
+class SnapshotEntry(QWidget):
+    """Colour, editable name and remove button of a snapshot."""
 
     def __init__(self, slot: int):
         super().__init__()
@@ -103,12 +105,12 @@ class KeptEntry(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 4, 0)
         layout.setSpacing(2)
-        for part in (Swatch(KEPT[slot]), self.name, self.cross):
-            layout.addWidget(part)
+        for widget in (Swatch(KEPT[slot]), self.name, self.cross):
+            layout.addWidget(widget)
 
 
 class _Name(QLineEdit):
-    """A name as wide as its text, up to a limit; a click begins to change it, Return or leaving it ends that."""
+    """Editable name as wide as its text, up to a limit; Return or the loss of focus ends editing."""
 
     renamed = Signal(str)
 
@@ -122,14 +124,14 @@ class _Name(QLineEdit):
         self.returnPressed.connect(self.clearFocus)
 
     def show_name(self, name: str) -> None:
-        """Show a name, without a signal."""
+        """Show a name without emitting a signal."""
         self._name = name
         self.setText(name)
         self.setCursorPosition(0)
-        set_help(self, f"Name of {name}", f"{name}, as it was kept. Click on the name to change it.")
+        set_help(self, f"Name of {name}", f"Distribution of {name}; click to rename it.")
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Take what was typed; nothing is no name."""
+        """Announce a new name; an empty one is ignored."""
         super().focusOutEvent(event)
         name = self.text().strip()
         if name and name != self._name:
@@ -140,6 +142,6 @@ class _Name(QLineEdit):
 
     def _fit(self) -> None:
         self.ensurePolished()
-        text = self.fontMetrics().horizontalAdvance(self.text())
-        self.setFixedWidth(min(max(text, 24) + 8, _WIDEST))
+        width = self.fontMetrics().horizontalAdvance(self.text())
+        self.setFixedWidth(min(max(width, 24) + 8, _MAX_NAME_WIDTH))
         self.updateGeometry()

@@ -1,4 +1,4 @@
-"""One distribution as it is drawn: an outline over the bins, and bars beside them that are broken where too tall."""
+"""Graphics items of one distribution: an outline over the bins, and separate bars, broken if they are too tall."""
 
 from __future__ import annotations
 
@@ -14,31 +14,44 @@ from hexmend_app.features.histogram.bins import Distribution
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import INVERTED
 
-#: Of the height of the axis: where a broken bar ends, where its gap is, how wide that is, and how tall its teeth.
-BROKEN, _GAP_AT, _GAP, _TOOTH = 1.08, 0.88, 0.05, 0.03
+#: Top of a broken bar, position and width of its gap, and height of the teeth, as fractions of the axis.
+BROKEN_TOP, _GAP_AT, _GAP, _TOOTH = 1.08, 0.88, 0.05, 0.03
 _TEETH = 4
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """A distribution as it is drawn: filled under its outline or not, in a colour; `key` tells it from the others."""
+    """A distribution with its name and style.
+
+    Parameters
+    ----------
+    key : str
+        Identifies it among the series of a plot.
+    name : str
+    colour : Role
+    distribution : Distribution
+    filled : bool
+        True if the area below the outline is filled.
+    current : bool
+        True for the distribution of now.
+    """
 
     key: str
     name: str
     colour: Role
-    part: Distribution
+    distribution: Distribution
     filled: bool = False
     current: bool = False
 
 
 @dataclass(frozen=True)
 class Heights:
-    """Return the positions of counts on the axis of counts, or of shares in percent.
+    """Axis of counts, or of shares in percent.
 
     Parameters
     ----------
     floor, top : float
-        Of the axis, as places.
+        Heights of its ends on the plot; on a logarithmic axis, powers of ten.
     log, cumulative : bool
     """
 
@@ -47,32 +60,32 @@ class Heights:
     log: bool = False
     cumulative: bool = False
 
-    def of(self, part: Distribution, counts: np.ndarray | int) -> np.ndarray:
-        """Places of counts of a distribution."""
+    def of(self, distribution: Distribution, counts: np.ndarray | int) -> np.ndarray:
+        """Return the heights of counts of a distribution."""
         heights = np.asarray(counts, dtype=float)
         if self.cumulative:
-            heights = heights * (100 / max(part.total, 1))
+            heights = heights * self.one_hex(distribution)
         if self.log:
-            heights = np.log10(np.maximum(heights, 0.5 * self.least(part)))
+            heights = np.log10(np.maximum(heights, 0.5 * self.one_hex(distribution)))
         return heights
 
-    def least(self, part: Distribution) -> float:
-        """One element, as it is counted."""
-        return 100 / max(part.total, 1) if self.cumulative else 1.0
+    def one_hex(self, distribution: Distribution) -> float:
+        """Return the count of one hex, 1, or its share in percent."""
+        return 100 / max(distribution.total, 1) if self.cumulative else 1.0
 
-    def share(self, share: float) -> float:
-        """The place at a share of the axis."""
-        return self.floor + share * (self.top - self.floor)
+    def at_fraction(self, fraction: float) -> float:
+        """Return the height at a fraction of the axis."""
+        return self.floor + fraction * (self.top - self.floor)
 
-    def bar(self, part: Distribution, count: int) -> tuple[float, bool]:
-        """Return the height of an end bar, and True if it is broken because its count exceeds the axis."""
-        height = float(self.of(part, count))
+    def bar(self, distribution: Distribution, count: int) -> tuple[float, bool]:
+        """Return the height of a separate bar, and True if it is broken because its count exceeds the axis."""
+        height = float(self.of(distribution, count))
         broken = height > self.top * (1 + 1e-9)
-        return (self.share(BROKEN) if broken else height), broken
+        return (self.at_fraction(BROKEN_TOP) if broken else height), broken
 
 
 class Outline:
-    """The items of one distribution."""
+    """Graphics items of one distribution."""
 
     def __init__(self) -> None:
         self.curve = pg.PlotCurveItem()
@@ -81,22 +94,22 @@ class Outline:
         self._drawn: tuple | None = None
 
     def forget(self) -> None:
-        """Draw anew next time, though nothing but the colours has changed."""
+        """Draw again at the next call of `draw`, even if only the colours have changed."""
         self._drawn = None
 
-    def draw(self, at: int, series: Series, heights: Heights) -> None:
-        """Show a distribution as the `at`-th."""
-        # During a run only the distribution now changes.
-        if self._drawn is not None and self._drawn[0] is series.part and self._drawn[1:] == (at, heights):
+    def draw(self, layer: int, series: Series, heights: Heights) -> None:
+        """Draw a distribution in a layer; higher layers are drawn over lower ones."""
+        # During a run, only the distribution of now changes.
+        if self._drawn is not None and self._drawn[0] is series.distribution and self._drawn[1:] == (layer, heights):
             return
-        self._drawn = (series.part, at, heights)
+        self._drawn = (series.distribution, layer, heights)
         colour = str(series.colour)
-        part = series.part.cumulated() if heights.cumulative else series.part
-        filled = series.filled and not heights.cumulative  # shares of all fill the whole plot and hide each other
+        shown = series.distribution.cumulated() if heights.cumulative else series.distribution
+        filled = series.filled and not heights.cumulative  # filled cumulative shares would hide each other
         width = 1.0 if filled else 1.8
         pen = pg.mkPen(colour, width=width)
         brush = pg.mkBrush(colour + ("70" if series.current else "50")) if filled else None
-        curve = heights.of(part, part.counts)
+        curve = heights.of(shown, shown.counts)
         self.curve.setData(
             np.linspace(0, 1, len(curve) + 1),
             curve,
@@ -105,20 +118,22 @@ class Outline:
             fillLevel=heights.floor if filled else None,
             brush=brush,
         )
-        own = INVERTED if series.current else colour
-        bars = [(part.axis.inverted, part.inverted)]
-        _show(self.bar, bars, part, heights, pg.mkPen(own, width=width), pg.mkBrush(own + "70") if filled else None)
-        ends = [(part.axis.below, part.below), (part.axis.above, part.above)]
-        _show(self.ends, ends, part, heights, pen, brush)
+        bar_colour = INVERTED if series.current else colour
+        bar_brush = pg.mkBrush(bar_colour + "70") if filled else None
+        bars = [(shown.axis.inverted, shown.inverted)]
+        _draw_bars(self.bar, bars, shown, heights, pg.mkPen(bar_colour, width=width), bar_brush)
+        bars = [(shown.axis.below, shown.below), (shown.axis.above, shown.above)]
+        _draw_bars(self.ends, bars, shown, heights, pen, brush)
         for item in self.items:
-            item.setZValue(at)
+            item.setZValue(layer)
 
 
-def _show(item: QGraphicsPathItem, bars: list, part: Distribution, heights: Heights, pen, brush) -> None:
+def _draw_bars(item: QGraphicsPathItem, bars: list, distribution: Distribution, heights: Heights, pen, brush) -> None:
+    """Draw bars, given as (span on the plot or None, count)."""
     path = QPainterPath()
-    for place, count in bars:
-        if place is not None and count > 0:
-            _add_bar(path, *place, *heights.bar(part, count), heights)
+    for span, count in bars:
+        if span is not None and count > 0:
+            _add_bar(path, *span, *heights.bar(distribution, count), heights)
     item.setVisible(not path.isEmpty())
     item.setPath(path)
     item.setPen(pen)
@@ -126,13 +141,13 @@ def _show(item: QGraphicsPathItem, bars: list, part: Distribution, heights: Heig
 
 
 def _add_bar(path: QPainterPath, left: float, right: float, top: float, broken: bool, heights: Heights) -> None:
-    """A rectangle, or two whose ends that face each other are teeth."""
+    """Add a rectangle to a path; a broken bar is two rectangles with teeth at the gap."""
     if not broken:
         path.addRect(left, heights.floor, right - left, top - heights.floor)
         return
     for side, end in ((-1, heights.floor), (1, top)):
-        near = heights.share(_GAP_AT + side * _GAP / 2)
-        far = heights.share(_GAP_AT + side * _GAP / 2 - _TOOTH)
+        near = heights.at_fraction(_GAP_AT + side * _GAP / 2)
+        far = heights.at_fraction(_GAP_AT + side * _GAP / 2 - _TOOTH)
         teeth = [
             QPointF(left + (right - left) * k / (2 * _TEETH), far if k % 2 else near) for k in range(2 * _TEETH + 1)
         ]

@@ -1,4 +1,4 @@
-"""The histogram of a metric, in which a range is brushed to look at its elements."""
+"""Panel of the histogram, in which a range of values is brushed to show only its hexes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QBoxLayout, QToolTip, QVBoxLayout, QWidget
 from hexmend.quality import METRICS
 from hexmend_app.features.histogram.announcer import Announcer
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bin_texts import describe, sentence
+from hexmend_app.features.histogram.bin_texts import describe_bin, range_summary
 from hexmend_app.features.histogram.cells import Cells
 from hexmend_app.features.histogram.distributions import Distributions
 from hexmend_app.features.histogram.head import HistogramHead
@@ -25,32 +25,32 @@ from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
 from hexmend_app.widgets.eliding_label import ElidingLabel
 
-#: Pixels that the words below the plot need beside the numbers.
-_WORDS = 210
+#: Width of the summary next to the range of numbers, in pixels.
+_SUMMARY_WIDTH = 210
 _HELP = (
-    "How many hexes have which value. Inverted hexes stand apart at the left, whatever the metric. Drag over the "
-    "plot to see only the hexes of a range; double-click to see all. A click on the bar of the "
-    "inverted shows only them."
+    "Number of hexes by value. Inverted hexes have a separate bar at the left, for every metric. Drag over the plot "
+    "to show only the hexes of a range; double-click to show all hexes. Click the bar of inverted hexes to show only "
+    "these."
 )
 
 
 class QualityHistogram(QWidget):
-    """Distribution of a metric at the start, now, and as it was kept, with a range of values to brush.
+    """Distribution of a metric at the start, now and of snapshots, in which a range can be brushed.
 
     Signals
     -------
     metric_chosen(str)
-        The user chose a metric, or "", that of the colours.
+        The user selected a metric, or "" for that of the colours.
     range_changed(ValueRange or None)
-        The user brushed another range, or cleared it; at most thirty times a second.
+        The user brushed or typed a range, or cleared it; at most thirty times a second.
     keep_requested
-        The user wants to keep what is now.
+        The user asked to keep the present distribution.
     renamed(slot, name), removed(slot)
-        The user calls what is kept otherwise, or keeps it no longer.
+        The user renamed or removed a snapshot.
     save_requested
-        The user wants the histogram as a file.
+        The user asked to save the histogram.
     inverted_requested
-        The user clicked on the bar of the inverted elements of now, of which there are some.
+        The user clicked the bar of inverted hexes, which is not empty.
     """
 
     metric_chosen = Signal(str)
@@ -67,23 +67,23 @@ class QualityHistogram(QWidget):
         self._range: ValueRange | None = None
         self._announcer = Announcer(self)
         self._announcer.announced.connect(self.range_changed)
-        self._make_parts()
+        self._make_widgets()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(5, 3, 5, 3)
         layout.setSpacing(3)
         layout.addWidget(self.head)
         layout.addWidget(self.plot, 1)
-        self._below = QBoxLayout(QBoxLayout.Direction.LeftToRight)
-        self._below.setSpacing(3)
-        self._below.addWidget(self.ends)
-        self._below.addWidget(self.words, 1)
-        layout.addLayout(self._below)
+        self._bottom = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._bottom.setSpacing(3)
+        self._bottom.addWidget(self.range_row)
+        self._bottom.addWidget(self.summary, 1)
+        layout.addLayout(self._bottom)
         self._use_axis()
         self._refresh()
 
-    def _make_parts(self) -> None:
+    def _make_widgets(self) -> None:
         self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
-        self.plot, self.ends = HistogramPlot(self.legend), RangeRow()
+        self.plot, self.range_row = HistogramPlot(self.legend), RangeRow()
         self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
         self.head.bins_changed.connect(self._on_bins)
@@ -91,9 +91,9 @@ class QualityHistogram(QWidget):
         self.head.save_requested.connect(self.save_requested)
         self.legend.renamed.connect(self.renamed)
         self.legend.removed.connect(self.removed)
-        self.ends.chosen.connect(self._on_ends)
-        self.ends.cleared.connect(lambda: self._choose(None))
-        # Over the plot the tooltip says the counts; the legend above it explains.
+        self.range_row.chosen.connect(self._on_typed)
+        self.range_row.cleared.connect(lambda: self._choose(None))
+        # The tooltip of the plot shows counts; the help is the tooltip of the legend.
         self.plot.plot.setAccessibleName("Histogram of hex quality")
         self.plot.plot.setAccessibleDescription(_HELP)
         self.plot.plot.setWhatsThis(_HELP)
@@ -101,47 +101,52 @@ class QualityHistogram(QWidget):
         self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.bar_clicked.connect(self.inverted_requested)
         self.plot.plot.scene().sigMouseMoved.connect(self._hover)
-        # In one line, whatever it says: a second would push the plot about while a range is brushed.
-        self.words = ElidingLabel()
-        self.words.setFont(tabular(smaller(self.words.font())))
-        self.words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        tint(self.words, MUTED)
-        self.words.setAccessibleName("Hexes shown")
+        self.summary = ElidingLabel()  # one line: a second line would move the plot while a range is brushed
+        self.summary.setFont(tabular(smaller(self.summary.font())))
+        self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        tint(self.summary, MUTED)
+        self.summary.setAccessibleName("Hexes shown")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Put the words below the numbers where there is no room beside them."""
+        """Place the summary right of the range of numbers, or below if the panel is too narrow."""
         super().resizeEvent(event)
-        neighbour = self.width() >= self.ends.minimumSizeHint().width() + _WORDS
-        displacements, sides = QBoxLayout.Direction, Qt.AlignmentFlag
-        self._below.setDirection(displacements.LeftToRight if neighbour else displacements.TopToBottom)
-        self.words.setAlignment((sides.AlignRight if neighbour else sides.AlignLeft) | sides.AlignVCenter)
+        wide = self.width() >= self.range_row.minimumSizeHint().width() + _SUMMARY_WIDTH
+        direction, alignment = QBoxLayout.Direction, Qt.AlignmentFlag
+        self._bottom.setDirection(direction.LeftToRight if wide else direction.TopToBottom)
+        self.summary.setAlignment((alignment.AlignRight if wide else alignment.AlignLeft) | alignment.AlignVCenter)
 
-    # What is drawn
+    # Distributions
 
     def set_metric(self, name: str, as_colours: bool = False) -> None:
-        """Draw another metric, of which `set_initial` and the others then bring the values.
+        """Change the metric; if it is another one, all distributions are removed.
 
         Parameters
         ----------
         name : str
-            Of `hexmend.quality.METRICS`.
+            A name of `hexmend.quality.METRICS`.
         as_colours : bool
-            Whether it is the colours' that the histogram follows.
+            True if the histogram follows the metric of the colours.
         """
         self.head.show_metric(name, as_colours)
         if name != self.axis.metric:
-            self._distributions.begin(name)
-            self.legend.set_kept([])
+            self._distributions.reset(name)
+            self.legend.set_snapshots([])
             self._refresh()
             self._use_axis()
 
     def set_initial(self, values: np.ndarray, inverted: np.ndarray) -> None:
-        """Take the metric's values (m,) and (m,) bool of the elements at the start, which the axis is made for.
+        """Set the distribution at the start, and fit the axis to it.
+
+        Parameters
+        ----------
+        values : (m,) float64
+            Values of the metric.
+        inverted : (m,) bool
 
         Raises
         ------
         ValueError
-            Where the two differ in shape.
+            If the arrays differ in shape.
         """
         before = self.axis
         self._distributions.set_initial(values, inverted)
@@ -150,81 +155,81 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def set_current(self, values: np.ndarray, inverted: np.ndarray) -> None:
-        """Take values (m,) and (m,) bool of the elements now; raises as `set_initial`."""
+        """Set the distribution of now; see `set_initial`."""
         self._distributions.set_current(values, inverted)
         self._refresh()
 
-    def set_kept(self, kept: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
-        """Take slots, names, values (m,) and (m,) bool of what is kept."""
-        self._distributions.set_kept(kept)
-        self.legend.set_kept([(slot, name) for slot, name, _ in self._distributions.kept])
+    def set_snapshots(self, snapshots: Sequence[tuple[int, str, np.ndarray, np.ndarray]]) -> None:
+        """Set the distributions of snapshots, given as (slot, name, values, inverted); see `set_initial`."""
+        self._distributions.set_snapshots(snapshots)
+        self.legend.set_snapshots([(slot, name) for slot, name, _ in self._distributions.snapshots])
         self._refresh()
 
     def series(self) -> list[Series]:
-        """Return the distributions drawn, in the order of the legend."""
+        """Return the distributions as they are drawn, in the order of the legend."""
         return self._distributions.series()
 
     @property
     def log(self) -> bool:
-        """Return True if heights are logarithmic."""
+        """True if heights are logarithmic."""
         return self.plot.log
 
     @property
     def cumulative(self) -> bool:
-        """Return True if heights are cumulative shares of elements."""
+        """True if heights are cumulative shares of hexes."""
         return self.plot.cumulative
 
     @property
     def axis(self) -> Axis:
-        """Return the range of values that the bins span."""
+        """Axis of values."""
         return self._distributions.axis
 
-    # The range
+    # Range
 
     def range(self) -> ValueRange | None:
-        """The range shown; None for all."""
+        """Return the range of the hexes shown; None for all hexes."""
         return self._range
 
     def set_range(self, range: ValueRange | None) -> None:
-        """Show a range of the histogram's metric, or all; without a signal.
+        """Show a range of the histogram's metric, or None for all hexes, without emitting a signal.
 
-        What was announced last and is now heard of again takes back nothing that was brushed since.
+        A range that was announced before the user brushed another one is ignored.
         """
-        if self._announcer.hear(range):
+        if self._announcer.receive(range):
             self._show_range(range if range is not None and range.metric == self.axis.metric else None)
 
-    def _on_brushed(self, places: tuple[float, float]) -> None:
+    def _on_brushed(self, span: tuple[float, float]) -> None:
         cells = Cells(self.axis, self.head.bins.value())
-        self._choose(cells.range(*cells.nearest(*places)))
+        self._choose(cells.range(*cells.nearest(*span)))
 
-    def _on_ends(self, low: float, high: float, inverted: bool) -> None:
-        least, most = METRICS[self.axis.metric].full_range
-        whole = low <= least and high >= most and inverted
-        self._choose(None if whole else ValueRange(self.axis.metric, low, high, inverted))
+    def _on_typed(self, low: float, high: float, inverted: bool) -> None:
+        minimum, maximum = METRICS[self.axis.metric].full_range
+        unbounded = low <= minimum and high >= maximum and inverted
+        self._choose(None if unbounded else ValueRange(self.axis.metric, low, high, inverted))
 
-    def _choose(self, chosen: ValueRange | None) -> None:
-        if chosen != self._range:
-            self._show_range(chosen)
-            self._announcer.tell(chosen)
+    def _choose(self, range: ValueRange | None) -> None:
+        if range != self._range:
+            self._show_range(range)
+            self._announcer.send(range)
 
-    def _show_range(self, chosen: ValueRange | None) -> None:
-        self._range = chosen
-        self.plot.show_range(chosen and self.axis.span(chosen), chosen is not None and chosen.inverted)
-        self.ends.show_range(chosen)
-        self._say()
+    def _show_range(self, range: ValueRange | None) -> None:
+        self._range = range
+        self.plot.show_range(range and self.axis.span(range), range is not None and range.inverted)
+        self.range_row.show_range(range)
+        self._show_summary()
 
     # Drawing
 
     def _use_axis(self) -> None:
         self.plot.set_axis(self.axis)
-        self.ends.set_axis(self.axis)
+        self.range_row.set_axis(self.axis)
         if self._range is not None and self._range.metric != self.axis.metric:
             self._range = None
-            self._announcer.tell_instead(None)
+            self._announcer.replace_pending(None)
         self._show_range(self._range)
 
     def _on_bins(self) -> None:
-        self._distributions.divide(self.head.bins.value())
+        self._distributions.set_bins(self.head.bins.value())
         self._refresh()
 
     def _on_scale(self) -> None:
@@ -232,22 +237,23 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def _refresh(self) -> None:
-        self.head.set_offered(self._distributions.current is not None, len(self._distributions.kept) == len(KEPT))
+        full = len(self._distributions.snapshots) == len(KEPT)
+        self.head.set_available(self._distributions.current is not None, full)
         self.plot.draw(self.series())
-        self._say()
+        self._show_summary()
 
-    def _say(self) -> None:
-        self.words.setText(sentence(self._distributions.current, self._range))
-        self.words.setToolTip(self.words.text())
+    def _show_summary(self) -> None:
+        self.summary.setText(range_summary(self._distributions.current, self._range))
+        self.summary.setToolTip(self.summary.text())
 
-    # Under the mouse
+    # Tooltip
 
     def describe_at(self, x: float) -> str:
-        """The counts of the bin at x of the plot, or the shares up to it, of all that is drawn; "" beside the bins."""
-        return describe(self.series(), x, self.cumulative)
+        """Describe the bin at a position of the plot; see `describe_bin`."""
+        return describe_bin(self.series(), x, self.cumulative)
 
-    def _hover(self, at: QPointF) -> None:
+    def _hover(self, position: QPointF) -> None:
         view, plot = self.plot.view, self.plot.plot
-        inside = view.sceneBoundingRect().contains(at)
-        text = self.describe_at(view.mapSceneToView(at).x()) if inside else ""
-        QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(at)), text, plot)
+        inside = view.sceneBoundingRect().contains(position)
+        text = self.describe_at(view.mapSceneToView(position).x()) if inside else ""
+        QToolTip.showText(plot.mapToGlobal(plot.mapFromScene(position)), text, plot)

@@ -1,4 +1,4 @@
-"""The row below the histogram: the ends of the range in numbers."""
+"""Row of controls below the histogram, for the ends of the range."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from hexmend_app.theme.style import INVERTED, set_help
 from hexmend_app.widgets.metric_texts import in_sentence
 
 _SPACING, _SWATCH = 4, 12
-_INVERTED = "Show inverted hexes too, whatever their value; they have a separate bar next to the bins."
+_INVERTED = "Show inverted hexes as well, of any value; they have a separate bar left of the bins."
 
 
 class RangeRow(QWidget):
-    """Chooses the lowest and the highest value that is shown, and whether inverted elements are.
+    """Controls for the lowest and highest value that is shown, and for inverted hexes.
 
     Signals
     -------
     chosen(low, high, inverted)
-        The user did, by numbers.
+        The user changed an end of the range, or showed or hid inverted hexes.
     cleared
-        The user wants all.
+        The user asked to show all hexes.
     """
 
     chosen = Signal(float, float, bool)
@@ -35,27 +35,27 @@ class RangeRow(QWidget):
         super().__init__(parent)
         self._axis = Axis("q")
         self._shown: ValueRange | None = None
-        # A brushed end has more digits than its box.
+        #: Ends of the range; a brushed end has more digits than its box.
         self._ends: dict[EndBox, float] = {}
         self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("All")
-        set_help(self.all, "Show all", "Show the hexes of every value again (or double-click on the plot).")
-        self.all.setFixedWidth(44)  # less than the style's 80 pixels, which the row has no room for
+        set_help(self.all, "Show all", "Show the hexes of all values (or double-click the plot).")
+        self.all.setFixedWidth(44)  # the style's 80 pixels are too wide for the row
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
         self.inverted.setCheckable(True)
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.inverted.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         self.inverted.setIconSize(QSize(_SWATCH, _SWATCH))
-        set_help(self.inverted, "Inverted hexes too", _INVERTED)
+        set_help(self.inverted, "Show inverted", _INVERTED)
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel("Show"), QLabel("to")
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(_SPACING)
-        self.parts = (self.low, to, self.high, self.inverted, self.all)
-        for part in (self._label, *self.parts):
-            row.addWidget(part)
+        self.controls = (self.low, to, self.high, self.inverted, self.all)
+        for widget in (self._label, *self.controls):
+            row.addWidget(widget)
         row.insertStretch(row.count() - 1)
         for box in (self.low, self.high):
             box.valueChanged.connect(lambda _, box=box: self._on_end(box))
@@ -63,43 +63,42 @@ class RangeRow(QWidget):
         self.show_range(None)
 
     def set_axis(self, axis: Axis) -> None:
-        """Take numbers of another metric."""
+        """Change the metric and the range of its values."""
         self._axis = axis
-        words = in_sentence(METRICS[axis.metric])
-        for box, which in ((self.low, "Lowest"), (self.high, "Highest")):
+        metric = in_sentence(METRICS[axis.metric])
+        for box, end in ((self.low, "Lowest"), (self.high, "Highest")):
             with QSignalBlocker(box):
                 box.set_axis(axis)
             box.updateGeometry()
-            name = f"{which} {words} shown"
-            set_help(box, name, f"{name}: hexes beyond it are hidden. Dragging over the plot sets the same range.")
+            name = f"{end} {metric} shown"
+            set_help(box, name, f"{name}; hexes beyond it are hidden. Dragging over the plot sets the same range.")
 
-    def show_range(self, chosen: ValueRange | None) -> None:
-        """Show a range, or that all are shown; without a signal."""
-        self.all.setEnabled(chosen is not None)
-        self.inverted.setChecked(chosen is None or chosen.inverted)
-        # Ends that were typed in the other order stay where the user typed them.
-        if chosen is None or chosen != self._shown:
-            least, most = METRICS[self._axis.metric].full_range
-            ends = (least, most) if chosen is None else (max(chosen.low, least), min(chosen.high, most))
+    def show_range(self, range: ValueRange | None) -> None:
+        """Show a range, or None for all hexes, without emitting a signal."""
+        self.all.setEnabled(range is not None)
+        self.inverted.setChecked(range is None or range.inverted)
+        # Ends that the user typed in reverse order stay as they are.
+        if range is None or range != self._shown:
+            minimum, maximum = METRICS[self._axis.metric].full_range
+            ends = (minimum, maximum) if range is None else (max(range.low, minimum), min(range.high, maximum))
             for box, end in zip((self.low, self.high), ends, strict=True):
                 box.set_end(end)
                 self._ends[box] = end
-        self._shown = chosen
+        self._shown = range
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Begin with a word where there is room."""
+        """Show the label if it fits."""
         super().resizeEvent(event)
         self._label.setVisible(self.width() >= self.minimumSizeHint().width() + self._label.sizeHint().width())
 
     def minimumSizeHint(self) -> QSize:
-        """Without a word before the numbers."""
-        least = (part.minimumWidth() or part.minimumSizeHint().width() for part in self.parts)
-        width = sum(one + _SPACING for one in least)
-        return QSize(width, super().minimumSizeHint().height())
+        """Return the size without the label."""
+        widths = (control.minimumWidth() or control.minimumSizeHint().width() for control in self.controls)
+        return QSize(sum(width + _SPACING for width in widths), super().minimumSizeHint().height())
 
     def _on_end(self, box: EndBox) -> None:
         self._ends[box] = box.end()
-        # Inverted elements stand before the lowest value: who sets one leaves them out.
+        # Inverted hexes are left of all values: a lower end excludes them.
         if self._shown is None and box is self.low:
             self.inverted.setChecked(False)
         self._choose()
@@ -111,7 +110,7 @@ class RangeRow(QWidget):
 
 
 def _swatch() -> QIcon:
-    """Filled while it is checked, else its border alone."""
+    """Return an icon that is filled while its button is checked, and else only a border."""
     icon = QIcon()
     for state in (QIcon.State.On, QIcon.State.Off):
         picture = QPixmap(_SWATCH, _SWATCH)

@@ -11,7 +11,7 @@ from hexmend_app.state.mesh.hex_groups import hexes_of_group
 
 
 class FeatureMovement(Feature):
-    """Shows which nodes have moved since a reference state."""
+    """Shows the displacement of the nodes since a reference state."""
 
     order = 57
 
@@ -19,7 +19,7 @@ class FeatureMovement(Feature):
         super().__init__(host)
         self._document, view = self.session.document, self.session.view
         self._view = view
-        self._metric = view.look.scale.metric  # that was shown before a movement
+        self._metric = view.look.scale.metric  # the last one that is not a displacement
         self._seen = ChangeTracker()
         panel = self.panel = MovementPanel()
         panel.traces_changed.connect(lambda traces: view.change(traces=traces))
@@ -27,7 +27,7 @@ class FeatureMovement(Feature):
         panel.newly_inverted_requested.connect(self._show_newly_inverted)
 
     def panels(self) -> Sequence[Panel]:
-        """Return the movement panel."""
+        """Return the panel of the displacement."""
         return (
             Panel(
                 id="movement",
@@ -35,25 +35,26 @@ class FeatureMovement(Feature):
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=30,
-                help="Displacement of the nodes and change of quality since a chosen state.",
+                help="Displacement of the nodes and change of quality since a reference state.",
                 scrolls=True,
             ),
         )
 
     def refresh(self) -> None:
-        """Update the counts of moved nodes."""
+        """Show the settings of the view, the counts of moved nodes and the number of arrows."""
         self.panel.setEnabled(self._document.is_open)
         look = self._view.look
-        movement = look.scale.metric in DISPLACEMENT_QUANTITIES
-        if not movement:
+        coloured = look.scale.metric in DISPLACEMENT_QUANTITIES
+        if not coloured:
             self._metric = look.scale.metric
         self.panel.set_traces(look.traces)
-        self.panel.set_colours(look.scale.metric if movement else "")
+        self.panel.set_colours(look.scale.metric if coloured else "")
         if not (self.panel.isVisible() and self._document.is_open):
             return
-        moved = self._movement
-        if self._seen.changed("counts", moved):
-            self.panel.set_counts(moved.counts, moved.before.name, self._document.now.summary.free_nodes)
+        displacement = self._displacement
+        if self._seen.changed("counts", displacement):
+            name = displacement.before.name
+            self.panel.set_counts(displacement.counts, name, self._document.now.summary.free_nodes)
         if self.canvas is not None:
             layer = self.canvas.viewport.extras.arrows
             self.panel.set_arrows(layer.drawn, layer.moved)
@@ -63,9 +64,9 @@ class FeatureMovement(Feature):
         self.refresh()
 
     @property
-    def _movement(self) -> Displacement:
+    def _displacement(self) -> Displacement:
         return self.session.comparison_bases.movement(self._view.look.traces.since)
 
     def _show_newly_inverted(self) -> None:
         now = self._document.now
-        self._view.isolate(hexes_of_group("newly inverted", now.mesh, now.figures, self._movement))
+        self._view.isolate(hexes_of_group("newly inverted", now.mesh, now.figures, self._displacement))

@@ -16,15 +16,11 @@ from hexmend_app.widgets.wording import counted, figure, short_number
 
 _SINCE = [
     (Since.OPENED.value, "Opening", "Compare with the mesh as it was opened."),
-    (Since.RUN.value, "Run", "Compare with the mesh as the run began of which an iteration is shown."),
-    (
-        Since.ITERATION.value,
-        "Iteration",
-        "Compare each iteration with the one before it, or with the nearest before it that is kept.",
-    ),
+    (Since.RUN.value, "Run", "Compare with the mesh at the start of the run."),
+    (Since.ITERATION.value, "Iteration", "Compare each iteration with the previous stored iteration."),
 ]
 _COLOURS = [
-    ("", "Quality", "Colour by the metric chosen in the Look panel."),
+    ("", "Quality", "Colour by the metric selected in the Look panel."),
     (
         "moved-most",
         DISPLACEMENT_QUANTITIES["moved-most"].label,
@@ -33,45 +29,46 @@ _COLOURS = [
     (
         "q-change",
         DISPLACEMENT_QUANTITIES["q-change"].label,
-        "Colour each hex by how much its quality has risen (teal) or fallen (brown); newly inverted and mended "
-        "hexes have colours of their own.",
+        "Colour each hex by the increase (teal) or decrease (brown) of its quality; newly inverted and repaired hexes "
+        "have separate colours.",
     ),
     (
         "surface-distance",
         DISPLACEMENT_QUANTITIES["surface-distance"].label,
-        "Colour each hex by how far its boundary nodes are from the surface as it was: where the boundary slides.",
+        "Colour each hex by the distance of its boundary nodes from the reference surface, for a sliding boundary.",
     ),
 ]
 _ARROWS = [
     (Arrows.NONE.value, "None", "No arrows."),
     (
         Arrows.SIGHT.value,
-        "In sight",
-        "An arrow from where a node was to where it is, for nodes of the faces in sight. Boundary nodes stay "
-        "unless they slide: cut or peel the mesh. Pale where something is before it.",
+        "Visible",
+        "Arrows at the nodes of visible faces, from the old to the new position; pale where they are hidden. Boundary "
+        "nodes move only if they slide: cut or peel the mesh to see others.",
     ),
-    (Arrows.ALL.value, "All shown", "Arrows of all hexes that are shown, through whatever is before them."),
+    (Arrows.ALL.value, "All shown", "Arrows at the nodes of all shown hexes, drawn through the faces before them."),
 ]
 _FIGURES = {
     "Nodes": "Number of nodes that have moved.",
-    "Distance": "How far these are from where they were, in mean edge lengths of the mesh as it was opened.",
-    "Hexes": "Hexes whose q(H) is higher or lower than it was.",
-    "Inverted": "Hexes that were not inverted and are, and that were and no longer are.",
+    "Distance": "Displacement of these nodes, in mean edge lengths of the mesh as it was opened.",
+    "Hexes": "Hexes with a higher or lower q(H) than in the reference state.",
+    "Inverted": "Hexes that became inverted since the reference state, and hexes that no longer are.",
 }
 _DRAWN = "Number and length of the arrows."
 _FACTOR = "Scale factor of the arrows relative to the displacement."
 
 
 class MovementPanel(QWidget):
-    """Selects how a displacement is shown, and shows its size.
+    """Sets how a displacement is displayed, and shows its size.
 
     Signals
     -------
     traces_changed(Traces)
+        The user changed the reference state or the arrows.
     colours_chosen(name)
-        Of `DISPLACEMENT_QUANTITIES`, or "" for a metric.
+        The user selected a name of `DISPLACEMENT_QUANTITIES` for the colours, or "" for a metric.
     newly_inverted_requested
-        The user wants to see them.
+        The user asked to isolate the newly inverted hexes.
     """
 
     traces_changed = Signal(object)
@@ -94,8 +91,8 @@ class MovementPanel(QWidget):
         set_help(self.factor, "Length of arrows", _FACTOR)
         self.show_newly = QPushButton("Show new")
         self._drawn = note()
-        set_help(self._drawn, "Arrows that are drawn", _DRAWN)
-        self._figures = {name: _figure() for name in _FIGURES}
+        set_help(self._drawn, "Number of arrows", _DRAWN)
+        self._figures = {name: _figure_label() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
         self.arrows.chosen.connect(lambda key: self._change(arrows=Arrows(key)))
@@ -117,29 +114,29 @@ class MovementPanel(QWidget):
         lengths.addWidget(self.factor)
         lengths.addWidget(self._drawn, 1)
         rows = (("Since", self.since), ("Colours", self.colours), ("Arrows", self.arrows))
-        for row, (text, part) in enumerate(rows):
+        for row, (text, buttons) in enumerate(rows):
             label = QLabel(text)
             grid.addWidget(label, row, 0)
-            label.setBuddy(part)
-            grid.addWidget(part, row, 1)
+            label.setBuddy(buttons)
+            grid.addWidget(buttons, row, 1)
         grid.addLayout(lengths, 3, 1)
-        last = QHBoxLayout()
-        last.setSpacing(8)
-        last.addWidget(self._figures["Inverted"], 1)
-        last.addWidget(self.show_newly)
+        inverted = QHBoxLayout()
+        inverted.setSpacing(8)
+        inverted.addWidget(self._figures["Inverted"], 1)
+        inverted.addWidget(self.show_newly)
         for row, (text, label) in enumerate(self._figures.items(), start=4):
             grid.addWidget(QLabel(text), row, 0)
             set_help(label, text, _FIGURES[text])
             if text == "Inverted":
-                grid.addLayout(last, row, 1)
+                grid.addLayout(inverted, row, 1)
             else:
                 grid.addWidget(label, row, 1)
         grid.setRowStretch(8, 1)
 
-    # What is shown
+    # Display
 
     def set_traces(self, traces: Traces) -> None:
-        """Show a choice, without a signal."""
+        """Show the reference state and the arrows, without emitting a signal."""
         self._traces = traces
         self.since.set_value(traces.since.value)
         self.arrows.set_value(traces.arrows.value)
@@ -149,21 +146,30 @@ class MovementPanel(QWidget):
                 self.factor.setValue(traces.factor)
 
     def set_colours(self, name: str) -> None:
-        """Show what the colours show, by a name of `DISPLACEMENT_QUANTITIES` or ""; without a signal."""
+        """Show the quantity of the colours, a name of `DISPLACEMENT_QUANTITIES` or "", without emitting a signal."""
         self.colours.set_value("moved-most" if name == "moved-mean" else name)
 
     def set_arrows(self, drawn: int, moved: int) -> None:
-        """Show how many arrows are drawn of how many moved nodes."""
+        """Show the number of arrows that are drawn, of `moved` nodes."""
         self._drawn.setText(arrows_in_words(self._traces, drawn, moved))
 
     def set_counts(self, counts: DisplacementCounts | None, name: str, free: int) -> None:
-        """Show the size of the displacement since `name`; `free` is the number of free nodes, None means no mesh."""
-        self.show_newly.setEnabled(counts is not None and counts.newly_inverted > 0)
-        reason = (
-            "None is." if counts is None or not counts.newly_inverted else "Isolate them; Esc shows the rest again."
-        )
-        set_help(self.show_newly, "Show newly inverted", f"Hexes that were not inverted then and are now. {reason}")
-        texts = ("No mesh is open.", "", "", "") if counts is None else _texts(counts, name, free)
+        """Show the size of the displacement.
+
+        Parameters
+        ----------
+        counts : DisplacementCounts or None
+            None if no mesh is open.
+        name : str
+            Name of the reference state.
+        free : int
+            Number of free nodes.
+        """
+        enabled = counts is not None and counts.newly_inverted > 0
+        self.show_newly.setEnabled(enabled)
+        help = "Show only the hexes that became inverted since the reference state; Esc shows all hexes again."
+        set_help(self.show_newly, "Show newly inverted", help if enabled else "No hex is newly inverted.")
+        texts = ("No mesh is open.", "", "", "") if counts is None else _count_texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)
 
@@ -178,32 +184,31 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     """Describe the number and length of the arrows.
 
     >>> arrows_in_words(Traces(arrows=Arrows.ALL, factor=10), 5000, 28899)
-    'The 5,000 longest of 28,899 arrows, 10 times true length.'
+    'The 5,000 longest of 28,899 arrows, 10 × true length.'
     >>> arrows_in_words(Traces(arrows=Arrows.ALL), 1, 1)
-    '1 arrow, of true length.'
+    '1 arrow, true length.'
     """
     if traces.arrows is Arrows.NONE:
         return f"At most the {MOST:,} longest are drawn."
     if not drawn:
-        where = "Of the nodes in sight none" if traces.arrows is Arrows.SIGHT else "No node of what is shown"
-        return f"{where} has moved."
-    these = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")
-    times = "of" if traces.factor == 1 else f"{short_number(traces.factor)} times"
-    return f"{these}, {times} true length."
+        return f"No {'visible' if traces.arrows is Arrows.SIGHT else 'shown'} node has moved."
+    number = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")
+    factor = "" if traces.factor == 1 else f"{short_number(traces.factor)} × "
+    return f"{number}, {factor}true length."
 
 
-def _texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
-    path = f"{figure(counts.mean)} on average, {figure(counts.largest)} at most" if counts.moved else "–"
-    slid = f", {counts.slid:,} of the boundary slid" if counts.slid else ""
+def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
+    distance = f"mean {figure(counts.mean)}, max {figure(counts.largest)}" if counts.moved else "–"
+    slid = f"; {counts.slid:,} boundary nodes slid" if counts.slid else ""
     return (
-        f"{counts.moved - counts.slid:,} of {free:,} free moved since {name}{slid}",
-        path,
+        f"{counts.moved - counts.slid:,} of {free:,} free nodes moved since {name}{slid}",
+        distance,
         f"{counts.better:,} better, {counts.worse:,} worse",
-        f"{counts.newly_inverted:,} newly, {counts.mended:,} mended",
+        f"{counts.newly_inverted:,} newly inverted, {counts.mended:,} repaired",
     )
 
 
-def _figure() -> QLabel:
+def _figure_label() -> QLabel:
     label = note()
     label.setFont(tabular(label.font()))
     label.setWordWrap(False)

@@ -1,4 +1,4 @@
-"""The mesh's quality in figures, now beside what it was when it was opened."""
+"""Quality statistics of the mesh, at the start and now."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend_app.state.mesh.hex_groups import hexes_of_group
 
 
 class FeatureQuality(Feature):
-    """Shows the summary of the mesh as it is, beside that of the mesh as it was opened."""
+    """Shows the quality statistics of the mesh as it was opened and as it is now."""
 
     order = 41
 
@@ -21,7 +21,7 @@ class FeatureQuality(Feature):
         self.panel.isolate_requested.connect(self._isolate)
 
     def panels(self) -> Sequence[Panel]:
-        """The table."""
+        """Return the table of statistics."""
         return (
             Panel(
                 id="quality",
@@ -29,12 +29,12 @@ class FeatureQuality(Feature):
                 widget=self.panel,
                 place=PanelPlace.FACTS,
                 order=20,
-                help="The mesh's quality in figures, now and as it was opened.",
+                help="Quality statistics of the mesh, now and as it was opened.",
             ),
         )
 
     def refresh(self) -> None:
-        """Show the figures as they are now."""
+        """Update the statistics."""
         document = self.session.document
         if document.is_open and self._seen.changed("figures", document.start, document.now):
             self.panel.set_summaries(document.start.summary, document.now.summary)

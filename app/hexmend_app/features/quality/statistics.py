@@ -1,4 +1,4 @@
-"""The table of a mesh's figures, at the start and now."""
+"""Table of quality statistics, at the start and now."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ from hexmend_app.theme.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, ico
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
-#: What has a row: all but the quality of the best element, which says nothing.
-ROWS = tuple(one for one in SUMMARY_QUANTITIES.values() if one.key != "q_max")
+#: Quantities with a row; the quality of the best hex tells nothing about a mesh.
+ROWS = tuple(quantity for quantity in SUMMARY_QUANTITIES.values() if quantity.key != "q_max")
 _COLUMNS = ("", "start", "now", "change")
 _START, _NOW, _CHANGE = 1, 2, 3
 
-#: Pixels that a cell keeps free beside its text.
-_AROUND = 10
+#: Horizontal padding of a cell, in pixels.
+_PADDING = 10
 
 
-def _name(row: Quantity) -> str:
+def _title(row: Quantity) -> str:
     return f"– {row.label}" if row.part_of else row.title
 
 
-def _cell(value: float | None) -> str:
-    """A figure in seven letters, which is what a column has room for.
+def _cell_text(value: float | None) -> str:
+    """Write a figure in at most seven characters, the width of a column; longer only for integers.
 
-    >>> _cell(1559.3478), _cell(32735), _cell(0.4035)
+    >>> _cell_text(1559.3478), _cell_text(32735), _cell_text(0.4035)
     ('1559.35', '32,735', '0.4035')
     """
     text = figure(value)
@@ -47,7 +47,7 @@ def _cell(value: float | None) -> str:
 
 
 def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, int]:
-    """Text of a change and whether it is for the better (1), for the worse (-1) or neither (0).
+    """Return the text of a change, and 1 if it is an improvement, -1 if it is a regression, else 0.
 
     >>> change(ROWS[3], 36, 0)
     ('▼ 36', 1)
@@ -56,26 +56,26 @@ def change(row: Quantity, start: float | None, now: float | None) -> tuple[str, 
         if start is now:
             return "", 0
         return ("finite", 1) if start is None else ("infinite", -1)
-    moved = now - start
-    if moved == 0 or not math.isfinite(moved):
+    difference = now - start
+    if difference == 0 or not math.isfinite(difference):
         return "=", 0
-    size = figure(abs(moved))
-    if isinstance(moved, float) and abs(moved) < 0.5e-4:
+    size = figure(abs(difference))
+    if isinstance(difference, float) and abs(difference) < 0.5e-4:
         size = "<0.0001"
-    return f"{'▲' if moved > 0 else '▼'} {size}", row.better * (1 if moved > 0 else -1)
+    return f"{'▲' if difference > 0 else '▼'} {size}", row.better * (1 if difference > 0 else -1)
 
 
-#: Rows whose number now is a link to the elements that it counts, and what those are called.
+#: Rows whose present number is a link to the hexes that it counts, and the names of these groups of hexes.
 LINKS = {"inverted": "inverted", "locked_inverted": "locked"}
 
 
 class StatisticsTable(QWidget):
-    """Figures at the start and now, and how they changed; Ctrl+C copies them for a spreadsheet.
+    """Table of quality figures at the start and now, and their change; Ctrl+C copies it for a spreadsheet.
 
     Signals
     -------
     isolate_requested(str)
-        The user clicked on the number of "inverted" or "locked" elements, or pressed Enter in its row.
+        The user clicked the number of "inverted" or "locked" hexes, or pressed Enter in its row.
     """
 
     isolate_requested = Signal(str)
@@ -83,7 +83,7 @@ class StatisticsTable(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._summaries: tuple[Any, Any] = (None, None)
-        self._measured = ("", 0)  # for which font, and what
+        self._measured_width = ("", 0)  # key of the font, and width of the longest title in it
         self._table = table = LinkTable(len(ROWS), len(_COLUMNS))
         table.link_activated.connect(self.isolate_requested)
         table.setHorizontalHeaderLabels(_COLUMNS)
@@ -93,7 +93,7 @@ class StatisticsTable(QWidget):
         table.setFrameShape(QFrame.Shape.NoFrame)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys walk in it
+        table.setTabKeyNavigation(False)  # Tab leaves the table; arrow keys move in it
         table.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         table.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         table.customContextMenuRequested.connect(self._open_menu)
@@ -113,7 +113,7 @@ class StatisticsTable(QWidget):
         layout.addStretch()
         height = table.horizontalHeader().sizeHint().height() + table.verticalHeader().length() + 2
         table.setFixedHeight(height)
-        table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may end in …
+        table.setMinimumWidth(self._title_width() + self._figures_width() - 32)  # the longest titles may be elided
 
     def _paint(self) -> None:
         palette = QPalette()
@@ -129,13 +129,13 @@ class StatisticsTable(QWidget):
 
     def _fill(self) -> None:
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        for at, row in enumerate(ROWS):
+        for number, row in enumerate(ROWS):
             for column in range(len(_COLUMNS)):
-                item = QTableWidgetItem(_name(row) if column == 0 else "")
+                item = QTableWidgetItem(_title(row) if column == 0 else "")
                 item.setToolTip(_help(row))
                 if column:
                     item.setTextAlignment(right)
-                self._table.setItem(at, column, item)
+                self._table.setItem(number, column, item)
         for column in range(len(_COLUMNS)):
             head = self._table.horizontalHeaderItem(column)
             head.setTextAlignment(right if column else Qt.AlignmentFlag.AlignLeft)
@@ -146,86 +146,81 @@ class StatisticsTable(QWidget):
         header.setSectionsClickable(False)
         header.setMinimumSectionSize(20)
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
-        # Widths that hold still while figures change.
+        # Fixed widths: the columns stay in place when figures change.
         for column in (_START, _NOW, _CHANGE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
             widest = ("infinite", "▼ 0.0000", _COLUMNS[column]) if column == _CHANGE else ("000,000",)
-            letters = max(map(self._table.fontMetrics().horizontalAdvance, widest))
-            header.resizeSection(column, letters + _AROUND)
+            width = max(map(self._table.fontMetrics().horizontalAdvance, widest))
+            header.resizeSection(column, width + _PADDING)
 
     def set_summaries(self, start: Any, now: Any) -> None:
-        """Take two summaries, as `hexmend.quality.summarise` gives them; None for both clears the table."""
+        """Show two summaries of `hexmend.quality.summarise`; None for both clears the table."""
         self._summaries = (start, now)
-        fallen = (
-            {REGRESSION_KEYS[name] for name in regressions(start, now)}
-            if start is not None and now is not None
-            else set()
-        )
-        for at, row in enumerate(ROWS):
-            was, is_ = (None if summary is None else getattr(summary, row.key) for summary in (start, now))
-            shown = start is not None and now is not None
-            text, sense = change(row, was, is_) if shown else ("", 0)
-            self._table.item(at, _START).setText(_cell(was) if start is not None else "")
-            self._table.item(at, _NOW).setText(_cell(is_) if now is not None else "")
-            item = self._table.item(at, _CHANGE)
+        both = start is not None and now is not None
+        worse = {REGRESSION_KEYS[name] for name in regressions(start, now)} if both else set()
+        for number, row in enumerate(ROWS):
+            before, after = self._values(row)
+            text, sense = change(row, before, after) if both else ("", 0)
+            self._table.item(number, _START).setText(_cell_text(before) if start is not None else "")
+            self._table.item(number, _NOW).setText(_cell_text(after) if now is not None else "")
+            item = self._table.item(number, _CHANGE)
             item.setText(text)
             font = item.font()
-            font.setBold(row.key in fallen)
+            font.setBold(row.key in worse)
             item.setFont(font)
             item.setForeground(QBrush(QColor(str({1: BETTER, -1: WORSE, 0: MUTED}[sense]))))
             word = {1: "better", -1: "worse", 0: ""}[sense]
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{text} {word}".strip())
         self._mark_links(now)
 
+    def _values(self, row: Quantity) -> list[Any]:
+        return [None if summary is None else getattr(summary, row.key) for summary in self._summaries]
+
     def _mark_links(self, now: Any) -> None:
-        """Let the numbers of inverted elements look like what they are: bad news, and links."""
-        for at, row in enumerate(ROWS):
+        """Mark positive numbers of inverted and locked hexes as links, in the colour of bad figures."""
+        for number, row in enumerate(ROWS):
             if row.key in LINKS:
-                there = now is not None and getattr(now, row.key) > 0
-                item = self._table.item(at, _NOW)
+                linked = now is not None and getattr(now, row.key) > 0
+                item = self._table.item(number, _NOW)
                 font = item.font()
-                font.setBold(there and row.key == "inverted")
-                font.setUnderline(there)
+                font.setBold(linked and row.key == "inverted")
+                font.setUnderline(linked)
                 item.setFont(font)
-                item.setForeground(QBrush(QColor(str(WORSE if there else TEXT))))
+                item.setForeground(QBrush(QColor(str(WORSE if linked else TEXT))))
                 kind = LINKS[row.key]
-                item.setToolTip(
-                    f"<qt>Show only the {kind} hexes: click, or press Enter in this row. Esc brings back the rest.</qt>"
-                    if there
-                    else _help(row)
-                )
-                self._table.set_link(at, _NOW, kind if there else None)
+                help = f"<qt>Show only the {kind} hexes: click, or press Enter in this row. Esc shows all hexes.</qt>"
+                item.setToolTip(help if linked else _help(row))
+                self._table.set_link(number, _NOW, kind if linked else None)
 
     def text(self) -> str:
-        """The table as tab-separated text with full precision and a line of titles; an infinite figure is empty."""
+        """Return the table as tab-separated text with a title line, in full precision; infinite figures are empty."""
         lines = ["figure\tstart\tnow"]
         for row in ROWS:
-            cells = (None if summary is None else getattr(summary, row.key) for summary in self._summaries)
-            lines.append("\t".join([row.title, *("" if c is None else str(c) for c in cells)]))
+            lines.append("\t".join([row.title, *("" if value is None else str(value) for value in self._values(row))]))
         return "\n".join(lines) + "\n"
 
     def copy(self) -> None:
         """Copy the table to the clipboard."""
         QGuiApplication.clipboard().setText(self.text())
 
-    def _open_menu(self, at: QPoint) -> None:
+    def _open_menu(self, position: QPoint) -> None:
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         menu.addAction(self._copy)
-        menu.popup(self._table.viewport().mapToGlobal(at))
+        menu.popup(self._table.viewport().mapToGlobal(position))
 
     def sizeHint(self) -> QSize:
-        """All rows and the longest title, without scrolling."""
+        """Return the size at which all rows and the longest title are visible."""
         margins = self.layout().contentsMargins()
         size = QSize(self._title_width() + self._figures_width(), self._table.height())
         return size.grownBy(margins)
 
     def _title_width(self) -> int:
-        """Of the longest title; Qt asks for it many times a frame."""
+        """Return the width of the longest title in pixels; measured once, as Qt asks for it many times a frame."""
         font = self._table.font().key()
-        if font != self._measured[0]:
-            self._measured = font, max(map(self._table.fontMetrics().horizontalAdvance, map(_name, ROWS))) + 9
-        return self._measured[1]
+        if font != self._measured_width[0]:
+            self._measured_width = font, max(map(self._table.fontMetrics().horizontalAdvance, map(_title, ROWS))) + 9
+        return self._measured_width[1]
 
     def _figures_width(self) -> int:
         return sum(self._table.columnWidth(column) for column in (_START, _NOW, _CHANGE))

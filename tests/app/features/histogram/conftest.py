@@ -1,4 +1,4 @@
-"""A histogram of 2,000 elements."""
+"""Histogram of 2,000 hexes."""
 
 from itertools import pairwise
 
@@ -9,13 +9,13 @@ from PySide6.QtTest import QTest
 
 from hexmend_app.features.histogram.panel import QualityHistogram
 from tests.app.driving import LEFT, move, turn
-from tests.app.features.histogram.brushing import nothing_waits, place
+from tests.app.features.histogram.mouse import nothing_pending, point_at
 from tests.patience import PATIENCE
 
 
 @pytest.fixture
 def data():
-    """Quality and inversion of 2,000 elements."""
+    """Return q (2000,) and inversion (2000,) bool of 2,000 hexes."""
     q = np.random.default_rng(3).beta(6, 2, 2000)
     return q, q < 0.25
 
@@ -30,32 +30,33 @@ def histogram(shown, data):
 
 
 @pytest.fixture
-def heard(histogram):
+def announced(histogram):
+    """Return a list of the ranges that the histogram announces."""
     ranges = []
     histogram.range_changed.connect(ranges.append)
     return ranges
 
 
 @pytest.fixture
-def drag(histogram, heard, qtbot):
-    """Presses at the first q, moves through the others in small moves, and releases at the last."""
+def drag(histogram, announced, qtbot):
+    """Return a function that drags the mouse from the first q through the others to the last."""
 
-    def dragged(*stations):
+    def drag_through(*positions):
         viewport = histogram.plot.plot.viewport()
-        points = [place(histogram, x) for x in stations]
+        points = [point_at(histogram, x) for x in positions]
         QTest.mousePress(viewport, LEFT, pos=points[0])
         for start, end in pairwise(points):
             for share in np.linspace(0, 1, 12)[1:]:
                 move(viewport, QPointF(start) + QPointF(end - start) * float(share), LEFT)
         QTest.mouseRelease(viewport, LEFT, pos=points[-1])
-        qtbot.waitUntil(lambda: heard[-1:] == [histogram.range()] and nothing_waits(histogram), timeout=PATIENCE)
+        qtbot.waitUntil(lambda: announced[-1:] == [histogram.range()] and nothing_pending(histogram), timeout=PATIENCE)
 
-    return dragged
+    return drag_through
 
 
 @pytest.fixture
 def condition(histogram):
-    """The histogram with another metric in it: (values, inverted) now."""
+    """Change the metric of the histogram to the condition number, and return values and inversion of now."""
     rng = np.random.default_rng(5)
     values, inverted = 1 + rng.gamma(2, 1, 2000), rng.random(2000) < 0.1
     values[inverted] = np.inf

@@ -1,4 +1,4 @@
-"""The newest of many values is told; one that is heard again takes back nothing that is newer."""
+"""The latest of many values is announced; an announced value that returns does not replace a newer one."""
 
 import pytest
 
@@ -12,41 +12,41 @@ def announcer(qtbot):
 
 
 @pytest.fixture
-def heard(announcer):
+def announced(announcer):
     values = []
     announcer.announced.connect(values.append)
     return values
 
 
-def test_of_many_values_the_newest_is_told(announcer, heard, qtbot):
+def test_the_latest_of_many_values_is_announced(announcer, announced, qtbot):
     for value in range(20):
-        announcer.tell(value)
-    qtbot.waitUntil(lambda: heard[-1] == 19, timeout=PATIENCE)
-    assert heard == [0, 19]
+        announcer.send(value)
+    qtbot.waitUntil(lambda: announced[-1] == 19, timeout=PATIENCE)
+    assert announced == [0, 19]
 
 
-def test_what_was_told_last_takes_back_nothing_newer(announcer, heard, qtbot):
-    announcer.tell(1)
-    announcer.tell(2)
-    assert heard == [1]
-    assert not announcer.hear(1)
-    qtbot.waitUntil(lambda: heard == [1, 2], timeout=PATIENCE)
-    assert announcer.hear(2)
+def test_an_announced_value_that_returns_does_not_replace_a_newer_one(announcer, announced, qtbot):
+    announcer.send(1)
+    announcer.send(2)
+    assert announced == [1]
+    assert not announcer.receive(1)
+    qtbot.waitUntil(lambda: announced == [1, 2], timeout=PATIENCE)
+    assert announcer.receive(2)
 
 
-def test_another_value_is_told_instead_of_one_that_waits(announcer, heard, qtbot):
-    announcer.tell_instead(0)  # none does
-    announcer.tell(1)
-    announcer.tell(2)
-    announcer.tell_instead(None)
-    qtbot.waitUntil(lambda: len(heard) == 2, timeout=PATIENCE)
-    assert heard == [1, None]
+def test_a_pending_value_is_replaced(announcer, announced, qtbot):
+    announcer.replace_pending(0)  # nothing is pending
+    announcer.send(1)
+    announcer.send(2)
+    announcer.replace_pending(None)
+    qtbot.waitUntil(lambda: len(announced) == 2, timeout=PATIENCE)
+    assert announced == [1, None]
 
 
-def test_what_others_set_takes_back_what_waits(announcer, heard, qtbot):
-    announcer.tell(1)
-    announcer.tell(2)
-    assert announcer.hear(None)
-    announcer.tell(3)
-    qtbot.waitUntil(lambda: heard[-1] == 3, timeout=PATIENCE)
-    assert 2 not in heard
+def test_a_received_value_drops_the_pending_one(announcer, announced, qtbot):
+    announcer.send(1)
+    announcer.send(2)
+    assert announcer.receive(None)
+    announcer.send(3)
+    qtbot.waitUntil(lambda: announced[-1] == 3, timeout=PATIENCE)
+    assert 2 not in announced

@@ -1,4 +1,4 @@
-"""The axis of the histogram, for every metric."""
+"""Axis of the histogram, for every metric."""
 
 import math
 
@@ -14,51 +14,51 @@ from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.scene.colour.value_range import within
 from tests.core.grids import grid, scrambled
 
-MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "tangled": scrambled(grid(4), 0.9), "flat": None}
+MESHES = {"cubes": grid(3), "bent": scrambled(grid(4), 0.2), "inverted": scrambled(grid(4), 0.9), "flat": None}
 MESHES["flat"] = grid(2).with_points(grid(2).points * 0)
 
 
 @pytest.mark.parametrize("mesh", MESHES)
 @pytest.mark.parametrize("name", METRICS)
-def test_every_metric_has_an_axis_on_which_every_element_is_counted_once(name, mesh):
+def test_every_metric_has_an_axis_on_which_every_hex_is_counted_once(name, mesh):
     mesh = MESHES[mesh]
     figures = measure(mesh.points, mesh.hexes)
     values = METRICS[name].of(mesh.points, mesh.hexes, figures)
     axis = Axis.fitted(name, values, figures.inverted)
     assert math.isfinite(axis.low)
     assert axis.low < axis.high < math.inf
-    part = distribute(values, figures.inverted, axis, 40)
-    assert part.inverted == figures.n_inverted
-    assert part.counts.sum() + part.inverted + part.below + part.above == mesh.n_hexes
-    assert part.cumulated().counts[-1] + part.above == mesh.n_hexes
-    marks = [place for place, _ in axis.ticks()]
-    assert axis.extent[0] < min(marks)
-    assert max(marks) < axis.extent[1]
-    assert len({text for _, text in axis.ticks()}) == len(marks) >= 4
+    counted = distribute(values, figures.inverted, axis, 40)
+    assert counted.inverted == figures.n_inverted
+    assert counted.counts.sum() + counted.inverted + counted.below + counted.above == mesh.n_hexes
+    assert counted.cumulated().counts[-1] + counted.above == mesh.n_hexes
+    positions = [position for position, _ in axis.ticks()]
+    assert axis.extent[0] < min(positions)
+    assert max(positions) < axis.extent[1]
+    assert len({text for _, text in axis.ticks()}) == len(positions) >= 4
 
 
 @pytest.mark.parametrize("name", [name for name, metric in METRICS.items() if math.isinf(metric.full_range[1])])
-def test_an_open_axis_spans_most_sound_elements_and_no_outlier(name):
+def test_an_open_axis_spans_most_valid_hexes_and_no_outlier(name):
     rng = np.random.default_rng(2)
     values = 1 + rng.gamma(2, 1, 5000) * 1e-3
     values[:10] = 1e9
     axis = Axis.fitted(name, values, np.zeros(5000, bool))
-    part = distribute(values, np.zeros(5000, bool), axis)
+    counted = distribute(values, np.zeros(5000, bool), axis)
     assert axis.high < 1.02
-    assert 10 <= part.above <= 100
-    assert part.below <= 50
-    assert (part.counts > 0).sum() > 15
+    assert 10 <= counted.above <= 100
+    assert counted.below <= 50
+    assert (counted.counts > 0).sum() > 15
     assert dict(axis.ticks())[sum(axis.above) / 2].startswith("≥ ")
 
 
-def test_values_below_all_that_sound_elements_should_have_make_an_axis():
-    values = np.linspace(-2, -1, 20)  # a Jacobian at the centre, of elements whose corners are sound
-    part = distribute(values, np.zeros(20, bool), Axis.fitted("jacobian", values, np.zeros(20, bool)))
-    assert part.axis.low == 0 < part.axis.high
-    assert part.counts[0] == 20
+def test_negative_values_of_valid_hexes_give_an_axis():
+    values = np.linspace(-2, -1, 20)  # Jacobians at the centre, of hexes whose corners are valid
+    counted = distribute(values, np.zeros(20, bool), Axis.fitted("jacobian", values, np.zeros(20, bool)))
+    assert counted.axis.low == 0 < counted.axis.high
+    assert counted.counts[0] == 20
 
 
-def test_inverted_elements_do_not_stretch_the_axis():
+def test_inverted_hexes_do_not_stretch_the_axis():
     values = np.concatenate([np.linspace(1, 2, 100), np.full(100, 500.0)])
     inverted = np.arange(200) >= 100
     assert Axis.fitted("edge-ratio", values, inverted).high < 3
@@ -66,25 +66,25 @@ def test_inverted_elements_do_not_stretch_the_axis():
 
 
 @given(st.floats(1e-12, 1e9), st.floats(1.1, 100), st.floats(0, 1))
-def test_a_value_has_its_place_and_a_text_to_a_hundredth_of_the_axis(size, ratio, place):
+def test_a_value_has_a_position_and_a_text_to_a_hundredth_of_the_axis(size, ratio, position):
     values = np.linspace(size, ratio * size, 200)
     axis = Axis.fitted("volume", values, np.zeros(200, bool))
-    value = axis.low + place * (axis.high - axis.low)
-    assert axis.place(value) == pytest.approx(place, abs=1e-6)
-    assert float(axis.text(value)) == pytest.approx(value, rel=1e-5, abs=axis.grain)
-    assert float(axis.end(value)) == pytest.approx(value, rel=1e-5, abs=axis.grain)
+    value = axis.low + position * (axis.high - axis.low)
+    assert axis.position(value) == pytest.approx(position, abs=1e-6)
+    assert float(axis.text(value)) == pytest.approx(value, rel=1e-5, abs=axis.resolution)
+    assert float(axis.end_text(value)) == pytest.approx(value, rel=1e-5, abs=axis.resolution)
 
 
-def test_what_lies_beyond_the_ends_has_the_places_of_its_bars():
+def test_values_beyond_the_ends_have_the_positions_of_their_bars():
     axis = Axis("condition", 1, 21, 4, open_high=True)
-    assert axis.place(math.inf) == axis.above[1] == axis.reach[1]
-    assert axis.place(-math.inf) == 0 > axis.reach[0]
+    assert axis.position(math.inf) == axis.above[1] == axis.brush_limits[1]
+    assert axis.position(-math.inf) == 0 > axis.brush_limits[0]
     volume = Axis("volume", 1.0, 2.0, open_low=True)
-    assert volume.place(0.0) == volume.below[0] > volume.reach[0] == volume.inverted[0]
-    assert volume.place(3.0) == volume.reach[1] == 1
+    assert volume.position(0.0) == volume.below[0] > volume.brush_limits[0] == volume.inverted[0]
+    assert volume.position(3.0) == volume.brush_limits[1] == 1
 
 
-def test_a_range_to_the_end_of_the_metric_lets_rounding_pass():
+def test_a_range_to_the_end_of_the_metric_tolerates_rounding():
     values = np.array([1 + 2e-16, np.nextafter(1, 2), 0.5])
     none = np.zeros(3, bool)
     assert within(values, none, ValueRange("q", 0.9, 1.0)).tolist() == [True, True, False]

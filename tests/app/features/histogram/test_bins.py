@@ -1,4 +1,4 @@
-"""Counting by bins."""
+"""Counts of hexes in bins."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from hexmend_app.features.histogram.axis import Axis
-from hexmend_app.features.histogram.bins import BINS, distribute, round_up
+from hexmend_app.features.histogram.bins import DEFAULT_BINS, distribute, round_up
 from hexmend_app.picture.appearance import ValueRange
 
 Q = Axis("q")
@@ -15,26 +15,26 @@ _QUALITIES = arrays(np.float64, st.integers(0, 200), elements=st.floats(0, 1))
 
 
 @given(_QUALITIES, st.integers(0, 2**32 - 1))
-def test_every_element_is_counted_once(q, seed):
+def test_every_hex_is_counted_once(q, seed):
     inverted = np.random.default_rng(seed).random(len(q)) < 0.3
-    part = distribute(q, inverted, Q)
-    assert part.counts.sum() + part.inverted == part.total == len(q)
-    assert part.inverted == inverted.sum()
+    counted = distribute(q, inverted, Q)
+    assert counted.counts.sum() + counted.inverted == counted.total == len(q)
+    assert counted.inverted == inverted.sum()
 
 
-@pytest.mark.parametrize("bins", [10, BINS, 200])
+@pytest.mark.parametrize("bins", [10, DEFAULT_BINS, 200])
 def test_bins_agree_with_numpys_histogram(bins):
     q = np.random.default_rng(0).beta(5, 2, 5000)
-    part = distribute(q, np.zeros(5000, bool), Q, bins)
-    assert part.counts.tolist() == np.histogram(q, bins, (0, 1))[0].tolist()
+    counted = distribute(q, np.zeros(5000, bool), Q, bins)
+    assert counted.counts.tolist() == np.histogram(q, bins, (0, 1))[0].tolist()
 
 
-def test_a_cube_whose_quality_exceeds_one_by_rounding_is_counted_and_within():
-    part = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
-    assert part.counts[-1] == 1
-    assert part.within(ValueRange("q", 0.9, 1.0)) == 1
-    assert part.within(ValueRange("q", 0.9, 1.0, inverted=True)) == 2
-    assert part.within(ValueRange("q", 0.9, 0.99)) == 0
+def test_a_quality_that_exceeds_one_by_rounding_is_counted_and_within_the_range():
+    counted = distribute(np.array([1 + 2e-16, np.nextafter(1, 2)]), np.array([False, True]), Q)
+    assert counted.counts[-1] == 1
+    assert counted.within(ValueRange("q", 0.9, 1.0)) == 1
+    assert counted.within(ValueRange("q", 0.9, 1.0, inverted=True)) == 2
+    assert counted.within(ValueRange("q", 0.9, 0.99)) == 0
 
 
 def test_lengths_must_agree():
@@ -43,14 +43,14 @@ def test_lengths_must_agree():
 
 
 @given(st.floats(1, 1e9))
-def test_a_rounded_top_is_not_less_and_less_than_twice(value):
+def test_round_up_is_between_the_value_and_twice_the_value(value):
     assert value * (1 - 1e-9) <= round_up(value) <= 2 * value
 
 
-def test_what_lies_beyond_open_ends_is_counted_there():
+def test_values_beyond_open_ends_are_counted_in_separate_bars():
     axis = Axis("volume", 1.0, 2.0, 0.2, open_low=True, open_high=True)
     values = np.array([-np.inf, 0.999999, 1.0, 1.999999, 2.0, np.inf, np.nan])
-    part = distribute(values, np.arange(7) == 6, axis, 10)
-    assert (part.below, part.counts.tolist(), part.above, part.inverted) == (2, [1, *[0] * 8, 1], 2, 1)
-    assert part.cumulated().counts.tolist() == [4] * 9 + [5]
-    assert (part.cumulated().below, part.cumulated().above) == (3, 7)
+    counted = distribute(values, np.arange(7) == 6, axis, 10)
+    assert (counted.below, counted.counts.tolist(), counted.above, counted.inverted) == (2, [1, *[0] * 8, 1], 2, 1)
+    assert counted.cumulated().counts.tolist() == [4] * 9 + [5]
+    assert (counted.cumulated().below, counted.cumulated().above) == (3, 7)

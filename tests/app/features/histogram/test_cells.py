@@ -1,4 +1,4 @@
-"""A brushed range shows exactly what the bars under it count."""
+"""A brushed range contains exactly the hexes that its bars and bins count."""
 
 import math
 
@@ -28,82 +28,82 @@ AXES = (
 
 
 @st.composite
-def counted(draw):
-    """An axis with some bins, values beside, between and on their ends, and two of the places that count."""
+def cases(draw):
+    """Draw a distribution, with values at, near and between the ends of bins, and two of its cells."""
     axis, bins = draw(st.sampled_from(AXES)), draw(st.integers(10, 200))
     width = axis.high - axis.low
     ends = st.integers(-2, bins + 2).map(lambda k: axis.low + k * (width / bins))
-    beside = st.tuples(ends, st.sampled_from([-math.inf, math.inf])).map(lambda pair: math.nextafter(*pair))
+    near = st.tuples(ends, st.sampled_from([-math.inf, math.inf])).map(lambda pair: math.nextafter(*pair))
     anywhere = st.floats(axis.low - width, axis.high + width)
-    odd = st.sampled_from([math.nan, math.inf, -math.inf, 0.0, -0.0])
-    values = np.array(draw(st.lists(st.one_of(ends, beside, anywhere, odd), max_size=60)), dtype=float)
+    special = st.sampled_from([math.nan, math.inf, -math.inf, 0.0, -0.0])
+    values = np.array(draw(st.lists(st.one_of(ends, near, anywhere, special), max_size=60)), dtype=float)
     inverted = np.array(draw(st.lists(st.booleans(), min_size=len(values), max_size=len(values))), dtype=bool)
     first, last = sorted(draw(st.tuples(*[st.integers(0, len(Cells(axis, bins)) - 1)] * 2)))
     return distribute(values, inverted, axis, bins), first, last
 
 
-def cell_counts(part):
-    """What is counted in each cell, from left to right."""
-    below = [part.below] if part.axis.open_low else []
-    above = [part.above] if part.axis.open_high else []
-    return [part.inverted, *below, *part.counts.tolist(), *above]
+def cell_counts(counted):
+    """Return the counts of the cells, from left to right."""
+    below = [counted.below] if counted.axis.open_low else []
+    above = [counted.above] if counted.axis.open_high else []
+    return [counted.inverted, *below, *counted.counts.tolist(), *above]
 
 
-@given(counted())
-def test_as_many_elements_are_shown_as_the_bars_count(case):
-    part, first, last = case
-    counts = cell_counts(part)
-    assert len(counts) == len(part.cells)
-    chosen = part.cells.range(first, last)
-    if chosen is None:
-        assert sum(counts[first : last + 1]) == part.total
+@given(cases())
+def test_a_range_contains_as_many_hexes_as_its_cells_count(case):
+    counted, first, last = case
+    counts = cell_counts(counted)
+    assert len(counts) == len(counted.cells)
+    range = counted.cells.range(first, last)
+    if range is None:
+        assert sum(counts[first : last + 1]) == counted.total
     else:
-        assert part.within(chosen) == sum(counts[first : last + 1])
+        assert counted.within(range) == sum(counts[first : last + 1])
 
 
-@given(counted())
-def test_neighbouring_ranges_share_no_element(case):
-    part, first, last = case
+@given(cases())
+def test_adjacent_ranges_share_no_hex(case):
+    counted, first, last = case
     if first == last:
         return
-    halves = [part.cells.range(first, first), part.cells.range(first + 1, last)]
-    shown = [within(part.values, part.is_inverted, half) for half in halves]
+    halves = [counted.cells.range(first, first), counted.cells.range(first + 1, last)]
+    shown = [within(counted.values, counted.is_inverted, half) for half in halves]
     assert not (shown[0] & shown[1]).any()
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_the_view_shows_what_the_bars_count(name):
+def test_the_view_shows_as_many_hexes_as_the_cells_count(name):
     mesh = scrambled(grid(6), 0.7, 1)
     figures = measure(mesh.points, mesh.hexes)
     assert 0 < figures.n_inverted < mesh.n_hexes
     values = METRICS[name].of(mesh.points, mesh.hexes, figures)
-    part = distribute(values, figures.inverted, Axis.fitted(name, values, figures.inverted), 20)
-    counts, filters = cell_counts(part), Filters(mesh)
+    counted = distribute(values, figures.inverted, Axis.fitted(name, values, figures.inverted), 20)
+    counts, filters = cell_counts(counted), Filters(mesh)
     for first, last in ((0, 0), (1, len(counts) - 1), (0, 8), (3, 12), (len(counts) - 2, len(counts) - 1)):
-        look = Look(quality_range=part.cells.range(first, last))
-        kept = filters.kept(Frame(mesh, figures, None, look))
-        assert np.count_nonzero(kept) == sum(counts[first : last + 1])
+        look = Look(quality_range=counted.cells.range(first, last))
+        shown = filters.kept(Frame(mesh, figures, None, look))
+        assert np.count_nonzero(shown) == sum(counts[first : last + 1])
 
 
 @given(st.sampled_from(AXES), st.integers(10, 200), st.data())
-def test_the_nearest_cells_of_their_own_ends_are_themselves(axis, bins, data):
+def test_the_cells_nearest_to_their_ends_are_the_cells_themselves(axis, bins, data):
     cells = Cells(axis, bins)
     first, last = sorted(data.draw(st.tuples(*[st.integers(0, len(cells) - 1)] * 2)))
-    assert cells.nearest(cells.place(first)[0], cells.place(last)[1]) == (first, last)
-    middle = sum(cells.place(first)) / 2
-    assert cells.nearest(middle, middle) == (first, first)  # a short stroke takes what it is in
+    assert cells.nearest(cells.span(first)[0], cells.span(last)[1]) == (first, last)
+    middle = sum(cells.span(first)) / 2
+    assert cells.nearest(middle, middle) == (first, first)  # a short drag selects the cell that it is in
 
 
-def test_the_plot_marks_the_cells_of_a_range():
+def test_the_span_of_a_range_is_that_of_its_cells():
     for axis in AXES:
         cells = Cells(axis, 20)
         for first, last in ((0, 0), (0, 7), (1, 4), (5, len(cells) - 1)):
             left, right = axis.span(cells.range(first, last))
-            assert left == pytest.approx(cells.place(first)[0], abs=1e-6)
-            assert right == pytest.approx(cells.place(last)[1], abs=1e-6)
+            assert left == pytest.approx(cells.span(first)[0], abs=1e-6)
+            assert right == pytest.approx(cells.span(last)[1], abs=1e-6)
 
 
-def test_all_cells_are_no_range_and_none_are_no_question():
+def test_all_cells_are_no_range_and_invalid_cells_are_rejected():
     cells = Cells(Axis("q"), 10)
     assert cells.range(0, 10) is None
     assert cells.range(1, 10) == ValueRange("q", 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""What the histogram draws, counted anew where its axis or its bins are others."""
+"""Distributions of the histogram, counted again for another axis or number of bins."""
 
 import numpy as np
 import pytest
@@ -9,61 +9,61 @@ from hexmend_app.features.histogram.distributions import Distributions
 
 Q = np.random.default_rng(3).beta(6, 2, 300)
 LONG = 1 + np.random.default_rng(4).gamma(2, 3, 300)
-SOUND = np.zeros(300, bool)
+VALID = np.zeros(300, bool)
 
 
-def counts(part):
-    return part.below, part.counts.tolist(), part.above, part.inverted
+def counts(counted):
+    return counted.below, counted.counts.tolist(), counted.above, counted.inverted
 
 
-def test_series_stand_in_the_order_of_the_legend():
+def test_series_are_in_the_order_of_the_legend():
     distributions = Distributions()
     assert distributions.series() == []
-    distributions.set_kept([(0, "before", Q, SOUND), (2, "later", Q**2, SOUND)])
-    distributions.set_current(Q, SOUND)
-    distributions.set_initial(Q, SOUND)
+    distributions.set_snapshots([(0, "before", Q, VALID), (2, "later", Q**2, VALID)])
+    distributions.set_current(Q, VALID)
+    distributions.set_initial(Q, VALID)
     assert [one.name for one in distributions.series()] == ["at the start", "now", "before", "later"]
     assert [one.current for one in distributions.series()] == [False, True, False, False]
 
 
 @pytest.mark.parametrize("change", ["the axis", "the bins"])
-def test_all_are_counted_anew(change):
+def test_all_distributions_are_counted_again(change):
     distributions = Distributions()
-    distributions.begin("aspect-ratio")
-    distributions.set_current(LONG, SOUND)
-    distributions.set_kept([(1, "kept", LONG / 2, SOUND)])
+    distributions.reset("aspect-ratio")
+    distributions.set_current(LONG, VALID)
+    distributions.set_snapshots([(1, "kept", LONG / 2, VALID)])
     before, bins = distributions.axis, 50
     if change == "the axis":
-        distributions.set_initial(LONG, SOUND)
-        assert distributions.axis == Axis.fitted("aspect-ratio", LONG, SOUND) != before
+        distributions.set_initial(LONG, VALID)
+        assert distributions.axis == Axis.fitted("aspect-ratio", LONG, VALID) != before
     else:
         bins = 20
-        distributions.divide(bins)
+        distributions.set_bins(bins)
         assert distributions.axis == before
-    now, kept = (one.part for one in distributions.series()[-2:])
-    assert counts(now) == counts(distribute(LONG, SOUND, distributions.axis, bins))
-    assert counts(kept) == counts(distribute(LONG / 2, SOUND, distributions.axis, bins))
+    now, snapshot = (series.distribution for series in distributions.series()[-2:])
+    assert counts(now) == counts(distribute(LONG, VALID, distributions.axis, bins))
+    assert counts(snapshot) == counts(distribute(LONG / 2, VALID, distributions.axis, bins))
 
 
-def test_what_is_kept_already_is_not_counted_again():
+def test_a_known_snapshot_is_not_counted_again():
     distributions = Distributions()
-    distributions.set_kept([(0, "one", Q, SOUND)])
-    ((_, _, part),) = distributions.kept
-    distributions.set_kept([(0, "renamed", Q, SOUND), (1, "other", Q, SOUND)])
-    assert [(slot, name) for slot, name, _ in distributions.kept] == [(0, "renamed"), (1, "other")]
-    assert distributions.kept[0][2] is part
+    distributions.set_snapshots([(0, "one", Q, VALID)])
+    ((_, _, counted),) = distributions.snapshots
+    distributions.set_snapshots([(0, "renamed", Q, VALID), (1, "other", Q, VALID)])
+    assert [(slot, name) for slot, name, _ in distributions.snapshots] == [(0, "renamed"), (1, "other")]
+    assert distributions.snapshots[0][2] is counted
 
 
-def test_another_metric_begins_with_nothing():
+def test_another_metric_removes_all_distributions():
     distributions = Distributions()
-    distributions.set_initial(Q, SOUND)
-    distributions.set_current(Q, SOUND)
-    distributions.set_kept([(0, "one", Q, SOUND)])
-    distributions.begin("scaled-jacobian")
+    distributions.set_initial(Q, VALID)
+    distributions.set_current(Q, VALID)
+    distributions.set_snapshots([(0, "one", Q, VALID)])
+    distributions.reset("scaled-jacobian")
     assert distributions.axis.metric == "scaled-jacobian"
-    assert distributions.series() == distributions.kept == []
+    assert distributions.series() == distributions.snapshots == []
 
 
 def test_lengths_must_agree():
     with pytest.raises(ValueError, match="same length"):
-        Distributions().set_initial(Q, SOUND[1:])
+        Distributions().set_initial(Q, VALID[1:])

@@ -1,4 +1,4 @@
-"""The histogram as a figure and as a table."""
+"""Export of the histogram as a picture and as CSV."""
 
 import csv
 import xml.etree.ElementTree as ET
@@ -23,17 +23,17 @@ def rows(path):
 
 
 @pytest.mark.parametrize("log", [False, True])
-def test_in_a_figure_too_a_bar_that_is_taller_than_the_bins_is_broken_and_carries_its_number(mesh, tmp_path, log):
-    for one, broken in ((turned(mesh, 990), True), (turned(mesh, 3), False)):
+def test_a_tall_bar_of_inverted_hexes_is_broken_and_labelled_in_the_figure(mesh, tmp_path, log):
+    for inverted, broken in ((invert(mesh, 990), True), (invert(mesh, 3), False)):
         path = tmp_path / "figure.svg"
-        write_histogram(path, "title", "q", [("now", BLUE, True, one)], log=log)
+        write_histogram(path, "title", "q", [("now", BLUE, True, inverted)], log=log)
         ET.parse(path)
-        inverted = measure(one.points, one.hexes).n_inverted
-        assert (f">{inverted:,}<" in path.read_text()) == broken
+        count = measure(inverted.points, inverted.hexes).n_inverted
+        assert (f">{count:,}<" in path.read_text()) == broken
 
 
-def turned(mesh, count):
-    """The mesh with so many hexes inside out."""
+def invert(mesh, count):
+    """Return a mesh with the first `count` hexes inverted."""
     hexes = mesh.hexes.copy()
     hexes[:count] = hexes[:count][:, [4, 5, 6, 7, 0, 1, 2, 3]]
     return Mesh(mesh.points, hexes)
@@ -45,7 +45,7 @@ def counted(mesh, folder, bins=50, cumulative=False):
     return rows(path)
 
 
-def test_the_table_has_a_line_for_each_place_that_counts(mesh, tmp_path):
+def test_the_csv_has_a_line_for_each_cell(mesh, tmp_path):
     lines = counted(mesh, tmp_path)
     assert lines[0] == ["q from", "q to", "now"]
     assert lines[1] == ["inverted", "inverted", str(measure(mesh.points, mesh.hexes).n_inverted)]
@@ -53,13 +53,13 @@ def test_the_table_has_a_line_for_each_place_that_counts(mesh, tmp_path):
     assert sum(int(row[2]) for row in lines[1:]) == mesh.n_hexes
 
 
-def test_shares_grow_to_all(mesh, tmp_path):
+def test_shares_rise_to_100_percent(mesh, tmp_path):
     shares = [float(row[2]) for row in counted(mesh, tmp_path, cumulative=True)[1:]]
     assert shares == sorted(shares)
     assert shares[-1] == 100
 
 
-def test_the_axis_is_that_of_what_comes_first(mesh, tmp_path):
+def test_the_axis_fits_the_first_mesh(mesh, tmp_path):
     path = tmp_path / "volume.csv"
     flat = mesh.with_points(mesh.points * [1, 1, 0.01])
     write_histogram(path, "title", "volume", [("at the start", BLUE, True, mesh), ("now", BLUE, True, flat)])

@@ -1,4 +1,4 @@
-"""How high the bars of the histogram are, on either scale."""
+"""Heights of the bars of the histogram, on both scales."""
 
 import numpy as np
 import pytest
@@ -9,52 +9,52 @@ from tests.app.driving import LEFT, turn
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
-def test_the_largest_count_is_in_sight_on_both_scales(histogram, scale):
+def test_the_largest_count_is_visible_on_both_scales(histogram, scale):
     QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
     for count in (10, 900, 50):
         q = np.concatenate([np.full(count, 0.5), [0.1]])
         histogram.set_initial(q, np.zeros(len(q), bool))
         histogram.set_current(q, np.zeros(len(q), bool))
         low, high = histogram.plot.plot.viewRange()[1]
-        height = float(histogram.plot.heights.of(histogram.series()[0].part, count))
+        height = float(histogram.plot.heights.of(histogram.series()[0].distribution, count))
         assert low < height < high
         assert (height - low) / (high - low) > 0.35
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
-def test_the_axis_is_that_of_the_bins_and_a_taller_bar_is_broken(histogram, scale):
+def test_the_axis_fits_the_bins_and_a_taller_bar_is_broken(histogram, scale):
     QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
     q = np.full(3000, 0.5)
-    tangled, mended = np.arange(3000) >= 100, np.arange(3000) >= 2990
-    histogram.set_initial(q, tangled)
-    histogram.set_current(q, tangled)
+    inverted, repaired = np.arange(3000) >= 100, np.arange(3000) >= 2990
+    histogram.set_initial(q, inverted)
+    histogram.set_current(q, inverted)
     plot = histogram.plot
     top = 10**plot.heights.top if scale == "log" else plot.heights.top
     assert 100 <= top <= 150
     now, start = (plot.numbers[key][0] for key in ("now", "start"))
     assert now.toPlainText() == "2,900"
     assert now.isVisible()
-    assert not start.isVisible()  # the same number twice
+    assert not start.isVisible()  # the same number again
     bar = plot.outlines["now"].bar.path()
     assert len(bar.toSubpathPolygons()) == 2  # with a gap between them
     assert plot.heights.top < bar.boundingRect().bottom() < plot.plot.viewRange()[1][1]
     lower, upper = (piece.boundingRect() for piece in bar.toSubpathPolygons())
     assert lower.top() == plot.heights.floor
     assert lower.bottom() < upper.bottom()
-    histogram.set_current(np.append(q, q[:500]), np.append(tangled, tangled[100:600]))
+    histogram.set_current(np.append(q, q[:500]), np.append(inverted, inverted[100:600]))
     assert (now.toPlainText(), start.toPlainText()) == ("3,400", "2,900")
     assert start.isVisible()
     middles = [number.mapRectToScene(number.boundingRect()).center() for number in (start, now)]
     assert all(map(plot.view.sceneBoundingRect().contains, middles))
     assert middles[0].y() < middles[1].y() - 8
-    histogram.set_current(q, mended)
+    histogram.set_current(q, repaired)
     assert now.toPlainText() == "10"
     if scale == "linear":
-        assert not start.isVisible()  # the axis reaches up to it again
+        assert not start.isVisible()  # its bar fits the axis again
     assert len(plot.outlines["now"].bar.path().toSubpathPolygons()) == 1
 
 
-def test_the_scale_changes_whatever_the_counts_were(histogram):
+def test_the_scale_changes_with_the_same_counts(histogram):
     q = np.full(5000, 0.5)
     histogram.set_initial(q, np.zeros(5000, bool))
     for scale in ("log", "linear", "log"):
@@ -63,7 +63,7 @@ def test_the_scale_changes_whatever_the_counts_were(histogram):
     assert histogram.plot.heights.top == pytest.approx(np.log10(5000))
 
 
-def test_with_all_elements_inverted_there_is_an_axis_all_the_same(histogram):
+def test_there_is_an_axis_if_all_hexes_are_inverted(histogram):
     histogram.set_initial(np.zeros(50), np.ones(50, bool))
     histogram.set_current(np.zeros(50), np.ones(50, bool))
     assert histogram.plot.heights.top == 1
@@ -78,7 +78,7 @@ def cumulative_button(histogram):
 
 
 @pytest.mark.parametrize("scale", ["linear", "log"])
-def test_cumulative_shares_begin_with_the_inverted_and_end_at_all(histogram, data, scale):
+def test_cumulative_shares_begin_with_inverted_hexes_and_end_at_100_percent(histogram, data, scale):
     q, inverted = data
     QTest.mouseClick(histogram.head.scale.button(scale), LEFT)
     QTest.mouseClick(cumulative_button(histogram), LEFT)

@@ -1,4 +1,4 @@
-"""What has moved since when, in the window."""
+"""Display of the displacement in the window."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ def press(segmented, key):
     press_button(segmented.button(key))
 
 
-def said(panel, name):
-    """What stands in the label of this name."""
+def text_of(panel, name):
+    """Return the text of the label with this name."""
     panel.window().refresh()
-    return next(one.text() for one in panel.findChildren(QLabel) if one.accessibleName() == name)
+    return next(label.text() for label in panel.findChildren(QLabel) if label.accessibleName() == name)
 
 
 def go(window, record, number):
@@ -52,7 +52,7 @@ def go(window, record, number):
     window.refresh()
 
 
-def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(window, record, panel):
+def test_colours_follow_the_iteration_and_the_reference_state(window, record, panel):
     viewport, timeline = window.canvas.viewport, window.session.timeline
     press(panel.colours, "q-change")
     assert window.session.view.look.scale.mode is RangeMode.FITTED
@@ -75,7 +75,7 @@ def test_colours_follow_the_iterations_and_the_moment_they_are_compared_with(win
     assert window.session.view.look.scale.mode is RangeMode.FULL
 
 
-def test_the_histogram_goes_on_counting_quality(window, record, panel):
+def test_the_histogram_continues_to_show_quality(window, record, panel):
     press(panel.colours, "moved-most")
     assert window.features["histogram"].metric == "q"
     assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H)"
@@ -84,10 +84,10 @@ def test_the_histogram_goes_on_counting_quality(window, record, panel):
     assert window.features["histogram"].panel.head.metric_box.currentText() == "q(H) (as colours)"
 
 
-def test_movements_are_offered_among_the_colours(window, record, qtbot):
+def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbot):
     colours = window.features["appearance"].panel
     combo, maps = (
-        next(one for one in colours.findChildren(QComboBox) if one.accessibleName() == name)
+        next(box for box in colours.findChildren(QComboBox) if box.accessibleName() == name)
         for name in ("Metric", "Colour map")
     )
     window.show_panel("look")
@@ -105,23 +105,18 @@ def test_movements_are_offered_among_the_colours(window, record, qtbot):
     assert maps.currentText() == "brown – teal"
     QTest.keyClick(combo, Qt.Key.Key_Home)
     window.refresh()
-    assert [maps.itemText(k) for k in range(4)] == [
-        "viridis",
-        "cividis",
-        "plasma",
-        "inferno",
-    ]
+    assert [maps.itemText(k) for k in range(4)] == ["viridis", "cividis", "plasma", "inferno"]
     assert window.session.view.look.scale.map == "viridis"
 
 
-def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
+def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
     layer = window.canvas.viewport.extras.arrows
     assert (layer.drawn, layer.moved) == (free, free)
-    assert said(panel, "Arrows that are drawn") == f"{free:,} arrows, of true length."
+    assert text_of(panel, "Number of arrows") == f"{free:,} arrows, true length."
     press(panel.arrows, "sight")
-    assert said(panel, "Arrows that are drawn") == "Of the nodes in sight none has moved."
+    assert text_of(panel, "Number of arrows") == "No visible node has moved."
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(window.session.document.now.mesh.points.mean(axis=0))))
     window.session.view.set_handles(False)
     window.refresh()
@@ -132,34 +127,34 @@ def test_arrows_are_drawn_counted_and_made_longer(window, record, panel):
     QTest.keyClick(panel.factor, Qt.Key.Key_Return)
     assert window.session.view.look.traces.factor == 4
     window.refresh()
-    assert said(panel, "Arrows that are drawn").endswith("4 times true length.")
+    assert text_of(panel, "Number of arrows").endswith("4 × true length.")
     assert (pixels(window) != before).any()
     go(window, record, 0)
-    assert said(panel, "Arrows that are drawn") == "Of the nodes in sight none has moved."
+    assert text_of(panel, "Number of arrows") == "No visible node has moved."
 
 
-def test_the_movement_is_told_in_figures(window, record, panel):
+def test_the_displacement_is_shown_in_figures(window, record, panel):
     start, now = window.session.document.start, window.session.document.now
     change = now.figures.q - start.figures.q
     free = window.session.document.now.summary.free_nodes
-    assert said(panel, "Nodes") == f"{free:,} of {free:,} free moved since opening"
-    assert said(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
+    assert text_of(panel, "Nodes") == f"{free:,} of {free:,} free nodes moved since opening"
+    assert text_of(panel, "Hexes") == f"{(change > 1e-9).sum():,} better, {(change < -1e-9).sum():,} worse"
     newly = np.count_nonzero(now.figures.inverted & ~start.figures.inverted)
-    mended = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)
-    assert said(panel, "Inverted") == f"{newly:,} newly, {mended:,} mended"
+    repaired = np.count_nonzero(start.figures.inverted & ~now.figures.inverted)
+    assert text_of(panel, "Inverted") == f"{newly:,} newly inverted, {repaired:,} repaired"
     go(window, record, 0)
-    assert said(panel, "Distance") == "–"
+    assert text_of(panel, "Distance") == "–"
 
 
 @pytest.fixture
-def inverts(window, qtbot, tmp_path):
-    """A mesh of which Laplacian smoothing inverts hexes that were sound."""
+def mesh_to_invert(window, qtbot, tmp_path):
+    """Open a mesh in which Laplacian smoothing inverts valid hexes."""
     io.write(tmp_path / "inverts.vtu", gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=2))
     open_and_wait(qtbot, window, tmp_path / "inverts.vtu")
 
 
 @pytest.mark.slow
-def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
+def test_newly_inverted_hexes_are_isolated(window, mesh_to_invert, record, panel, qtbot):
     inverted = [record.rows[k]["inverted"] for k in range(len(record.rows))]
     for number in range(1, len(inverted)):
         go(window, record, number)
@@ -177,7 +172,7 @@ def test_the_newly_inverted_are_isolated(window, inverts, record, panel, qtbot):
 
 
 @pytest.mark.slow
-def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
+def test_a_picture_shows_the_displacement(window, record, panel, tmp_path):
     window.features["save"].picture(tmp_path / "plain.png", (500, 320))
     press(panel.colours, "q-change")
     window.session.view.change(traces=window.session.view.look.traces.__class__(arrows=Arrows.ALL))
@@ -187,9 +182,7 @@ def test_a_picture_shows_what_the_view_shows(window, record, panel, tmp_path):
     assert (plain != changed).any(axis=2).mean() > 0.2
 
 
-def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, panel, qtbot, tmp_path):
-    from hexmend import gallery, io
-
+def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, panel, qtbot, tmp_path):
     press(panel.colours, "moved-most")
     press(panel.arrows, "all")
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
@@ -198,30 +191,32 @@ def test_another_mesh_can_be_opened_while_a_movement_is_shown(window, record, pa
     layer = window.canvas.viewport.extras.arrows
     assert (layer.drawn, layer.moved) == (0, 0)
     assert not window.canvas.viewport.colours.values.any()
-    assert said(panel, "Nodes").startswith("0 of ")
+    assert text_of(panel, "Nodes").startswith("0 of ")
 
 
 @pytest.mark.slow
-def test_a_movement_is_shown_while_a_run_goes_on(window, panel, qtbot):
+def test_the_displacement_is_shown_during_a_run(window, panel, qtbot):
     press(panel.colours, "moved-most")
     press(panel.since, "iteration")
-    seen = set()
-    window.session.document.points_moved.connect(lambda: seen.add(window.canvas.viewport.colouring.title))
+    titles = set()
+    window.session.document.points_moved.connect(lambda: titles.add(window.canvas.viewport.colouring.title))
     window.session.run.start(METHODS["local-sd"](), StoppingCriteria(max_iterations=100_000, tolerance=0))
-    qtbot.waitUntil(lambda: len(seen) > 3, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: len(titles) > 3, timeout=PATIENCE)
     end_run(window.session)
-    assert all(title.startswith("mean edge lengths moved since") for title in seen)
+    assert all(title.startswith("mean edge lengths moved since") for title in titles)
 
 
 @pytest.mark.slow
-def test_a_film_compares_each_picture_with_the_one_before(window, record, panel):
+def test_a_film_compares_each_frame_with_the_previous_one(window, record, panel):
     history, mesh = window.session.history, window.session.document.now.mesh
     press(panel.colours, "q-change")
     press(panel.since, "iteration")
-    taken = list(film_frames(record, [0, 2, 5], lambda number: history.state(RecordedIteration(record, number), mesh)))
+    states = list(film_frames(record, [0, 2, 5], lambda number: history.state(RecordedIteration(record, number), mesh)))
     look, movement = window.session.view.look, window.canvas.viewport.frame.movement
-    frames = [np.asarray(one) for one in pictures(taken, look, (400, 300), movement=movement)]
+    frames = [np.asarray(picture) for picture in pictures(states, look, (400, 300), movement=movement)]
     assert len(frames) == 3
     assert (frames[0] != frames[1]).any()
-    still = list(pictures([taken[2], taken[2]], look, (400, 300), movement=movement))
-    np.testing.assert_array_equal(np.asarray(still[0])[30:], np.asarray(still[1])[30:])  # since then nothing has moved
+    still = list(pictures([states[2], states[2]], look, (400, 300), movement=movement))
+    np.testing.assert_array_equal(
+        np.asarray(still[0])[30:], np.asarray(still[1])[30:]
+    )  # nothing moves between equal frames

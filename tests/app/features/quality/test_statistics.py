@@ -1,4 +1,4 @@
-"""The table of figures."""
+"""Table of quality statistics."""
 
 import dataclasses
 from types import SimpleNamespace
@@ -37,7 +37,7 @@ _NOW = _START | {
     "scaled_jacobian_min": 0.3,
     "objective": 9.5,
 }
-_AT = {row.key: at for at, row in enumerate(ROWS)}
+_ROW_OF = {row.key: number for number, row in enumerate(ROWS)}
 
 
 @pytest.fixture
@@ -52,29 +52,29 @@ def grid(table):
 
 
 def cell(table, key, column):
-    return grid(table).item(_AT[key], column)
+    return grid(table).item(_ROW_OF[key], column)
 
 
-def test_what_analysts_judge_by_stands_out_where_it_is_worse(table):
+def test_regressions_of_important_figures_are_bold(table):
     table.set_summaries(SimpleNamespace(**_NOW), SimpleNamespace(**_START))
-    bold = {key for key in _AT if cell(table, key, 3).font().bold()}
+    bold = {key for key in _ROW_OF if cell(table, key, 3).font().bold()}
     assert bold == {"inverted", "q_min", "scaled_jacobian_min"}
     for key in bold:
         assert cell(table, key, 3).foreground().color() == QColor(str(WORSE))
         assert cell(table, key, 3).data(Qt.ItemDataRole.AccessibleTextRole).endswith("worse")
     table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
-    assert not any(cell(table, key, 3).font().bold() for key in _AT)
+    assert not any(cell(table, key, 3).font().bold() for key in _ROW_OF)
 
 
-def test_every_figure_of_a_summary_but_the_trivial_has_a_row():
+def test_every_figure_of_a_summary_except_q_max_has_a_row():
     assert {row.key for row in ROWS} == {field.name for field in dataclasses.fields(Summary)} - {"q_max"}
 
 
-def test_figures_are_right_aligned_with_what_they_were_and_are(table):
+def test_figures_at_the_start_and_now_are_right_aligned(table):
     assert [cell(table, "inverted", column).text() for column in range(4)] == ["Inverted", "36", "0", "▼ 36"]
     assert cell(table, "hexes", 1).text() == "32,735"
     assert cell(table, "objective", 1).text() == "–"
-    for key in _AT:
+    for key in _ROW_OF:
         assert all(cell(table, key, c).textAlignment() & Qt.AlignmentFlag.AlignRight for c in (1, 2, 3))
 
 
@@ -83,26 +83,26 @@ def test_figures_are_right_aligned_with_what_they_were_and_are(table):
     [("inverted", BETTER), ("q_min", BETTER), ("q_mean", WORSE), ("q_std", MUTED), ("hexes", MUTED)]
     + [("objective", BETTER), ("scaled_jacobian_min", BETTER)],
 )
-def test_changes_have_the_colour_of_their_sense(table, key, colour):
+def test_changes_are_coloured_as_better_or_worse(table, key, colour):
     assert cell(table, key, 3).foreground().color() == QColor(str(colour))
 
 
 @pytest.mark.parametrize("row", [row for row in ROWS if row.better])
-def test_the_reverse_of_a_change_has_the_reverse_sense_and_arrow(row):
-    there, back = change(row, 0.25, 0.5), change(row, 0.5, 0.25)
-    assert there == ("▲ 0.2500", row.better)
-    assert back == ("▼ 0.2500", -row.better)
+def test_the_opposite_change_has_the_opposite_sense_and_arrow(row):
+    rise, fall = change(row, 0.25, 0.5), change(row, 0.5, 0.25)
+    assert rise == ("▲ 0.2500", row.better)
+    assert fall == ("▼ 0.2500", -row.better)
     assert change(row, 0.5, 0.5) == ("=", 0)
     assert change(row, 0.5, 0.5 + 1e-9)[0] == "▲ <0.0001"
 
 
-def test_every_row_explains_itself(table):
+def test_every_row_has_a_tooltip(table):
     for row in ROWS:
         assert row.help in cell(table, row.key, 0).toolTip()
     assert "infinite" in cell(table, "objective", 1).toolTip()
 
 
-def test_control_c_copies_full_precision_for_a_spreadsheet(table):
+def test_ctrl_c_copies_the_table_in_full_precision(table):
     grid(table).setFocus()
     QTest.keyClick(grid(table), Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     lines = [line.split("\t") for line in QGuiApplication.clipboard().text().splitlines()]
@@ -114,7 +114,7 @@ def test_control_c_copies_full_precision_for_a_spreadsheet(table):
     assert by_title["Objective Σ η²"] == ["", "9.5"]
 
 
-def test_the_context_menu_copies(table, qtbot):
+def test_the_context_menu_copies_the_table(table, qtbot):
     QGuiApplication.clipboard().setText("before")
     grid(table).customContextMenuRequested.emit(grid(table).viewport().rect().center())
     menu = QApplication.activePopupWidget()
@@ -124,65 +124,65 @@ def test_the_context_menu_copies(table, qtbot):
     qtbot.waitUntil(lambda: QGuiApplication.clipboard().text() == table.text())
 
 
-def test_nothing_is_cut_off_in_a_narrow_panel(table):
+def test_no_text_is_cut_off_in_a_narrow_panel(table):
     assert table.sizeHint().width() <= 360
     table.resize(table.sizeHint())
     view = grid(table)
-    for at in range(view.rowCount()):
+    for row in range(view.rowCount()):
         for column in range(view.columnCount()):
-            need = view.fontMetrics().horizontalAdvance(view.item(at, column).text())
-            assert need < view.columnWidth(column)
+            width = view.fontMetrics().horizontalAdvance(view.item(row, column).text())
+            assert width < view.columnWidth(column)
     assert view.verticalScrollBar().maximum() == view.horizontalScrollBar().maximum() == 0
 
 
-def test_no_mesh_clears_the_figures(table):
+def test_the_table_is_empty_without_a_mesh(table):
     table.set_summaries(None, None)
-    assert all(cell(table, key, column).text() == "" for key in _AT for column in (1, 2, 3))
+    assert all(cell(table, key, column).text() == "" for key in _ROW_OF for column in (1, 2, 3))
 
 
 @pytest.fixture
-def tangled(table):
-    """The table with inverted elements now, and what it asked for."""
+def with_inverted(table):
+    """Return the table with inverted hexes now, and a list of the groups whose isolation was requested."""
     table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW | {"inverted": 12, "locked_inverted": 3}))
-    asked = []
-    table.isolate_requested.connect(asked.append)
-    return table, asked
+    requests = []
+    table.isolate_requested.connect(requests.append)
+    return table, requests
 
 
 def click(table, key, column):
-    place = grid(table).visualItemRect(cell(table, key, column)).center()
-    QTest.mouseMove(grid(table).viewport(), place)
-    QTest.mouseClick(grid(table).viewport(), Qt.MouseButton.LeftButton, pos=place)
+    position = grid(table).visualItemRect(cell(table, key, column)).center()
+    QTest.mouseMove(grid(table).viewport(), position)
+    QTest.mouseClick(grid(table).viewport(), Qt.MouseButton.LeftButton, pos=position)
 
 
-def test_the_numbers_of_inverted_and_locked_elements_are_links(tangled):
-    table, asked = tangled
+def test_the_numbers_of_inverted_and_locked_hexes_are_links(with_inverted):
+    table, requests = with_inverted
     for key in ("inverted", "locked_inverted", "hexes"):
         click(table, key, 2)
-    click(table, "inverted", 1)  # at the start, of which there is no picture
-    assert asked == ["inverted", "locked"]
+    click(table, "inverted", 1)  # numbers at the start are no links
+    assert requests == ["inverted", "locked"]
     assert cell(table, "inverted", 2).font().underline()
     assert "Show only the locked hexes" in cell(table, "locked_inverted", 2).toolTip()
 
 
-def test_links_are_reached_by_keys(tangled):
-    table, asked = tangled
+def test_links_are_followed_by_keys(with_inverted):
+    table, requests = with_inverted
     grid(table).setFocus()
-    grid(table).setCurrentCell(_AT["inverted"], 0)
+    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
     QTest.keyClick(grid(table), Qt.Key.Key_Return)
     QTest.keyClick(grid(table), Qt.Key.Key_Down)
     QTest.keyClick(grid(table), Qt.Key.Key_Enter)
     QTest.keyClick(grid(table), Qt.Key.Key_Down)
     QTest.keyClick(grid(table), Qt.Key.Key_Enter)
-    assert asked == ["inverted", "locked"]
+    assert requests == ["inverted", "locked"]
 
 
-def test_where_there_are_none_there_is_no_link(tangled):
-    table, asked = tangled
+def test_a_zero_is_no_link(with_inverted):
+    table, requests = with_inverted
     table.set_summaries(SimpleNamespace(**_START), SimpleNamespace(**_NOW))
     click(table, "inverted", 2)
-    grid(table).setCurrentCell(_AT["inverted"], 0)
+    grid(table).setCurrentCell(_ROW_OF["inverted"], 0)
     QTest.keyClick(grid(table), Qt.Key.Key_Return)
-    assert asked == []
+    assert requests == []
     assert not cell(table, "inverted", 2).font().underline()
     assert "determinant" in cell(table, "inverted", 2).toolTip()
