@@ -22,7 +22,7 @@ from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
 from hexmend_app.report.figure_set import Style, check_pages
 from hexmend_app.report.page import Chapter, write_page
-from hexmend_app.report.paper import check_paper, write_paper
+from hexmend_app.report.pdf import check_pdf, write_pdf
 
 #: Suffixes of reports.
 _SUFFIXES = (".html", ".pdf")
@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     smoothers, stop = run_options.methods(args)
     names, scene = run_options.names(args, len(smoothers)), run_options.scene(args)
     if not interactive:
-        check_paper()
+        check_pdf()
     style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
     check_pages(style, 1 + len(smoothers))
     writer = _ChapterWriter(args, options, smoothers, stop, names, style, interactive)
@@ -51,7 +51,7 @@ def run(args: argparse.Namespace) -> int:
         title_option = ["--title", args.title] if args.title else []
         command = command_line(["report", *args.mesh, *options, *title_option, "-o", args.output])
         document = page.page(title, writer.chapters, command, interactive=interactive)
-        (write_page if interactive else write_paper)(path, document)
+        (write_page if interactive else write_pdf)(path, document)
         print(f"{args.output}: {path.stat().st_size / 1e6:.1f} MB")
         if interrupted:
             print("Interrupted: the report shows the results so far.", file=sys.stderr)
