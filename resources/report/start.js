@@ -14,16 +14,16 @@ function linkTables(section, viewer) {
   }
 }
 
-/** Bring a viewer to life as it comes into sight; where that cannot be, its picture stays, and it is said why. */
+/** Start a viewer when it becomes visible; if that fails, show its picture and the reason. */
 async function start(root) {
   const [head, blob] = ["head", "bytes"].map((name) => root.querySelector(`script[data-of="${name}"]`).textContent);
   try {
     const viewer = new Viewer(root, new HexMesh(JSON.parse(head), await unpacked(blob)));
     linkTables(root.closest("section"), viewer);
   } catch (error) {
-    const said = root.querySelector(".cannot");
-    said.textContent = `The mesh cannot be turned here: ${error.message}. The picture shows it as it is.`;
-    said.hidden = false;
+    const message = root.querySelector(".cannot");
+    message.textContent = `The mesh cannot be rotated here: ${error.message}. A picture is shown instead.`;
+    message.hidden = false;
   }
 }
 

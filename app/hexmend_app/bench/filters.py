@@ -1,4 +1,4 @@
-"""Milliseconds per change of visibility and per frame while the view rotates, and the memory of the program."""
+"""Benchmark of the viewer: changes of visibility, frames while the view rotates, and memory."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.bench.section import BenchSection, peak_mb
-from hexmend_app.bench.windows import draw, measured, report, turning_ms
+from hexmend_app.bench.windows import draw, measure_meshes, report, rotation_frame_ms
 from hexmend_app.picture.appearance import Isolation, ValueRange
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 
@@ -24,16 +24,16 @@ _CHANGES = 9
 
 def _measure() -> dict[str, Any]:
     sizes = (("bridge-sharp", {}), ("five-side", {"size": 110450}), ("five-side", {"size": 1_000_000}))
-    return measured((make(name, **size) for name, size in sizes), _row)
+    return measure_meshes((make(name, **size) for name, size in sizes), _row)
 
 
 def _row(window: Window) -> dict[str, Any]:
-    turning = turning_ms(window)
-    return {"turning_ms": turning, "memory_mb": peak_mb(), "ms": _changes(window)}
+    rotation = rotation_frame_ms(window)
+    return {"turning_ms": rotation, "memory_mb": peak_mb(), "ms": _changes(window)}
 
 
 def _changes(window: Window) -> dict[str, dict[str, float]]:
-    """Median milliseconds of each change of the look, by stage."""
+    """Return the median milliseconds of each change of the look, by stage."""
     mesh = window.session.document.now.mesh
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     places = [tuple(low + (high - low) * share) for share in np.linspace(0.4, 0.6, _CHANGES)]
@@ -54,29 +54,29 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
     }
     viewport = window.canvas.viewport
     window.session.view.set_handles(False)
-    kept, spent = viewport.kept, [0.0]
+    compute_mask, mask_seconds = viewport.kept, [0.0]
 
-    def timed() -> np.ndarray | None:
-        began = perf_counter()
-        answer = kept()
-        spent.append(perf_counter() - began)
-        return answer
+    def timed_mask() -> np.ndarray | None:
+        start = perf_counter()
+        mask = compute_mask()
+        mask_seconds.append(perf_counter() - start)
+        return mask
 
-    viewport.kept = timed
-    answer = {}
+    viewport.kept = timed_mask
+    result = {}
     for name, changes in looks.items():
         masks, faces, frames = [], [], []
         for fields in changes:
-            spent.clear()
-            began = perf_counter()
+            mask_seconds.clear()
+            start = perf_counter()
             window.session.view.change(**fields)
             window.refresh()
-            done = perf_counter()
+            refreshed = perf_counter()
             draw(window)
-            frames.append(perf_counter() - done)
-            masks.append(sum(spent))
-            faces.append(done - began - masks[-1])
-        answer[name] = {
+            frames.append(perf_counter() - refreshed)
+            masks.append(sum(mask_seconds))
+            faces.append(refreshed - start - masks[-1])
+        result[name] = {
             "mask": 1e3 * median(masks),
             "faces": 1e3 * median(faces),
             "drawing": 1e3 * median(frames),
@@ -84,15 +84,15 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
         }
         window.session.view.show_all()
         window.session.view.change(shrink=0.0)
-    return answer
+    return result
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:
     yield f"{row['mesh']}, {row['hexes']:,} hexes:  mask + faces + drawing = total, quads drawn"
     for name, ms in row["ms"].items():
         parts = [ms[part] for part in ("mask", "faces", "drawing")]
-        sum_ = " + ".join(f"{part:6.1f}" for part in parts)
-        yield f"  {name:<18} {sum_} = {sum(parts):6.1f} ms   {ms['quads']:>8,}"
+        summands = " + ".join(f"{part:6.1f}" for part in parts)
+        yield f"  {name:<18} {summands} = {sum(parts):6.1f} ms   {ms['quads']:>8,}"
     yield f"  a frame while the view rotates: {row['turning_ms']:.1f} ms; peak memory {row['memory_mb']:,.0f} MB"
 
 

@@ -1,4 +1,4 @@
-"""Hours of work in one window, with a check that its memory does not grow; loaded after the display is checked."""
+"""Soak test: hours of work in one window, with a check of its memory. Imported after the check of the display."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend.study.bench.section import resident_mb
-from hexmend_app.bench.windows import draw, end_run, save_and_wait, turn, until
+from hexmend_app.bench.windows import draw, end_run, run_event_loop, save_and_wait, wait_until
 from hexmend_app.picture.cut_planes import PlaneClip
 from hexmend_app.shell.start.program import application
 from hexmend_app.shell.window import Window
@@ -26,16 +26,16 @@ from hexmend_app.shell.window import Window
 #: Maximum number of iterations and seconds of a run.
 _ITERATIONS, _SECONDS = 20, 5.0
 
-#: Share of the rounds that do not count: caches fill, and every method has its first run.
+#: Share of the rounds excluded as warm-up, in which caches fill and each method runs for the first time.
 _WARM = 0.25
 
-#: Growth from the first warm round to the last that is accepted, as a share of the memory.
+#: Accepted growth from the first to the last round after the warm-up, relative to the memory.
 _GROWTH = 0.05
 
 
 @dataclass(frozen=True)
 class Sample:
-    """The memory after a round.
+    """Memory after a round.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Sample:
 
 
 class Memory:
-    """The memory after each round."""
+    """Memory after each round."""
 
     def __init__(self) -> None:
         self._samples: list[Sample] = []
@@ -69,12 +69,12 @@ class Memory:
 
     @property
     def warm(self) -> list[Sample]:
-        """The rounds after the warm-up."""
+        """Rounds after the warm-up."""
         return self._samples[int(_WARM * len(self._samples)) :]
 
     @property
     def growth(self) -> float:
-        """Growth in MiB from the first warm round to the last, by the median of slopes (Theil, Sen)."""
+        """Growth in MiB from the first to the last round after the warm-up, by the Theil-Sen slope."""
         warm = self.warm
         if len(warm) < 2:
             return 0.0
@@ -87,15 +87,15 @@ class Memory:
 
     @property
     def verdict(self) -> str:
-        """The result in a sentence."""
-        mb, style = [one.mb for one in self.warm], "is level" if self.level else "GROWS"
+        """Result as a sentence."""
+        mb, state = [one.mb for one in self.warm], "is level" if self.level else "GROWS"
         return (
-            f"{len(self._samples)} rounds in {self._samples[-1].minutes:.0f} min: memory {style}: "
+            f"{len(self._samples)} rounds in {self._samples[-1].minutes:.0f} min: memory {state}: "
             f"over the last {len(mb)} rounds {min(mb):.0f} to {max(mb):.0f} MB, median {np.median(mb):.0f}, "
-            f"{self.growth:+.0f} MB from the first of them to the last"
+            f"{self.growth:+.0f} MB from the first to the last of them"
         )
 
-    def given(self) -> dict[str, Any]:
+    def record(self) -> dict[str, Any]:
         """Return the measurements for a file."""
         return {"growth_mb": self.growth, "level": self.level, "rounds": [asdict(one) for one in self._samples]}
 
@@ -122,10 +122,10 @@ def soak(meshes: Sequence[str | Path], seconds: float, least: int = 4) -> Iterat
         If a mesh cannot be opened, a method fails, or the window does not respond.
     """
     with tempfile.TemporaryDirectory() as folder, _window() as window:
-        began = perf_counter()
+        start = perf_counter()
         for number, (name, path) in zip(count(1), cycle(product(METHODS, meshes)), strict=False):
             _round(window, Path(path), name, Path(folder))
-            minutes = (perf_counter() - began) / 60
+            minutes = (perf_counter() - start) / 60
             yield Sample(number, minutes, Path(path).name, name, resident_mb())
             if number >= least and 60 * minutes >= seconds:
                 return
@@ -133,7 +133,7 @@ def soak(meshes: Sequence[str | Path], seconds: float, least: int = 4) -> Iterat
 
 @contextmanager
 def _window() -> Iterator[Window]:
-    """Open a window with autosave; it closes without asking."""
+    """Open a window with autosave that closes without asking."""
     application()
     window = Window()
     window.resize(1440, 900)
@@ -141,7 +141,7 @@ def _window() -> Iterator[Window]:
     window.build_features()
     window.build_canvas()
     window.features["session"].start_autosave()
-    turn(0.5)
+    run_event_loop(0.5)
     try:
         yield window
     finally:
@@ -152,12 +152,12 @@ def _window() -> Iterator[Window]:
 
 
 def _round(window: Window, path: Path, method: str, folder: Path) -> None:
-    """Open a mesh, view it, smooth it, browse the timeline, save mesh, session and picture, and reopen the session."""
+    """Open a mesh, change the view, smooth, browse the timeline, save mesh, session and picture, reopen the session."""
     session = window.session
     _open(window, path)
-    _look_around(window)
+    _change_view(window)
     _smooth(window, method)
-    _look_back(window)
+    _browse_timeline(window)
     save_and_wait(session, folder / "mesh.vtu")
     saved = folder / "round.hexmend"
     save_and_wait(session, saved)
@@ -171,15 +171,15 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
 
 def _open(window: Window, path: Path) -> None:
     opener, errors = window.session.opener, []
-    text = opener.failed.connect(lambda _, error: errors.append(error))
+    connection = opener.failed.connect(lambda _, error: errors.append(error))
     window.session.commands.open(path)
-    until(lambda: not opener.busy)
-    opener.failed.disconnect(text)
+    wait_until(lambda: not opener.busy)
+    opener.failed.disconnect(connection)
     _raise(errors)
     draw(window)
 
 
-def _look_around(window: Window) -> None:
+def _change_view(window: Window) -> None:
     view, mesh = window.session.view, window.session.document.now.mesh
     middle = tuple(mesh.points.mean(axis=0))
     for clip in (PlaneClip.at((1, 0, 0), middle), PlaneClip.at((0, 1, 0), middle, crinkle=False), None):
@@ -195,16 +195,16 @@ def _look_around(window: Window) -> None:
 
 def _smooth(window: Window, method: str) -> None:
     smoothing, errors = window.session.run, []
-    lines = smoothing.failed.connect(errors.append)
+    connection = smoothing.failed.connect(errors.append)
     window.session.commands.run(
         Stage(METHODS[method](), StoppingCriteria(max_iterations=_ITERATIONS, max_seconds=_SECONDS))
     )
-    until(lambda: not smoothing.busy)
-    smoothing.failed.disconnect(lines)
+    wait_until(lambda: not smoothing.busy)
+    smoothing.failed.disconnect(connection)
     _raise(errors)
 
 
-def _look_back(window: Window) -> None:
+def _browse_timeline(window: Window) -> None:
     timeline = window.session.timeline
     if timeline.record is not None:
         for number in np.linspace(0, timeline.record.newest, 5).astype(int):

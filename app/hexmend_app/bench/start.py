@@ -1,4 +1,4 @@
-"""Seconds until the window and the mesh are on the screen, measured in new processes."""
+"""Benchmark of the start: seconds until window and mesh are on the screen, in new processes."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ from hexmend.study.bench.section import BenchSection
 from hexmend_app.shell.start.display import DisplayError, check_display
 
 _TIMES = 5
-_PATIENCE = 120.0  # seconds for a start
+_TIMEOUT = 120.0  # seconds for a start
 
-#: Measured moments, and their descriptions.
+#: Measured moments and their descriptions.
 MOMENTS = {
     "window": "the window is on the screen",
     "picture": "the demo's picture is drawn",
-    "panels": "all panels are there",
+    "panels": "all panels are built",
 }
 
 
-def started(mesh: Path | None = None) -> dict[str, dict[str, Any]]:
+def measure_start(mesh: Path | None = None) -> dict[str, dict[str, Any]]:
     """Start the program, wait until it shows its mesh, and quit.
 
     Parameters
     ----------
     mesh : Path, optional
-        The bundled demo by default.
+        By default the bundled demo mesh.
 
     Returns
     -------
@@ -46,27 +46,27 @@ def started(mesh: Path | None = None) -> dict[str, dict[str, Any]]:
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report"
         report.touch()
-        settings = {VARIABLE: str(report), "XDG_CONFIG_HOME": folder}  # those of a first start
-        words = [sys.executable, "-m", "hexmend", "view", *([] if mesh is None else [str(mesh)])]
-        began = time.monotonic()
-        with subprocess.Popen(words, env=os.environ | settings, stderr=subprocess.PIPE, text=True) as process:
+        settings = {VARIABLE: str(report), "XDG_CONFIG_HOME": folder}  # empty settings, as at the first start
+        command = [sys.executable, "-m", "hexmend", "view", *([] if mesh is None else [str(mesh)])]
+        start_time = time.monotonic()
+        with subprocess.Popen(command, env=os.environ | settings, stderr=subprocess.PIPE, text=True) as process:
             try:
-                reported = _read(report, process, began)
+                moments = _read(report, process, start_time)
                 process.send_signal(signal.SIGINT)
-                sentence = process.communicate(timeout=_PATIENCE)[1]
+                output = process.communicate(timeout=_TIMEOUT)[1]
             finally:
                 process.kill()  # the program may hang
-        if len(reported) < len(MOMENTS):
-            raise HexmendError(f"the program ended, or hung, before its mesh was shown: {sentence.strip()}")
+        if len(moments) < len(MOMENTS):
+            raise HexmendError(f"the program ended or hung before it showed its mesh: {output.strip()}")
         if process.returncode:
-            raise HexmendError(f"the program ended with {process.returncode} on closing: {sentence.strip()}")
-    return {one["moment"]: {"seconds": one["at"] - began, "modules": one["modules"]} for one in reported}
+            raise HexmendError(f"the program ended with status {process.returncode}: {output.strip()}")
+    return {one["moment"]: {"seconds": one["at"] - start_time, "modules": one["modules"]} for one in moments}
 
 
-def _read(report: Path, process: subprocess.Popen, began: float) -> list[dict[str, Any]]:
-    """Return the lines of the report, once it is complete or the process has ended."""
+def _read(report: Path, process: subprocess.Popen, start_time: float) -> list[dict[str, Any]]:
+    """Return the entries of the report when it is complete or the process has ended."""
     while True:
-        ended = process.poll() is not None or time.monotonic() - began > _PATIENCE
+        ended = process.poll() is not None or time.monotonic() - start_time > _TIMEOUT
         lines = report.read_text(encoding="utf-8").split("\n")[:-1]
         if ended or len(lines) == len(MOMENTS):
             return [json.loads(line) for line in lines]
@@ -78,8 +78,8 @@ def _measure() -> dict[str, Any]:
         check_display()
     except DisplayError as error:
         return {"skipped": str(error)}
-    started()  # fills the cache of the file system
-    rows = [started() for _ in range(_TIMES)]
+    measure_start()  # fills the cache of the file system
+    rows = [measure_start() for _ in range(_TIMES)]
     return {
         moment: {
             "seconds": median(row[moment]["seconds"] for row in rows),

@@ -1,4 +1,4 @@
-"""Milliseconds per frame, and delay of the event loop while a method runs."""
+"""Benchmark of the viewer: milliseconds per frame, and delay of the event loop while a method runs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend.gallery import make
 from hexmend.run import StoppingCriteria
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
-from hexmend_app.bench.windows import draw, end_run, measured, report, turn
+from hexmend_app.bench.windows import draw, end_run, measure_meshes, report, run_event_loop
 from hexmend_app.picture.cut_planes import PlaneClip
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ _BEAT = 5  # milliseconds between two ticks of the timer
 
 
 def _measure() -> dict[str, Any]:
-    return measured((make("bridge-sharp"), make("five-side", size=110450)), _row)
+    return measure_meshes((make("bridge-sharp"), make("five-side", size=110450)), _row)
 
 
 def _row(window: Window) -> dict[str, Any]:
@@ -38,7 +38,7 @@ def _row(window: Window) -> dict[str, Any]:
 
 
 def _frame(window: Window, cut: str) -> tuple[float, float]:
-    """Median milliseconds from new points and qualities to the screen, and those of VTK's rendering."""
+    """Return the median milliseconds from new points and qualities to the screen, and of VTK's rendering."""
     from hexmend_app.scene.views.frame import Frame
     from hexmend_app.state.mesh.document import State
 
@@ -51,19 +51,19 @@ def _frame(window: Window, cut: str) -> tuple[float, float]:
     states = [State.of(start.mesh.with_points(start.mesh.points + share * shift)) for share in (0.0, 0.5, 1.0)]
     canvas = window.canvas
     draw(window)
-    times, begun, vtk = [], [], []
+    times, starts, vtk = [], [], []
     drawing = canvas.interactor.render_window
-    text = (
-        drawing.AddObserver("StartEvent", lambda *_: begun.append(perf_counter())),
-        drawing.AddObserver("EndEvent", lambda *_: vtk.append(perf_counter() - begun[-1])),
+    observers = (
+        drawing.AddObserver("StartEvent", lambda *_: starts.append(perf_counter())),
+        drawing.AddObserver("EndEvent", lambda *_: vtk.append(perf_counter() - starts[-1])),
     )
     for k in range(_FRAMES):
         state = states[k % 3]
-        began = perf_counter()
+        start_time = perf_counter()
         canvas.draw(Frame(state.mesh, state.figures, look=window.session.view.look))
         draw(window)
-        times.append(perf_counter() - began)
-    for observer in text:
+        times.append(perf_counter() - start_time)
+    for observer in observers:
         drawing.RemoveObserver(observer)
     return 1e3 * median(times), 1e3 * median(vtk)
 
@@ -75,7 +75,7 @@ def _while_running(window: Window) -> dict[str, Any]:
     window.session.document.preview(window.session.document.start)
     window.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
     while window.session.run.phase.value != "running":
-        turn(0.1)
+        run_event_loop(0.1)
     beats: list[float] = []
     timer = QTimer()
     timer.setInterval(_BEAT)
@@ -83,15 +83,15 @@ def _while_running(window: Window) -> dict[str, Any]:
     frames: list[int] = []
     window.session.run.iterated.connect(lambda frame: frames.append(frame.iteration.number))
     timer.start()
-    turn(_SECONDS)
+    run_event_loop(_SECONDS)
     timer.stop()
     end_run(window.session)
-    late = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
-    if not len(late):
-        raise HexmendError("the event loop did not turn while the smoother ran")
+    delays = np.maximum(np.diff(beats) * 1e3 - _BEAT, 0)
+    if not len(delays):
+        raise HexmendError("the event loop was blocked while the smoother ran")
     return {
-        "lateness_median_ms": float(np.median(late)),
-        "lateness_95_ms": float(np.percentile(late, 95)),
+        "lateness_median_ms": float(np.median(delays)),
+        "lateness_95_ms": float(np.percentile(delays, 95)),
         "iterations_shown_per_second": len(frames) / _SECONDS,
         "iterations_per_second": (frames[-1] - frames[0]) / _SECONDS if frames else 0.0,
     }

@@ -1,4 +1,4 @@
-"""Milliseconds per frame while several views rotate, and to open a view."""
+"""Benchmark of several views: milliseconds per frame while they rotate, and to open a view."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from hexmend.gallery import make
 from hexmend.study.bench.section import BenchSection
-from hexmend_app.bench.windows import draw, measured, report, turn, turning_ms
+from hexmend_app.bench.windows import draw, measure_meshes, report, rotation_frame_ms, run_event_loop
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -21,40 +21,40 @@ _SIZES = (("bridge-sharp", {}), ("five-side", {"size": 110450}))
 
 
 def _measure() -> dict[str, Any]:
-    return measured((make(name, **size) for name, size in _SIZES), _row)
+    return measure_meshes((make(name, **size) for name, size in _SIZES), _row)
 
 
 def _row(window: Window) -> dict[str, Any]:
-    """Milliseconds per frame of one view, two, four and a wipe, and to open the second view."""
-    turning = {"1 view": turning_ms(window)}
-    states = _others(window)
-    began = perf_counter()
+    """Return the milliseconds per frame of one, two and four views and a wipe, and to open the second view."""
+    rotation = {"1 view": rotation_frame_ms(window)}
+    states = _other_states(window)
+    start = perf_counter()
     window.session.side_views.show("0", states[0])
     draw(window)
-    opening = 1e3 * (perf_counter() - began)
-    turning["2 views"] = turning_ms(window)
+    opening = 1e3 * (perf_counter() - start)
+    rotation["2 views"] = rotation_frame_ms(window)
     for k in (1, 2):
         window.session.side_views.show(str(k), states[k])
-    turning["4 views"] = turning_ms(window)
+    rotation["4 views"] = rotation_frame_ms(window)
     window.session.side_views.set_wiping(True)
-    turning["wipe"] = turning_ms(window)
+    rotation["wipe"] = rotation_frame_ms(window)
     wiping = []
     for at in np.linspace(0.2, 0.8, 20):
-        began = perf_counter()
+        start = perf_counter()
         window.session.side_views.move_wipe(float(at))
         draw(window)
-        wiping.append(1e3 * (perf_counter() - began))
-    turn(0.1)
+        wiping.append(1e3 * (perf_counter() - start))
+    run_event_loop(0.1)
     view = [window.canvas.interactor.width(), window.canvas.interactor.height()]
-    return {"view": view, "turning_ms": turning, "opening_ms": opening, "wiping_ms": float(np.median(wiping))}
+    return {"view": view, "turning_ms": rotation, "opening_ms": opening, "wiping_ms": float(np.median(wiping))}
 
 
-def _others(window: Window) -> list[State]:
+def _other_states(window: Window) -> list[State]:
     from hexmend_app.state.mesh.document import State
 
     mesh = window.session.document.now.mesh
-    shift = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
-    return [State.of(mesh.with_points(mesh.points + one * mesh.free[:, None])) for one in shift]
+    shifts = mesh.mean_edge_length * 0.005 * np.random.default_rng(0).normal(size=(3, *mesh.points.shape))
+    return [State.of(mesh.with_points(mesh.points + shift * mesh.free[:, None])) for shift in shifts]
 
 
 def _lines(row: dict[str, Any]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Frames per second while the timeline is scrubbed, memory of its iterations, and delay until a run stops."""
+"""Benchmark of the timeline: frames per second while scrubbing, memory of iterations, and delay of a stop."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.smoothers.laplacian.laplacian import Laplacian
 from hexmend.smoothers.local.steepest_descent import LocalSteepestDescent
 from hexmend.study.bench.section import BenchSection
-from hexmend_app.bench.windows import draw, measured, report, turn
+from hexmend_app.bench.windows import draw, measure_meshes, report, run_event_loop
 
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
@@ -23,7 +23,7 @@ _SCRUBBED, _ITERATIONS, _STOPS = 200, 500, 5
 
 
 def _measure() -> dict[str, Any]:
-    return measured((make("bridge-sharp"), make("five-side", size=110450)), _row)
+    return measure_meshes((make("bridge-sharp"), make("five-side", size=110450)), _row)
 
 
 def _row(window: Window) -> dict[str, Any]:
@@ -46,45 +46,45 @@ def _row(window: Window) -> dict[str, Any]:
         "limit_mb": history.limit / (1 << 20),
         "iteration_mb": history.bytes / (1 << 20) / (len(numbers) - 1),
         "run_s": seconds,
-        "stop_ms": median(late for late, _ in stops),
+        "stop_ms": median(delay for delay, _ in stops),
         "stop_iteration_ms": median(iteration for _, iteration in stops),
     }
 
 
 def _run(window: Window, iterations: int) -> float:
-    """Run the fastest method, which fills the history soonest; return seconds."""
-    began = perf_counter()
+    """Run the fastest method to fill the history; return the seconds."""
+    start = perf_counter()
     window.session.run.start(Laplacian(), StoppingCriteria(tolerance=0, max_iterations=iterations))
     while window.session.run.busy:
-        turn(0.1)
-    return perf_counter() - began
+        run_event_loop(0.1)
+    return perf_counter() - start
 
 
 def _scrub(window: Window, numbers: np.ndarray) -> float:
-    """Median milliseconds from the selection of an iteration until view and panels are drawn."""
+    """Return the median milliseconds from the selection of an iteration until view and panels are drawn."""
     timeline, times = window.session.timeline, []
     for number in numbers:
-        began = perf_counter()
+        start = perf_counter()
         timeline.go(timeline.record, int(number))
         draw(window)
-        times.append(perf_counter() - began)
+        times.append(perf_counter() - start)
     return 1e3 * median(times)
 
 
 def _stop(window: Window) -> tuple[float, float]:
-    """Milliseconds from the command to stop local-sd until it ends, and those of one iteration."""
+    """Return the milliseconds from the stop of local-sd until it ends, and of one iteration."""
     window.session.document.preview(window.session.document.start)
     window.session.run.start(LocalSteepestDescent(), StoppingCriteria(tolerance=0, max_iterations=1_000_000))
     while window.session.run.record.newest < 3:
-        turn(0.05)
+        run_event_loop(0.05)
     ended: list[float] = []
     window.session.run.ended.connect(lambda result: ended.append(perf_counter()))
-    began = perf_counter()
+    start = perf_counter()
     window.session.run.stop()
     while not ended:
-        turn(0.02)
+        run_event_loop(0.02)
     last = window.session.run.record.rows[-1]
-    return 1e3 * (ended[0] - began), 1e3 * last["seconds"] / last["iteration"]
+    return 1e3 * (ended[0] - start), 1e3 * last["seconds"] / last["iteration"]
 
 
 def _lines(row: dict[str, Any]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Windows with meshes, for measurements; Qt is imported only after the display is checked."""
+"""Windows with meshes, for benchmarks; Qt is imported only after the check of the display."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
 _FRAMES = 40
-_PATIENCE = 60.0  # seconds for a frame
-_LONGEST = 300.0  # seconds for anything else
+_FRAME_TIMEOUT = 60.0  # seconds for a frame
+_TIMEOUT = 300.0  # seconds for anything else
 
 
-def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
-    """Measure each mesh in a new window; return a row for each, or the reason if there is no display."""
+def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) -> dict[str, Any]:
+    """Measure each mesh in a new window; return one row each, or the reason if there is no display."""
     try:
         check_display()
     except DisplayError as error:
@@ -40,7 +40,7 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
         window.build_features()
         window.build_canvas()
         window.session.document.replace(State.of(mesh), Path(f"{mesh.name}.vtu"))
-        turn(0.5)  # until the layout has settled
+        run_event_loop(0.5)  # until the layout has settled
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
         document = window.session.document
         document.commit("measured", document.now)  # otherwise closing would ask to save
@@ -50,17 +50,17 @@ def measured(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any]]) ->
     return {"meshes": rows}
 
 
-def turning_ms(window: Window) -> float:
+def rotation_frame_ms(window: Window) -> float:
     """Return the median milliseconds per frame while the camera moves around the mesh."""
     canvas, times = window.canvas, []
-    turn(0.5)  # until the shaded frame is drawn
+    run_event_loop(0.5)  # until the shaded frame is drawn
     for _ in range(_FRAMES):
         canvas.panes.turning()
         canvas.viewport.camera.Azimuth(4)
         canvas.panes.eye.reset_depth()
-        began = perf_counter()
+        start = perf_counter()
         draw(window)
-        times.append(perf_counter() - began)
+        times.append(perf_counter() - start)
     return 1e3 * median(times)
 
 
@@ -71,44 +71,44 @@ def draw(window: Window) -> None:
     interactor, swapped = window.canvas.interactor, []
     connection = interactor.frameSwapped.connect(lambda: swapped.append(True))
     interactor.update()
-    began = perf_counter()
+    start = perf_counter()
     while not swapped:
         QApplication.processEvents()
-        if perf_counter() - began > _PATIENCE:
-            raise HexmendError("the window draws no frame: is it hidden?")
+        if perf_counter() - start > _FRAME_TIMEOUT:
+            raise HexmendError("the window does not draw: is it hidden?")
     interactor.frameSwapped.disconnect(connection)
 
 
 def report(figures: dict[str, Any], lines: Callable[[dict[str, Any]], Iterable[str]]) -> list[str]:
-    """Return the lines that a section prints: those of each mesh's row, or the reason if there are none."""
+    """Return the printed lines of a section: the lines of each row, or the reason why it was skipped."""
     skipped = [f"skipped: {figures['skipped']}"] if "skipped" in figures else []
     return skipped + [line for row in figures["meshes"] for line in lines(row)]
 
 
 def save_and_wait(session: Session, path: str | Path) -> None:
-    """Save the mesh, or for a session's suffix the session, and wait until it is written; raise its error."""
+    """Save the mesh, or with the suffix of sessions the session, and wait; raise an error of the task."""
     saving = session.commands.save_in_background(path)
-    until(lambda: saving.over)
+    wait_until(lambda: saving.over)
     if saving.error is not None:
         raise saving.error
 
 
 def end_run(session: Session) -> None:
-    """Stop the run, if there is one, and wait until it is recorded."""
+    """Stop the run, if there is one, and wait for its end."""
     session.run.stop()
-    until(lambda: not session.run.busy)
+    wait_until(lambda: not session.run.busy)
 
 
-def until(condition: Callable[[], bool]) -> None:
+def wait_until(condition: Callable[[], bool]) -> None:
     """Run the event loop until a condition holds."""
-    began = perf_counter()
+    start = perf_counter()
     while not condition():
-        turn(0.02)
-        if perf_counter() - began > _LONGEST:
-            raise HexmendError(f"the window has not responded for {_LONGEST:.0f} s")
+        run_event_loop(0.02)
+        if perf_counter() - start > _TIMEOUT:
+            raise HexmendError(f"the window has not responded for {_TIMEOUT:.0f} s")
 
 
-def turn(seconds: float) -> None:
+def run_event_loop(seconds: float) -> None:
     """Run Qt's event loop for some seconds; polling would take the processor from the worker."""
     from PySide6.QtCore import QEventLoop, QTimer
 

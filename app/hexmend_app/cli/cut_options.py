@@ -1,4 +1,4 @@
-"""The options that cut the mesh open, in a short notation for planes and boxes."""
+"""Options that cut the mesh, in a short notation for planes and boxes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 from typing import Any
 
-from hexmend_app.cli.numbers import direction, numbers, wrong
+from hexmend_app.cli.numbers import direction, invalid_value, numbers
 from hexmend_app.picture import Box, CutStyle, Plane
 
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -16,13 +16,13 @@ KEYS = frozenset({"planes", "box", "style"})
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Add the options to a parser."""
     shape = parser.add_mutually_exclusive_group()
     shape.add_argument(
         "--clip",
         metavar="PLANE",
         action="append",
-        help="x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5); again for another plane",
+        help="x, y, z or nx,ny,nz, and :position from 0 to 1 through the mesh (x:0.5); repeat for more planes",
     )
     shape.add_argument(
         "--clip-box",
@@ -58,7 +58,7 @@ def parse_plane(text: str) -> Plane:
     normal = _AXES.get(axis.lower()) or direction(axis, "--clip")
     (share,) = numbers(position, 1, "--clip") if position else (0.5,)
     if not 0 <= share <= 1:
-        raise wrong("--clip", text, "a position from 0 to 1, as in x:0.5")
+        raise invalid_value("--clip", text, "a position from 0 to 1, as in x:0.5")
     return Plane(normal, share)
 
 
@@ -67,5 +67,5 @@ def parse_box(text: str) -> Box:
     shares = numbers(text, 6, "--clip-box")
     low, high = shares[::2], shares[1::2]
     if min(shares) < 0 or max(shares) > 1 or any(a > b for a, b in zip(low, high, strict=True)):
-        raise wrong("--clip-box", text, "for each axis two positions from 0 to 1, the lower first")
+        raise invalid_value("--clip-box", text, "for each axis two positions from 0 to 1, the lower first")
     return Box(low, high, shares=True)

@@ -1,4 +1,4 @@
-"""The figures of `hexmend study` that show meshes, registered in the entry-point group `hexmend.figures`."""
+"""Mesh figures of `hexmend study`, registered in the entry-point group `hexmend.figures`."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ from hexmend_app.scene.render.rasters import aim
 #: Width and height in pixels.
 SIZE = (900, 600)
 
-#: Weight of the colour bar when 256 colours are chosen.
+#: Weight of the colour bar in the selection of 256 colours.
 _BAR = 30
 
 #: Margin of a section around the inner boundary, relative to the boundary's extent.
 _AROUND = 0.35
 
-#: Offset of a section's plane from the middle, where elements have their centres, relative to the same extent.
+#: Offset of a section's plane from the middle, which contains hex centres, relative to the same extent.
 _ASIDE = -0.02
 
 #: Factor that flattens the layer of hexes on the inner boundary, so that the picture shows the surface.
@@ -42,8 +42,8 @@ _PRESSED = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class _Shown:
-    """A mesh, its look, and points (k, 3) that the picture must contain."""
+class _Subject:
+    """Mesh of a figure, its look, and points (k, 3) that the picture must contain."""
 
     mesh: Mesh
     look: Look
@@ -56,44 +56,44 @@ def draw(figure: MeshFigure, mesh: Mesh, path: Path) -> None:
     Raises
     ------
     GraphicsError
-        Where nothing can be drawn here.
+        If OpenGL is not available.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     prepare_off_screen()
-    shown = _SHOWN[figure.shows](mesh)
-    subject, page = PageMesh.of(shown.mesh), Page(pixels=SIZE)
-    layout = Layout.of(Scene.of(shown.look, page=page), [subject])
+    subject = _SUBJECTS[figure.shows](mesh)
+    page_mesh, page = PageMesh.of(subject.mesh), Page(pixels=SIZE)
+    layout = Layout.of(Scene.of(subject.look, page=page), [page_mesh])
     bar = 0 if layout.bar is TextPlace.NONE else layout.strip
     camera = vtkCamera()
-    aim(camera, Camera(figure.view, up=figure.up), shown.places, layout.panel[0] / layout.panel[1])
-    sheet = draw_page(Scene.of(shown.look, pose_of(camera, figure.up), page=page), [subject])
+    aim(camera, Camera(figure.view, up=figure.up), subject.places, layout.panel[0] / layout.panel[1])
+    renderer = draw_page(Scene.of(subject.look, pose_of(camera, figure.up), page=page), [page_mesh])
     if format_of(path) != "PNG":
-        sheet.write(path)
+        renderer.write(path)
         return
     with atomic_write(path) as temporary:
-        _with_palette(sheet.image(), bar).save(temporary, format="PNG")
+        _with_palette(renderer.image(), bar).save(temporary, format="PNG")
 
 
 def _with_palette(image: Image.Image, bar: int) -> Image.Image:
-    """Reduce a picture to 256 colours, for a third of the size; small areas and the bar (pixels high) weigh more."""
+    """Reduce a picture to 256 colours; small areas and the colour bar of height `bar` in pixels have more weight."""
     pixels = np.asarray(image)
-    seen = np.concatenate([pixels.reshape(-1, 3), np.tile(pixels[image.height - bar :].reshape(-1, 3), (_BAR, 1))])
-    colours, counts = count_colours(seen)
+    weighted = np.concatenate([pixels.reshape(-1, 3), np.tile(pixels[image.height - bar :].reshape(-1, 3), (_BAR, 1))])
+    colours, counts = count_colours(weighted)
     palette = Image.fromarray(np.repeat(colours, np.sqrt(counts).astype(int), axis=0)[None]).quantize(256, kmeans=3)
     return image.quantize(palette=palette, dither=Image.Dither.NONE)
 
 
-def _geometry(mesh: Mesh) -> _Shown:
-    return _Shown(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
+def _geometry(mesh: Mesh) -> _Subject:
+    return _Subject(mesh, Look(neutral=True, edges=False, structure=Structure(sharp=True)), mesh.points)
 
 
-def _mesh(mesh: Mesh) -> _Shown:
-    return _Shown(mesh, Look(neutral=True), mesh.points)
+def _mesh(mesh: Mesh) -> _Subject:
+    return _Subject(mesh, Look(neutral=True), mesh.points)
 
 
-def _domain(mesh: Mesh) -> _Shown:
-    """The inner boundary of the mesh, within the outline of the whole mesh."""
+def _domain(mesh: Mesh) -> _Subject:
+    """Show the inner boundary within the outline of the mesh."""
     surface = _inside(mesh)
     layer = np.flatnonzero(surface[mesh.hexes].sum(axis=1) >= 4)
     ends = mesh.hexes[layer][:, EDGES].reshape(-1, 2)
@@ -102,22 +102,22 @@ def _domain(mesh: Mesh) -> _Shown:
     points = mesh.points.copy()
     points[above] = points[below] + _PRESSED * (points[above] - points[below])
     isolation = Isolation(tuple(layer.tolist()), rings=0)
-    return _Shown(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
+    return _Subject(mesh.with_points(points), Look(isolation=isolation, neutral=True, edges=False), mesh.points)
 
 
-def _section(mesh: Mesh) -> _Shown:
-    """The half behind the middle plane y of the inner boundary, and the mesh around it."""
+def _section(mesh: Mesh) -> _Subject:
+    """Show the half behind the middle y plane of the inner boundary, and the mesh around it."""
     points = mesh.points[_inside(mesh)]
     low, high = points.min(axis=0), points.max(axis=0)
     clip = PlaneClip.at((0.0, -1.0, 0.0), tuple((low + high) / 2 + _ASIDE * (high - low)))
     around = _AROUND * (high - low).max()
     places = np.array([(x, (low + high)[1] / 2, z) for x in (low[0] - around, high[0] + around)
                        for z in (low[2] - around, high[2] + around)])  # fmt: skip
-    return _Shown(mesh, Look(clip=clip), places)
+    return _Subject(mesh, Look(clip=clip), places)
 
 
 def _inside(mesh: Mesh) -> np.ndarray:
-    """Nodes (n,) bool of boundary faces that are not on the mesh's bounding box."""
+    """Return a mask (n,) of the nodes of boundary faces that are not on the bounding box."""
     used = mesh.points[mesh.topology.used]
     ends = np.stack([used.min(axis=0), used.max(axis=0)])
     on_box = np.isclose(mesh.points[:, None], ends, atol=1e-9 * np.ptp(ends)).reshape(-1, 6)
@@ -127,7 +127,7 @@ def _inside(mesh: Mesh) -> np.ndarray:
     return nodes
 
 
-_SHOWN: dict[str, Callable[[Mesh], _Shown]] = {
+_SUBJECTS: dict[str, Callable[[Mesh], _Subject]] = {
     "geometry": _geometry,
     "mesh": _mesh,
     "domain": _domain,

@@ -1,4 +1,4 @@
-"""The interface of commands that draw without a window."""
+"""Commands that draw without a window."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexmend.cli.command import action
 
 
 class PictureCommand(NamedTuple):
-    """A command that draws: its declaration, and the module whose function `run` does the work."""
+    """Command that draws: its declaration, and the module whose function `run` implements it."""
 
     name: str
     help: str

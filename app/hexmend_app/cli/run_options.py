@@ -1,4 +1,4 @@
-"""The options of commands that run methods and draw the results."""
+"""Options of commands that run methods and draw the results."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend.smoothers import DEFAULT_METHOD, Smoother
 from hexmend.study.method_spec import parse_methods, split_names
 from hexmend.terminal_text import printable
 from hexmend_app.cli import scene_options
-from hexmend_app.cli.numbers import wrong
+from hexmend_app.cli.numbers import invalid_value
 from hexmend_app.picture import Scene, read_scene
 
 #: The value of `--methods` that runs no method.
@@ -25,7 +25,7 @@ _FIXED = ("page.width", "page.height", "page.pixels", "page.columns")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the options."""
+    """Add the options to a parser."""
     scene_options.accept_negative_values(parser)
     text = "see `hexmend methods` (default: mend); a FILE.toml is a recipe; none runs nothing"
     parser.add_argument("--methods", metavar="A,B,...", help=text)
@@ -40,34 +40,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def methods(args: argparse.Namespace) -> tuple[list[Smoother | Recipe], StoppingCriteria]:
     """Return the methods, and the limits of each run."""
     text = args.methods or DEFAULT_METHOD
-    named = [] if text == NONE else split_names(text)
-    settings = method_settings(args, [name for name in named if not name.endswith(".toml")])
-    return parse_methods(named, settings, given_limits(args)), stopping_criteria(args)
+    method_names = [] if text == NONE else split_names(text)
+    settings = method_settings(args, [name for name in method_names if not name.endswith(".toml")])
+    return parse_methods(method_names, settings, given_limits(args)), stopping_criteria(args)
 
 
 def names(args: argparse.Namespace, count: int) -> list[str]:
     """Return the names of the original mesh and of the results of `count` methods; an empty list if none are given."""
     given = [printable(name.strip()) for name in args.names.split(",")] if args.names else []
     if given and (len(given) != count + 1 or len(set(given)) != len(given) or not all(given)):
-        raise wrong("--names", args.names, f"{count + 1} different names separated by commas, the mesh as given first")
+        expected = f"{count + 1} different names separated by commas, the original mesh first"
+        raise invalid_value("--names", args.names, expected)
     return given
 
 
 def scene(args: argparse.Namespace) -> Scene:
     """Return the scene of the file, overridden by the options."""
-    found = read_scene(args.scene) if args.scene else Scene()
+    base = read_scene(args.scene) if args.scene else Scene()
     if not args.scene and not args.metric:
-        args.metric = found.colours.metric  # with the range that suits it
-    return scene_options.with_options(args, found)
+        args.metric = base.colours.metric  # sets its default range too
+    return scene_options.with_options(args, base)
 
 
 def words(args: argparse.Namespace, without: Collection[str] = ()) -> list[str]:
-    """Return the options that were given, as words of a command line."""
+    """Return the given options as words of a command line."""
     return _words({name: value for name, value in vars(args).items() if name not in without})
 
 
 def method_words(args: argparse.Namespace) -> list[str]:
-    """Return the options for the methods, as words for a command that draws nothing; an empty list without methods."""
+    """Return the options of the methods as words of a command without pictures; an empty list without methods."""
     if args.methods == NONE:
         return []
     known = ("set", "boundary", *(limit.name for limit in declared(StoppingCriteria)))
@@ -75,14 +76,14 @@ def method_words(args: argparse.Namespace) -> list[str]:
 
 
 def _words(values: Mapping[str, object]) -> list[str]:
-    found: list[str] = []
+    result: list[str] = []
     for name, value in values.items():
         option = f"--{name.replace('_', '-')}"
         if value in (None, False, []):
             continue
         if value is True or value == "true":
-            found.append(option)
+            result.append(option)
             continue
-        for one in value if isinstance(value, list) else [value]:
-            found += [f"{option}={one}"] if one.startswith("-") else [option, one]
-    return found
+        for text in value if isinstance(value, list) else [value]:
+            result += [f"{option}={text}"] if text.startswith("-") else [option, text]
+    return result

@@ -1,7 +1,7 @@
-"""The options of commands that draw a mesh: one for each key of a scene's tables.
+"""Options of commands that draw a mesh, one for each key of the tables of a scene.
 
-The key `margin` of the table `page` is the option `--page-margin`, unless `_SHORT` has a shorter name; help and bounds
-are those of the table. Some keys have another notation here, and are left out by `_BY_HAND` or the command.
+The key `margin` of the table `page` becomes the option `--page-margin`, unless `_SHORT` has a shorter name; help and
+bounds come from the table. Keys with another notation are excluded by `_OTHER_NOTATION` or by the command.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS
 from hexmend.toml_text import parse_toml
 from hexmend_app.cli import cut_options
-from hexmend_app.cli.numbers import direction, numbers, span, wrong
+from hexmend_app.cli.numbers import direction, invalid_value, numbers, span
 from hexmend_app.codec.config_table import ConfigTable, Option, options_of
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.picture import Camera, Cut, Range, Scene, Show
@@ -27,7 +27,7 @@ from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.colour_map import value_maps
 from hexmend_app.picture.layer_switch import ordered_layers
 
-#: Tables of a scene that decide what is seen of the mesh, and those that decide how the page looks.
+#: Tables of a scene for the mesh, and for the page.
 MESH_TABLES, PAGE_TABLES = ("cut", "colours", "show"), ("camera", "lines", "bar", "axes", "page")
 
 _SHORT = {
@@ -43,26 +43,26 @@ _SHORT = {
     "show.quality": "quality-range",
 }
 
-#: Keys that every command offers, whichever tables it names.
+#: Keys that are options of every command, whatever its tables.
 _ALWAYS = frozenset({"camera.from", "page.shading"})
 
-_BY_HAND = frozenset(f"cut.{key}" for key in cut_options.KEYS)
+_OTHER_NOTATION = frozenset(f"cut.{key}" for key in cut_options.KEYS)
 
 
 class _KeyOption(NamedTuple):
-    """The option of a key; a flag sets a switch to the opposite of its default."""
+    """Option of a key; a flag inverts the default of a switch."""
 
     table: str
     key: Option
     help: str
 
     @property
-    def place(self) -> str:
+    def full_name(self) -> str:
         return f"{self.table}.{self.key.name}"
 
     @property
     def name(self) -> str:
-        name = _SHORT.get(self.place, f"{self.table}-{self.key.name}".replace("_", "-"))
+        name = _SHORT.get(self.full_name, f"{self.table}-{self.key.name}".replace("_", "-"))
         return f"--no-{name}" if self.key.default is True else f"--{name}"
 
     @property
@@ -71,8 +71,9 @@ class _KeyOption(NamedTuple):
 
 
 def _key_options() -> tuple[_KeyOption, ...]:
-    """The options of all tables, in the order of the scene's."""
-    tables = [one for one in options_of(Scene) if isinstance(one.kind, type) and issubclass(one.kind, ConfigTable)]
+    """Return the options of all tables in the order of the scene."""
+    keys = options_of(Scene)
+    tables = [key for key in keys if isinstance(key.kind, type) and issubclass(key.kind, ConfigTable)]
     return tuple(
         _KeyOption(table.name, key, helps(table.kind).get(key.field, ""))
         for table in tables
@@ -81,43 +82,45 @@ def _key_options() -> tuple[_KeyOption, ...]:
 
 
 def accept_negative_values(parser: argparse.ArgumentParser) -> None:
-    """Take -x and -1,0,0 for values; argparse takes all words but numbers that begin with a minus for options."""
+    """Accept -x and -1,0,0 as values; argparse takes words that begin with a minus for options, except numbers."""
     parser._negative_number_matcher = re.compile(r"-(\d|\.\d|inf\b|[xyz]$)")
 
 
 def add_arguments(
     parser: argparse.ArgumentParser, tables: Collection[str] = MESH_TABLES, without: Collection[str] = ()
 ) -> None:
-    """Declare the options.
+    """Add the options to a parser.
 
     Parameters
     ----------
     parser : ArgumentParser
     tables : collection of str
-        Names of tables of the scene, each key of which is an option.
+        Tables of the scene whose keys become options.
     without : collection of str
-        Keys that are left out, such as "page.pixels".
+        Excluded keys, such as "page.pixels".
     """
     cut_options.add_arguments(parser)
-    for one in _key_options():
-        if (one.table in tables or one.place in _ALWAYS) and one.place not in {*_BY_HAND, *without}:
-            text = one.help.replace("%", "%%")
-            if one.key.kind is bool:
-                text = f"Turn off: {text[:1].lower()}{text[1:]}" if one.key.default else text
-                parser.add_argument(one.name, action="store_true", help=text)
-            else:
-                parser.add_argument(one.name, metavar=_metavar(one.key), help=text + _limits(one.key))
+    for option in _key_options():
+        offered = option.table in tables or option.full_name in _ALWAYS
+        if not offered or option.full_name in {*_OTHER_NOTATION, *without}:
+            continue
+        text = option.help.replace("%", "%%")
+        if option.key.kind is bool:
+            text = f"Turn off: {text[:1].lower()}{text[1:]}" if option.key.default else text
+            parser.add_argument(option.name, action="store_true", help=text)
+        else:
+            parser.add_argument(option.name, metavar=_metavar(option.key), help=text + _limits(option.key))
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes; several "
-        "separated by commas",
+        help="draw irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes; separate "
+        "several by commas",
     )
-    parser.add_argument("--no-edges", action="store_true", help="leave the hexes' edges out")
+    parser.add_argument("--no-edges", action="store_true", help="do not draw the edges of the hexes")
 
 
 def _kinds(key: Option) -> tuple[Any, ...]:
-    """The types that a key's value can have, without None."""
+    """Return the types of a key's value except None."""
     union = get_origin(key.kind) is UnionType
     return tuple(kind for kind in (get_args(key.kind) if union else (key.kind,)) if kind is not NoneType)
 
@@ -129,7 +132,7 @@ def _metavar(key: Option) -> str:
 
 
 def _limits(key: Option) -> str:
-    """Bounds and default as a sentence to append; "" for none."""
+    """Return bounds and default as a sentence to append; "" without any."""
     default = f"default {key.default}" if isinstance(key.default, int | float | str) and key.default != "" else ""
     text = ", ".join(filter(None, (key.bounds.strip(), default)))
     return f" {text[0].upper()}{text[1:]}." if text else ""
@@ -146,71 +149,71 @@ def look_of(args: argparse.Namespace, mesh: Mesh) -> Look:
 
 
 def with_options(args: argparse.Namespace, scene: Scene, **keys: dict[str, Any]) -> Scene:
-    """Return a scene in which the options take the place of its own keys.
+    """Return a scene whose keys are overridden by the options.
 
     Parameters
     ----------
     args : Namespace
-        As parsed by a parser with the options of `add_arguments`.
+        From a parser with the options of `add_arguments`.
     scene : Scene
     **keys : dict
-        Further keys by table.
+        More keys, by table.
 
     Raises
     ------
     ParameterError
-        For a value that cannot be used.
+        If a value is invalid.
     """
     keys = {table: {**given, **keys.get(table, {})} for table, given in _given(args).items()}
     keys["cut"] |= cut_options.cut_keys(args)
-    fresh: dict[str, Any] = {}
+    replaced: dict[str, Any] = {}  # whole tables
     if args.clip or args.clip_box:
-        fresh["cut"] = Cut()
+        replaced["cut"] = Cut()
     if args.metric:
         keys["colours"] = {"range": _range_of(args.metric), **keys["colours"]}
     if args.quality_range:
-        fresh["show"] = Show(inverted=keys["show"]["quality"][0] <= 0)
+        replaced["show"] = Show(inverted=keys["show"]["quality"][0] <= 0)
     if args.view:
-        fresh["camera"] = Camera(parallel=scene.camera.parallel, up=scene.camera.up)
+        replaced["camera"] = Camera(parallel=scene.camera.parallel, up=scene.camera.up)
     if args.no_edges:
         keys["lines"]["edges"] = 0.0
     if args.structure:
-        fresh["structure"] = _parse_structure(args.structure)
-    scene = replace(scene, **fresh)
+        replaced["structure"] = _parse_structure(args.structure)
+    scene = replace(scene, **replaced)
     return replace(scene, **{name: replace(getattr(scene, name), **table) for name, table in keys.items() if table})
 
 
 def _given(args: argparse.Namespace) -> dict[str, dict[str, Any]]:
-    """Return the keys whose options are given, by table and field."""
-    found: dict[str, dict[str, Any]] = {}
-    for one in _key_options():
-        table, value = found.setdefault(one.table, {}), getattr(args, one.dest, None)
+    """Return the values of the given options, by table and field."""
+    tables: dict[str, dict[str, Any]] = {}
+    for option in _key_options():
+        table, value = tables.setdefault(option.table, {}), getattr(args, option.dest, None)
         if value is True:
-            table[one.key.field] = not one.key.default
+            table[option.key.field] = not option.key.default
         elif value:
-            parse = _NOTATIONS.get(one.place)
-            table[one.key.field] = parse(value) if parse else _parse(value, one)
-    return found
+            parse = _NOTATIONS.get(option.full_name)
+            table[option.key.field] = parse(value) if parse else _parse(value, option)
+    return tables
 
 
-def _parse(text: str, one: _KeyOption) -> Any:
-    """Parse a value: numbers are separated by commas, and a table is written as in TOML."""
-    kinds = _kinds(one.key)
+def _parse(text: str, option: _KeyOption) -> Any:
+    """Parse a value: text, numbers separated by commas, or a table as in TOML."""
+    kinds = _kinds(option.key)
     if is_dataclass(kinds[0]):
-        return parse_toml(f"value = {text}", one.name)["value"]
+        return parse_toml(f"value = {text}", option.name)["value"]
     if kinds == (float,):
-        return numbers(text, 1, one.name)[0]
-    simple = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, str)]
-    if len(simple) == len(kinds):
+        return numbers(text, 1, option.name)[0]
+    texts = [kind for kind in kinds if isinstance(kind, type) and issubclass(kind, str)]
+    if len(texts) == len(kinds):
         return text
     try:
         words = text.strip("[] ").split(",")
-        found = tuple(int(word) if re.fullmatch(r"\s*-?\d+\s*", word) else float(word) for word in words)
+        values = tuple(int(word) if re.fullmatch(r"\s*-?\d+\s*", word) else float(word) for word in words)
     except ValueError:
-        if simple:
+        if texts:
             return text
-        raise wrong(one.name, text, "numbers separated by commas") from None
-    return found[0] if len(found) == 1 and {int, float} & set(kinds) else found
+        raise invalid_value(option.name, text, "numbers separated by commas") from None
+    return values[0] if len(values) == 1 and {int, float} & set(kinds) else values
 
 
 def _parse_view(text: str) -> str | tuple[float, ...]:
@@ -219,7 +222,7 @@ def _parse_view(text: str) -> str | tuple[float, ...]:
 
 def _parse_map(text: str) -> str:
     if text not in value_maps():
-        raise wrong("--colour-map", text, f"one of {', '.join(value_maps())}")
+        raise invalid_value("--colour-map", text, f"one of {', '.join(value_maps())}")
     return text
 
 
@@ -228,17 +231,17 @@ def _parse_range(text: str) -> Range | tuple[float, ...]:
 
 
 def _parse_structure(text: str) -> Structure:
-    names, known = text.split(","), [one.name for one in ordered_layers() if one.name != "original"]
+    names, known = text.split(","), [layer.name for layer in ordered_layers() if layer.name != "original"]
     structure = Structure()
     for name in names:
         if name not in known:
-            raise wrong("--structure", text, f"names among {', '.join(known)}, separated by commas")
+            raise invalid_value("--structure", text, f"names among {', '.join(known)}, separated by commas")
         structure = structure.switched(name, True)
     return structure
 
 
 def _range_of(metric: str) -> Range | tuple[float, float]:
-    """Return the range of colours that suits a metric; inverted hexes, which are negative, have a separate colour."""
+    """Return the default colour range of a metric; inverted hexes, which are negative, have a separate colour."""
     low, high = METRICS[metric].full_range
     return (max(low, 0.0), high) if isfinite(low) and isfinite(high) else Range.FITTED
 

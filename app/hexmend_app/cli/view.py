@@ -1,4 +1,4 @@
-"""The command `hexmend [MESH]`: the viewer."""
+"""The command `hexmend [MESH]`, which opens the viewer."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import argparse
 
 
 class ViewCommand:
-    """The command that opens the window."""
+    """Command that opens the viewer."""
 
     name = "view"
     help = "Open the viewer; without a mesh, it opens the bundled demo mesh."
 
     def arguments(self, parser: argparse.ArgumentParser) -> None:
-        """Declare the arguments."""
+        """Add the arguments to a parser."""
         parser.add_argument("mesh", metavar="MESH", nargs="?", help="the mesh file")
 
     def run(self, args: argparse.Namespace) -> int:

@@ -1,4 +1,4 @@
-"""A still picture of a mesh in a notebook."""
+"""Still picture of a mesh in a notebook."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def still(mesh: Mesh, size: tuple[int, int]) -> bytes:
     Raises
     ------
     GraphicsError
-        If OpenGL is missing.
+        If OpenGL is not available.
     """
     prepare_off_screen()
     from hexmend_app.picture import Page, Scene

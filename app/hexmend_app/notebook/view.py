@@ -1,4 +1,4 @@
-"""An interactive view of a mesh in a notebook, by PyVista."""
+"""Interactive view of a mesh in a notebook, by PyVista."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend_app.scene.render.graphics import prepare_off_screen
 
 
 def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
-    """Return a PyVista plotter in which the mesh's surface is drawn, coloured by a metric.
+    """Return a PyVista plotter with the surface of a mesh, coloured by a metric.
 
     Parameters
     ----------
@@ -26,8 +26,8 @@ def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
     ParameterError
         If there is no metric of that name.
     """
-    declared = METRICS[metric]
-    values = declared.of(mesh.points, mesh.hexes, measure(mesh.points, mesh.hexes))
+    quantity = METRICS[metric]
+    values = quantity.of(mesh.points, mesh.hexes, measure(mesh.points, mesh.hexes))
     prepare_off_screen()
     import pyvista as pv
 
@@ -35,15 +35,15 @@ def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
 
     faces = Skin(mesh).visible()
     skin = pv.PolyData.from_regular_faces(faces.places(mesh.points), faces.quads)
-    skin.cell_data[declared.title] = values[faces.hexes]
-    made = pv.Plotter(**options)
-    made.add_mesh(skin, scalars=declared.title, clim=_range(declared), show_edges=True, edge_opacity=0.5)
-    made.add_axes()
-    return made
+    skin.cell_data[quantity.title] = values[faces.hexes]
+    result = pv.Plotter(**options)
+    result.add_mesh(skin, scalars=quantity.title, clim=_range(quantity), show_edges=True, edge_opacity=0.5)
+    result.add_axes()
+    return result
 
 
 def view(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
-    """Return what PyVista's `Plotter.show` returns for the mesh's surface; see `hexmend.notebook.view`.
+    """Show the surface of a mesh, and return the result of `pyvista.Plotter.show`; see `hexmend.notebook.view`.
 
     Raises
     ------
@@ -52,15 +52,13 @@ def view(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
     HexmendError
         If PyVista's packages for notebooks are not installed.
     """
-    made = plotter(mesh, metric, notebook=True, window_size=[800, 560])
+    result = plotter(mesh, metric, notebook=True, window_size=[800, 560])
     try:
-        return made.show(jupyter_backend=options.pop("jupyter_backend", "html"), return_viewer=True, **options)
+        return result.show(jupyter_backend=options.pop("jupyter_backend", "html"), return_viewer=True, **options)
     except ImportError as error:
-        raise HexmendError(
-            f'the view needs a package that is not installed ({error}): pip install "hexmend[notebook]"'
-        ) from None
+        raise HexmendError(f'the view needs a missing package ({error}): pip install "hexmend[notebook]"') from None
 
 
 def _range(metric: Metric) -> tuple[float, float] | None:
-    """Return the metric's own range if it is finite, so that the colours of two meshes can be compared."""
+    """Return the range of a metric if it is finite, which makes the colours of two meshes comparable."""
     return metric.full_range if all(map(math.isfinite, metric.full_range)) else None

@@ -1,4 +1,4 @@
-"""The data of a report: the original mesh and the results of methods."""
+"""Data of a report: the original mesh and the results of methods."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ INITIAL = "initial"
 
 @dataclass(frozen=True)
 class Source:
-    """The file of a mesh.
+    """File of a mesh.
 
     Parameters
     ----------
@@ -51,12 +51,12 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Version:
-    """The original mesh, or the result of a method.
+    """Original mesh, or result of a method.
 
     Parameters
     ----------
     name : str
-        In captions and legends.
+        Name in captions and legends.
     mesh : Mesh
     figures : ElementQuality
     summary : Summary
@@ -102,11 +102,11 @@ class Case:
     versions : tuple of Version
         The original mesh first.
     failed : tuple of Row
-        Of methods without a result.
+        Rows of methods without a result.
     stop : StoppingCriteria
         Limits of each method's run.
     interrupted : bool
-        The user ended it before the last method was done.
+        True if the user ended the runs early.
     """
 
     name: str
@@ -118,8 +118,8 @@ class Case:
 
     @property
     def norm(self) -> ObjectiveNorm:
-        """The p and offset of the objective in tables that compare methods."""
-        return common_norm(one.row for one in self.versions if one.row is not None)
+        """Norm (p and offset) of the objective in tables that compare methods."""
+        return common_norm(version.row for version in self.versions if version.row is not None)
 
     @property
     def initial(self) -> Version:
@@ -128,16 +128,16 @@ class Case:
 
 
 def source_of(path: str) -> tuple[Mesh, Source]:
-    """Read a mesh, and return it with its file's path, size and digest.
+    """Read a mesh; return it with the path, size and digest of its file.
 
     Raises
     ------
     FileError
-        For a file that cannot be read.
+        If the file cannot be read.
     """
-    began = perf_counter()
+    start = perf_counter()
     mesh = read(path)
-    seconds = perf_counter() - began
+    seconds = perf_counter() - start
     try:
         with open(path, "rb") as file:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
@@ -154,7 +154,7 @@ def run_methods(
     names: Sequence[str] = (),
     watch: Watch | None = None,
 ) -> Case:
-    """Run methods on a mesh, each from the original mesh; the others run even if one fails.
+    """Run methods on a mesh, each from the original mesh; a failed method does not end the others.
 
     Parameters
     ----------
@@ -164,13 +164,13 @@ def run_methods(
     stop : StoppingCriteria
         Limits of each run; a recipe has its own.
     names : sequence of str
-        Of the original mesh and the results, in this order; missing names are those of the methods.
+        Names of the original mesh and of the results, in this order; by default, the names of the methods.
     watch : callable, optional
         As in `hexmend.study.compare.compare`.
     """
     versions, failed = [Version.of(names[0] if names else INITIAL, mesh)], []
 
-    @uninterrupted  # a signal does not discard a finished run
+    @uninterrupted  # a signal must not discard a finished run
     def add(number: int, row: Row, runs: Sequence[Run]) -> None:
         if row.mesh is None:
             failed.append(row)
@@ -178,26 +178,26 @@ def run_methods(
             name = names[number] if number < len(names) else row.method
             versions.append(Version.of(name, row.mesh, row, runs[0].result() if runs else None))
 
-    continue_ = True
+    proceed = True
     try:
         for number, method in enumerate(methods, 1):
             runs: list[Run] = []
 
-            def seen(run: Run, runs: list[Run] = runs) -> Any:
+            def watch_run(run: Run, runs: list[Run] = runs) -> Any:
                 runs[:] = [run]
                 return watch(run) if watch is not None else None
 
-            row, continue_ = run_one(mesh, method, stop, seen)
+            row, proceed = run_one(mesh, method, stop, watch_run)
             add(number, row, runs)
-            if not continue_:
+            if not proceed:
                 break
     except KeyboardInterrupt:  # between two runs
-        continue_ = False
-    return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not continue_)
+        proceed = False
+    return Case(printable(mesh.name), source, tuple(versions), tuple(failed), stop, interrupted=not proceed)
 
 
 def command_line(words: Sequence[str]) -> str:
-    """Return a command as text for a shell; undecodable bytes of a path are kept.
+    """Return a command as text for a shell; undecodable bytes of paths are preserved.
 
     >>> command_line(["report", "two words.vtk"])
     "hexmend report 'two words.vtk'"

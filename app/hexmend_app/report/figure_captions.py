@@ -1,4 +1,4 @@
-"""The captions of a figure set, and the commands that draw it again."""
+"""Captions of a figure set, and the commands that draw it."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from hexmend.report.markdown import escape
 from hexmend.terminal_text import printable
 from hexmend_app.report.figure_set import Figure
 
-#: Head of the file of commands.
+#: First comment of commands.sh.
 _HEAD = "# Each line draws a figure again. Paths are relative to the folder in which Hexmend was run."
 
 #: Suffixes of pictures that Markdown can show.
-_SHOWN = (".png", ".svg")
+_MARKDOWN_PICTURES = (".png", ".svg")
 
 
 def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str]]) -> list[Path]:
@@ -28,15 +28,16 @@ def write_captions(folder: Path, title: str, figures: Sequence[tuple[Figure, str
     figures : sequence of (Figure, command)
     """
     texts, lines = [f"# {escape(title)}"], ["#!/bin/sh", _HEAD]
-    done: set[str] = set()
+    written: set[str] = set()
     for figure, command in figures:
         names = ", ".join(f"[{path.name}]({path.name})" for path in figure.paths)
-        shown = [f"![{escape(figure.part)}]({path.name})\n" for path in figure.paths if path.suffix in _SHOWN][:1]
-        texts += ["\n".join([f"## {figure.part}\n", *shown, f"{escape(figure.caption)} ({names})"])]
+        shown = next((path for path in figure.paths if path.suffix in _MARKDOWN_PICTURES), None)
+        picture = [f"![{escape(figure.part)}]({shown.name})\n"] if shown is not None else []
+        texts += ["\n".join([f"## {figure.part}\n", *picture, f"{escape(figure.caption)} ({names})"])]
         lines.append(f"\n# {printable(figure.part)}: {printable(figure.caption)}")
-        if command not in done:
+        if command not in written:
             lines.append(command)
-        done.add(command)
+        written.add(command)
     captions, script = folder / "captions.md", folder / "commands.sh"
     write_text(captions, "\n\n".join(texts) + "\n")
     write_text(script, "\n".join(lines) + "\n")

@@ -1,4 +1,4 @@
-"""The figure set of a mesh: before and after with one camera and cut, distributions, convergence, the table."""
+"""Figure set of a mesh: pictures before and after with one camera and cut, distributions, convergence and table."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from hexmend.report.run_figures import write_convergence, write_distributions
 from hexmend.report.tables import Table
 from hexmend_app.picture import Colours, Cut, PicturePanel, Plane, Scene, TextPlace
 from hexmend_app.picture.appearance import Traces
+from hexmend_app.report.caption_phrases import coloured_by, cut_open, listed, opposite, seen_from
 from hexmend_app.report.case import Case
-from hexmend_app.report.wording import coloured_by, cut_open, listed, opposite, seen_from
 from hexmend_app.scene.page.page_mesh import PageMesh
 from hexmend_app.scene.page.page_renderer import draw_page
 
-#: Maximum number of panels in one row, height by width of a panel, and heights of caption and colour bar in mm.
+#: Maximum number of panels in a row, height relative to width of a panel, and heights of caption and bar in mm.
 _IN_A_ROW, _PANEL, _AROUND = 3, 0.9, (5.0, 10.0)
 
 
 @dataclass(frozen=True)
 class Style:
-    """The style of a figure set.
+    """Style of a figure set.
 
     Parameters
     ----------
     scene : Scene
         Camera, cut and colours of the meshes.
     width : float
-        Of a figure, in mm.
+        Width of a figure in mm.
     formats : tuple of str
         Suffixes without the dot: png, pdf, svg.
     """
@@ -44,7 +44,7 @@ class Style:
 
 @dataclass(frozen=True)
 class Figure:
-    """A written figure.
+    """Figure that has been written.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Figure:
 
 
 def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] = ()) -> Iterator[Figure]:
-    """Write the figures one by one; a generator.
+    """Write the figures and yield each of them.
 
     Parameters
     ----------
@@ -69,12 +69,12 @@ def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] =
     folder : Path
     style : Style
     parts : sequence of str
-        Of `PARTS`; all by default. A part without data is left out.
+        Names in `PARTS`; by default all. A part without data is omitted.
 
     Raises
     ------
     HexmendError
-        If OpenGL is missing, or a file cannot be written.
+        If OpenGL is not available, or a file cannot be written.
     """
     for part in parts or PARTS:
         figure = PARTS[part](case, folder, style)
@@ -82,14 +82,14 @@ def write_figures(case: Case, folder: Path, style: Style, parts: Sequence[str] =
             yield figure
 
 
-def write_behind(case: Case, folder: Path, style: Style) -> Figure:
-    """Write the figure `behind`, the meshes from the opposite side of `surface`; parameters as in `write_figures`."""
+def write_opposite_view(case: Case, folder: Path, style: Style) -> Figure:
+    """Write the figure `behind`: the meshes from the side opposite to `surface`; parameters as in `write_figures`."""
     scene = replace(style.scene, cut=Cut(), camera=opposite(style.scene.camera))
-    return _sheet(case, folder, style, "behind", scene, "whole, seen from the opposite side")
+    return _mesh_figure(case, folder, style, "behind", scene, "whole, seen from the opposite side")
 
 
 def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
-    """Check before the runs that the pages of the pictures can be drawn.
+    """Check that the pages of the pictures can be drawn, before any method runs.
 
     Parameters
     ----------
@@ -97,36 +97,36 @@ def check_pages(style: Style, versions: int, parts: Sequence[str] = ()) -> None:
     versions : int
         Number of meshes: the original mesh and the results.
     parts : sequence of str
-        Of `PARTS`; all by default.
+        Names in `PARTS`; by default all.
 
     Raises
     ------
     ParameterError
-        For a page with too many pixels, or too few.
+        If a page has too many or too few pixels.
     """
     if not parts or {"surface", "cut"} & set(parts):
         try:
             _paged(style, style.scene, [PicturePanel(mesh=number) for number in range(1, versions + 1)])
         except ParameterError as error:
             problem = f"{versions} picture{'s' * (versions > 1)} on a page {style.width:g} mm wide: {error}"
-            raise ParameterError(f"{problem}; choose another width, or other dpi in the scene") from None
+            raise ParameterError(f"{problem}; change the width, or the dpi in the scene") from None
 
 
 def _paged(style: Style, scene: Scene, panels: Sequence[PicturePanel]) -> Scene:
-    """Return a scene with panels on a page; with an exact camera, panels have the shape of the scene's page."""
+    """Return a scene with panels on a page; with an exact camera, panels have the aspect of the scene's page."""
     scene, count = stationary(scene), len(panels)
     columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
     caption, bar = _AROUND
-    wide, tall = scene.page.size
-    shape = _PANEL if scene.camera.stand is None else tall / wide
-    high = -(-count // columns) * (style.width / columns * shape + caption) + bar
-    page = replace(scene.page, width=style.width, height=high, pixels=None, columns=columns)
-    bar_of = replace(scene.bar, place=TextPlace.BELOW) if scene.bar.place is TextPlace.RIGHT else scene.bar
-    return replace(scene, page=page, panels=tuple(panels), bar=bar_of)
+    width, height = scene.page.size
+    aspect = _PANEL if scene.camera.stand is None else height / width
+    page_height = -(-count // columns) * (style.width / columns * aspect + caption) + bar
+    page = replace(scene.page, width=style.width, height=page_height, pixels=None, columns=columns)
+    bar_style = replace(scene.bar, place=TextPlace.BELOW) if scene.bar.place is TextPlace.RIGHT else scene.bar
+    return replace(scene, page=page, panels=tuple(panels), bar=bar_style)
 
 
 def stationary(scene: Scene) -> Scene:
-    """Return a scene without displacements and without panels: a set has a panel for each mesh."""
+    """Return a scene without displacements and panels; a figure set has one panel for each mesh."""
     moved = scene.colours.metric in DISPLACEMENT_QUANTITIES
     return replace(
         scene,
@@ -138,9 +138,9 @@ def stationary(scene: Scene) -> Scene:
 
 
 def table_of(case: Case) -> Table:
-    """Return the thesis's table of methods."""
+    """Return the table of methods as in the thesis."""
     summary = case.initial.summary
-    columns = {one.name: one.record(case.norm) for one in case.versions}
+    columns = {version.name: version.record(case.norm) for version in case.versions}
     columns |= {row.method: row.record(case.norm) for row in case.failed}
     title = f"{case.name}: {summary.hexes:,} hexes, {summary.free_nodes:,} free nodes"
     return comparison_table(title, columns)
@@ -148,7 +148,7 @@ def table_of(case: Case) -> Table:
 
 def _surface(case: Case, folder: Path, style: Style) -> Figure:
     scene = replace(style.scene, cut=Cut())
-    return _sheet(case, folder, style, "surface", scene, f"whole, {seen_from(scene.camera)}")
+    return _mesh_figure(case, folder, style, "surface", scene, f"whole, {seen_from(scene.camera)}")
 
 
 def _cut(case: Case, folder: Path, style: Style) -> Figure:
@@ -156,41 +156,40 @@ def _cut(case: Case, folder: Path, style: Style) -> Figure:
     if not scene.cut.planes and scene.cut.box is None:
         scene = replace(scene, cut=Cut((Plane(position=0.5),)))
     options = f"{cut_open(scene.cut)}, {seen_from(scene.camera)}"
-    return _sheet(case, folder, style, "cut", scene, options)
+    return _mesh_figure(case, folder, style, "cut", scene, options)
 
 
-def _sheet(case: Case, folder: Path, style: Style, part: str, scene: Scene, description: str) -> Figure:
-    """Draw a panel for each version, with one camera."""
-    panels = [PicturePanel(mesh=k, caption=one.name) for k, one in enumerate(case.versions, 1)]
-    subjects = [PageMesh(one.name, one.mesh, one.figures) for one in case.versions]
-    sheet = draw_page(_paged(style, scene, panels), subjects)
+def _mesh_figure(case: Case, folder: Path, style: Style, part: str, scene: Scene, description: str) -> Figure:
+    """Draw one panel for each version with the same camera."""
+    versions = case.versions
+    panels = [PicturePanel(mesh=number, caption=version.name) for number, version in enumerate(versions, 1)]
+    page_meshes = [PageMesh(version.name, version.mesh, version.figures) for version in versions]
+    renderer = draw_page(_paged(style, scene, panels), page_meshes)
     paths = [folder / f"{part}.{suffix}" for suffix in style.formats]
     for path in paths:
-        sheet.write(path)
-    inverted = any(one.figures.n_inverted for one in case.versions)
-    names, colours = listed([one.name for one in case.versions]), coloured_by(scene.colours, inverted)
+        renderer.write(path)
+    inverted = any(version.figures.n_inverted for version in versions)
+    names, colours = listed([version.name for version in versions]), coloured_by(scene.colours, inverted)
     text = f"{case.name}, {names}: {description}. {colours}"
     return Figure(part, text, tuple(paths))
 
 
 def _distributions(case: Case, folder: Path, style: Style) -> Figure:
-    counts = {one.name: one.record()["distribution"] for one in case.versions}
+    counts = {version.name: version.record()["distribution"] for version in case.versions}
     paths = tuple(folder / f"distributions.{suffix}" for suffix in style.formats)
     for path in paths:
         write_distributions(path, counts, title=case.name, width_mm=style.width)
-    return Figure(
-        "distributions", f"Numbers of hexes of {case.name} by their quality q(H): {listed([*counts])}.", paths
-    )
+    return Figure("distributions", f"Number of hexes of {case.name} by quality q(H): {listed([*counts])}.", paths)
 
 
 def _convergence(case: Case, folder: Path, style: Style) -> Figure | None:
-    histories = {one.name: one.history for one in case.versions if one.history}
+    histories = {version.name: version.history for version in case.versions if version.history}
     if not histories:
         return None
     paths = tuple(folder / f"convergence.{suffix}" for suffix in style.formats)
     for path in paths:
         write_convergence(path, histories, title=case.name, width_mm=style.width)
-    return Figure("convergence", f"How {listed([*histories])} went on {case.name}, by iteration.", paths)
+    return Figure("convergence", f"Convergence of {listed([*histories])} on {case.name}.", paths)
 
 
 def _table(case: Case, folder: Path, style: Style) -> Figure:
@@ -199,7 +198,7 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
         "stop": case.stop.values(),
         "interrupted": case.interrupted,
         "initial": case.initial.record(case.norm),
-        "rows": [one.record(case.norm) | {"name": one.name} for one in case.versions[1:]]
+        "rows": [version.record(case.norm) | {"name": version.name} for version in case.versions[1:]]
         + [row.record(case.norm) for row in case.failed],
     }
     table = table_of(case)
@@ -207,7 +206,7 @@ def _table(case: Case, folder: Path, style: Style) -> Figure:
     return Figure("table", f"{table.title}.", tuple(paths))
 
 
-#: The figures of a set in order, and the functions that write them.
+#: Figures of a set in order, and the functions that write them.
 PARTS: dict[str, Callable[[Case, Path, Style], Figure | None]] = {
     "surface": _surface,
     "cut": _cut,

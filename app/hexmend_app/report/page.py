@@ -1,4 +1,4 @@
-"""The report as one self-contained page."""
+"""Report as one self-contained HTML page."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ from hexmend.report.tables import Table
 from hexmend.study.bench.sections import machine
 from hexmend.study.table_row import Row
 from hexmend.terminal_text import printable
-from hexmend_app.report import hypertext as html
+from hexmend_app.report import html_elements as html
 from hexmend_app.report.case import Case, Version, command_line
-from hexmend_app.report.figure_set import Style, table_of, write_behind, write_figures
+from hexmend_app.report.figure_set import Style, table_of, write_figures, write_opposite_view
 from hexmend_app.report.viewer import ViewerState, script, viewer
-from hexmend_app.report.worst import Locked, worst_table
+from hexmend_app.report.worst_hexes import Locked, worst_table
 from hexmend_app.resources import resource
 
-#: Content security policy: the page loads nothing from outside.
+#: Content security policy: the page loads no external resources.
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
 #: Parts of the figure set in the page, by format.
 _PICTURES = {"png": ("surface", "cut"), "svg": ("distributions", "convergence")}
 
-#: Width of a plot in mm, for which its letters have the size of the page's.
+#: Width of a plot in mm, at which its text has the size of the page's text.
 _PLOT = 120.0
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """The chapter of the page on one mesh.
+    """Chapter on one mesh.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Chapter:
     place : str
         Id of its heading.
     row : sequence of str
-        Of the summary table.
+        Row of the summary table.
     preface : str
         HTML.
     sections : sequence of (heading, HTML)
@@ -60,24 +60,24 @@ class Chapter:
 def chapter(
     case: Case, style: Style, repeat: Sequence[Sequence[str]], *, interactive: bool, place: str = "mesh-1"
 ) -> Chapter:
-    """Write the chapter of a mesh.
+    """Return the chapter on a mesh.
 
     Parameters
     ----------
     case : Case
     style : Style
-        Of its figures.
+        Style of the figures.
     repeat : sequence of sequence of str
-        Words of the commands that give the same results.
+        Commands that reproduce the results, as words.
     interactive : bool
-        The mesh can be rotated in the page, which needs a browser.
+        True for a mesh that can be rotated, which needs a browser.
     place : str
         Id of the chapter's heading.
     """
     locked = [Locked.of(one.mesh, one.figures) for one in case.versions]
     sections = {
         "The mesh": _figures(case, style, interactive, place),
-        "Figures of quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
+        "Quality": [html.tables(table_of(case)), *map(_failed, case.failed)],
         "The worst hexes": _worst(case, locked),
         "Locked hexes and suggestions": _locked(case, locked),
         "Runs": _runs(case),
@@ -103,10 +103,10 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
     command : str
         The command that writes the page.
     interactive : bool
-        The page has scripts, which need a browser.
+        True for a page with scripts, which need a browser.
     """
     style = resource("report/page.css").read_text(encoding="utf-8")
-    made = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
+    time = datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")
     head = ["mesh", "hexes", "inverted", "q min", "q mean", "scaled Jacobian min"]
     summary = Table("", head, [one.row for one in chapters])
     parts = [
@@ -116,26 +116,26 @@ def page(title: str, chapters: Sequence[Chapter], command: str, *, interactive: 
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<title>{escape(title)}</title><style>{style}</style></head><body>",
         f"<header>{html.heading(1, title)}",
-        f'<p class="soft">Made by Hexmend {escape(__version__)} on {made}.</p></header><main>',
+        f'<p class="soft">Created by Hexmend {escape(__version__)} on {time}.</p></header><main>',
         html.table(summary),
     ]
     if len(chapters) > 1:
         parts += [html.contents((one.place, one.name, _places(one)) for one in chapters)]
-    for number, one in enumerate(chapters, 1):
-        kind = {"class_": "first"} if number == 1 else {}
-        parts += ["<section>", html.heading(2, one.name, id=one.place, **kind), one.preface]
-        for (place, heading), (_, text) in zip(_places(one), one.sections, strict=True):
+    for number, chapter in enumerate(chapters, 1):
+        first = {"class_": "first"} if number == 1 else {}
+        parts += ["<section>", html.heading(2, chapter.name, id=chapter.place, **first), chapter.preface]
+        for (place, heading), (_, text) in zip(_places(chapter), chapter.sections, strict=True):
             parts += [html.heading(3, heading, id=place), text]
         parts += ["</section>"]
-    parts += [f"</main><footer><p>{escape('This page was made by:')}</p>{html.commands([command])}</footer>"]
+    parts += [f"</main><footer><p>Command of this report:</p>{html.commands([command])}</footer>"]
     parts += [f"<script>{script()}</script>"] if interactive else []
-    whole = "\n".join([*parts, "</body></html>"])
-    return whole.encode("utf-8", "replace").decode("utf-8")  # names of files can have undecodable bytes
+    document = "\n".join([*parts, "</body></html>"])
+    return document.encode("utf-8", "replace").decode("utf-8")  # file names can have undecodable bytes
 
 
-def _places(one: Chapter) -> list[tuple[str, str]]:
-    """Ids and headings of the sections of a chapter."""
-    return [(f"{one.place}-{number}", heading) for number, (heading, _) in enumerate(one.sections, 1)]
+def _places(chapter: Chapter) -> list[tuple[str, str]]:
+    """Return the ids and headings of the sections of a chapter."""
+    return [(f"{chapter.place}-{number}", heading) for number, (heading, _) in enumerate(chapter.sections, 1)]
 
 
 def write_page(path: Path, text: str) -> None:
@@ -146,35 +146,33 @@ def write_page(path: Path, text: str) -> None:
 
 def _preface(case: Case) -> str:
     first = case.initial.summary
-    sentence = [
-        f"{format_count(first.hexes)} hexes, {format_count(first.nodes)} nodes, of which "
-        f"{format_count(first.free_nodes)} are free."
+    sentences = [
+        f"{format_count(first.hexes)} hexes and {format_count(first.nodes)} nodes, "
+        f"{format_count(first.free_nodes)} of them free.",
+        *(
+            f"{version.name}: {format_count(version.summary.inverted)} inverted, "
+            f"q min {format_quality(version.summary.q_min)}."
+            for version in case.versions
+        ),
     ]
-    sentence.append(f"{_inverted(first.inverted)} as the mesh was given; the least q is {format_quality(first.q_min)}.")
-    for one in case.versions[1:]:
-        sentence.append(
-            f"{one.name}: {_inverted(one.summary.inverted).lower()}, least q {format_quality(one.summary.q_min)}."
-        )
     if case.interrupted:
-        sentence.append("The runs were interrupted: the report shows the results so far.")
-    return html.paragraph(" ".join(sentence))
-
-
-def _inverted(number: int) -> str:
-    return f"{format_count(number)} {'is' if number == 1 else 'are'} inverted" if number else "None is inverted"
+        sentences.append("The runs were interrupted: the report shows the results so far.")
+    return html.paragraph(" ".join(sentences))
 
 
 def _figures(case: Case, style: Style, interactive: bool, place: str) -> list[str]:
-    """The interactive view of the mesh, and the pictures."""
+    """Return the interactive view of the mesh, and the pictures."""
     with TemporaryDirectory(prefix="hexmend-report-") as folder:
-        drawn = [write_behind(case, Path(folder), style)]
-        for part, options in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
-            drawn += write_figures(case, Path(folder), options, _PICTURES[part])
-        pictures = {one.part: html.picture(one.paths[0], one.caption, f"{place}-{one.part}-") for one in drawn}
-    states = [ViewerState(one.name, one.mesh.points) for one in case.versions]
-    whole = viewer(case.initial.mesh, states, pictures["surface"]) if interactive else pictures["surface"]
+        figures = [write_opposite_view(case, Path(folder), style)]
+        for suffix, options in {"png": style, "svg": replace(style, width=_PLOT, formats=("svg",))}.items():
+            figures += write_figures(case, Path(folder), options, _PICTURES[suffix])
+        pictures = {
+            figure.part: html.picture(figure.paths[0], figure.caption, f"{place}-{figure.part}-") for figure in figures
+        }
+    states = [ViewerState(version.name, version.mesh.points) for version in case.versions]
+    view = viewer(case.initial.mesh, states, pictures["surface"]) if interactive else pictures["surface"]
     plots = [pictures[part] for part in _PICTURES["svg"] if part in pictures]
-    return [whole, pictures["behind"], pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
+    return [view, pictures["behind"], pictures["cut"], f'<div class="pair">{"".join(plots)}</div>']
 
 
 def _failed(row: Row) -> str:
@@ -183,25 +181,26 @@ def _failed(row: Row) -> str:
 
 def _worst(case: Case, locked: Sequence[Locked]) -> list[str]:
     return [
-        f'<div data-version="{version}">{html.table(worst_table(one.name, one.mesh, one.figures, own), words=1)}</div>'
-        for version, (one, own) in enumerate(zip(case.versions, locked, strict=True))
+        f'<div data-version="{number}">'
+        f"{html.table(worst_table(version.name, version.mesh, version.figures, locked_hexes), words=1)}</div>"
+        for number, (version, locked_hexes) in enumerate(zip(case.versions, locked, strict=True))
     ]
 
 
 def _locked(case: Case, locked: Sequence[Locked]) -> list[str]:
-    """Locked hexes of the original mesh, the state after each run, and suggestions."""
-    words = locked[0].words() or "Nothing is locked: no inverted hex is held in inversion by fixed nodes alone."
+    """Return the locked hexes of the original mesh, the state after each run, and suggestions."""
+    words = locked[0].words() or "No hex is locked, i.e. inverted because of fixed nodes alone."
     parts = [html.paragraph(words)]
-    for one in case.versions[1:]:
-        if one.advice is not None:
-            sentence = " ".join(filter(None, [one.advice.state, one.advice.surface]))
-            parts.append(html.paragraph(f"{one.name}: {sentence}"))
-            parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in one.advice.suggestions))
+    for version in case.versions[1:]:
+        if (advice := version.advice) is not None:
+            state = " ".join(filter(None, [advice.state, advice.surface]))
+            parts.append(html.paragraph(f"{version.name}: {state}"))
+            parts.append(html.listed(f"{tip.title}: {tip.text}" for tip in advice.suggestions))
     return parts
 
 
 def _runs(case: Case) -> list[str]:
-    """A table of parameters, outcome and times of each method."""
+    """Return a table of the parameters, outcome and times of each method."""
     rows = [_run(one) for one in case.versions[1:] if one.row is not None]
     if not rows:
         return [html.paragraph("No method was run.")]
@@ -210,21 +209,20 @@ def _runs(case: Case) -> list[str]:
     return [html.table(Table("", head, rows, [f"Limits of each run: {limits}."]), words=2)]
 
 
-def _run(one: Version) -> list[str]:
-    row = one.row
-    values = dict(row.parameters)
+def _run(version: Version) -> list[str]:
+    row = version.row
     if row.stages:
-        sentence = "; ".join(f"{stage.method}: {_values(stage.parameters)}" for stage in row.stages)
+        parameters = "; ".join(f"{stage.method}: {_values(stage.parameters)}" for stage in row.stages)
     else:
-        sentence = _values(values)
-    name = one.name if one.name == row.method else f"{one.name} ({row.method})"
+        parameters = _values(row.parameters)
+    name = version.name if version.name == row.method else f"{version.name} ({row.method})"
     return [
         name,
         format_significant(row.setup_seconds),
         format_significant(row.seconds),
         format_count(row.iterations),
         row.message,
-        sentence,
+        parameters,
     ]
 
 

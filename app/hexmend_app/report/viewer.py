@@ -1,4 +1,4 @@
-"""The interactive mesh of a report: data that `resources/report/*.js` rotate, cut and colour offline."""
+"""Data of the interactive mesh in a report, which the scripts `resources/report/*.js` draw."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from hexmend_app.picture.colour_map import COLOUR_MAPS, value_maps
 from hexmend_app.resources import resource
 from hexmend_app.scene.colour.colouring import INVERTED
 
-#: Maximum number of hexes; a larger page is too large for a browser.
+#: Maximum number of hexes in a page; browsers cannot open larger pages.
 MOST_HEXES = 250_000
 
-#: Numbers of steps to which values are rounded, of the metrics that a click shows exactly and of the others; the number
-#: after the last step means no value.
+#: Number of steps to which values are rounded, for metrics that a click shows exactly and for others; the number after
+#: the last step means no value.
 _EXACT, _STEPS = {"q": 65534, "scaled-jacobian": 65534}, 4000
 
-#: Resolution of positions relative to the mesh's size; no screen shows the difference.
+#: Resolution of positions relative to the size of the mesh, below that of screens.
 _FINEST = 2.0**-21
 
-#: Quantiles at the ends of the colours, of a metric with an infinite range.
+#: Quantiles at the ends of the colour range of a metric with an infinite range.
 _ENDS = (0.005, 0.995)
 
 #: Scripts of the page, in order.
@@ -36,7 +36,7 @@ _SCRIPTS = ("mesh.js", "camera.js", "steering.js", "painter.js", "viewer.js", "s
 
 @dataclass(frozen=True, eq=False)
 class ViewerState:
-    """A named state of a mesh.
+    """Named state of a mesh.
 
     Parameters
     ----------
@@ -62,19 +62,19 @@ def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
     states : sequence of ViewerState
         The original mesh first, then the results.
     picture : str
-        HTML to show instead without WebGL, and on paper.
+        HTML shown without WebGL and in print.
     """
     if mesh.n_hexes > MOST_HEXES:
-        sentence = f"The mesh cannot be turned here: a page holds {MOST_HEXES:,} hexes, and it has {mesh.n_hexes:,}."
-        sentence += " Open it in the viewer: hexmend MESH"
-        return f'<div class="viewer">{picture}<p class="cannot screen">{sentence}</p></div>'
+        message = f"This mesh is too large to be interactive: {mesh.n_hexes:,} hexes, at most {MOST_HEXES:,}."
+        message += " Open it in the viewer: hexmend MESH"
+        return f'<div class="viewer">{picture}<p class="cannot screen">{message}</p></div>'
     head, blob = packed(mesh, states)
     colour = "#{:02x}{:02x}{:02x}".format(*INVERTED)
     parts = [
         f'<div class="viewer" style="--inverted: {colour}">',
         picture,
         '<p class="cannot screen" hidden></p>',
-        '<noscript><p class="cannot">The mesh cannot be turned without JavaScript.</p></noscript>',
+        '<noscript><p class="cannot">Rotating the mesh needs JavaScript.</p></noscript>',
         resource("report/viewer.html").read_text(encoding="utf-8"),
         f'<script type="application/json" data-of="head">{in_script(head)}</script>',
         f'<script type="text/plain" data-of="bytes">{blob}</script>',
@@ -84,7 +84,7 @@ def viewer(mesh: Mesh, states: Sequence[ViewerState], picture: str) -> str:
 
 
 def in_script(data: Any) -> str:
-    """Return JSON in which no text can end a script."""
+    """Return JSON that is safe inside a script element."""
     return json.dumps(data, allow_nan=False).replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
@@ -96,8 +96,8 @@ def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], s
     head : dict
         Description of the arrays: offset in bytes and number of entries of each.
     blob : str
-        The arrays: the first bytes of all numbers of an array, then the second ones, ..., which compress better;
-        compressed by gzip, in base64.
+        The arrays, compressed by gzip, in base64. For better compression, the first bytes of all numbers of an array
+        come first, then the second bytes, and so on.
     """
     used = mesh.topology.used
     low, high = (end(axis=0) for end in (mesh.points[used].min, mesh.points[used].max))
@@ -126,7 +126,7 @@ def packed(mesh: Mesh, states: Sequence[ViewerState]) -> tuple[dict[str, Any], s
 
 
 class _Arrays:
-    """Concatenated bytes of arrays."""
+    """Bytes of arrays, concatenated."""
 
     def __init__(self) -> None:
         self._pieces: list[bytes] = []
@@ -134,11 +134,11 @@ class _Arrays:
 
     def add(self, array: np.ndarray) -> tuple[int, int]:
         """Append an array; return its offset in bytes and its number of entries."""
-        simple = np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
+        data = np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
         start = self._size
-        self._pieces.append(simple.reshape(-1, 1).view(np.uint8).T.tobytes())
-        self._size += simple.nbytes
-        return start, simple.size
+        self._pieces.append(data.reshape(-1, 1).view(np.uint8).T.tobytes())
+        self._size += data.nbytes
+        return start, data.size
 
     def blob(self) -> str:
         return base64.b64encode(gzip.compress(b"".join(self._pieces), 9, mtime=0)).decode("ascii")
@@ -148,34 +148,34 @@ def _metric(
     metric: Metric, mesh: Mesh, states: Sequence[ViewerState], figures: Sequence[ElementQuality]
 ) -> tuple[dict[str, Any], list[np.ndarray]]:
     """Return the description of a metric for the page, and its values of each state, (m,) uint16."""
-    values = [metric.of(one.points, mesh.hexes, own) for one, own in zip(states, figures, strict=True)]
+    values = [metric.of(state.points, mesh.hexes, quality) for state, quality in zip(states, figures, strict=True)]
     low, high = _range(metric, values, figures)
-    most = _EXACT.get(metric.name, _STEPS)
+    last = _EXACT.get(metric.name, _STEPS)
     with np.errstate(invalid="ignore", over="ignore"):
-        steps = [np.rint(np.clip((one - low) / (high - low), 0, 1) * most) for one in values]
-    kept = [np.where(np.isnan(one), most + 1, one).astype(np.uint16) for one in steps]
+        steps = [np.rint(np.clip((array - low) / (high - low), 0, 1) * last) for array in values]
+    numbers = [np.where(np.isnan(array), last + 1, array).astype(np.uint16) for array in steps]
     declared = bool(np.isfinite(metric.full_range).all())
     kind = {
         "name": metric.name,
         "title": metric.title,
         "unit": metric.unit,
         "better": metric.better,
-        "steps": most,
+        "steps": last,
         "from": low,
         "to": high,
         "open": not declared,  # values beyond these two are clipped
         "low": max(low, 0.0) if declared else low,  # inverted hexes have a separate colour
         "high": high,
     }
-    return kind, kept
+    return kind, numbers
 
 
 def _range(metric: Metric, values: Sequence[np.ndarray], figures: Sequence[ElementQuality]) -> tuple[float, float]:
-    """Return the range of values: the metric's own or, if that is infinite, that of most valid hexes."""
+    """Return the range of the metric or, if that is infinite, the range of most values of valid hexes."""
     if np.isfinite(metric.full_range).all():
         return tuple(map(float, metric.full_range))
-    every = np.concatenate(values)
-    sound = every[np.isfinite(every) & ~np.concatenate([one.inverted for one in figures])]
-    low, high = np.quantile(sound, _ENDS).tolist() if sound.size else (0.0, 1.0)
-    lacking = max(1e-6 * max(abs(low), abs(high)), 1e-300) - (high - low)
-    return (low, high) if lacking <= 0 else (low - lacking / 2, high + lacking / 2)
+    merged = np.concatenate(values)
+    valid = merged[np.isfinite(merged) & ~np.concatenate([one.inverted for one in figures])]
+    low, high = np.quantile(valid, _ENDS).tolist() if valid.size else (0.0, 1.0)
+    missing = max(1e-6 * max(abs(low), abs(high)), 1e-300) - (high - low)
+    return (low, high) if missing <= 0 else (low - missing / 2, high + missing / 2)

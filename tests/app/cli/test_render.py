@@ -180,7 +180,7 @@ def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
         (["--dpi", "many"], 2, "--dpi 'many' cannot be used"),
         (["--background", "mauve"], 2, "background = 'mauve' is unknown"),
         (["--scene", "nowhere.toml"], 3, "nowhere.toml: there is no such file"),
-        (["--captions", "a,b"], 2, "1 names separated by commas, one a panel"),
+        (["--captions", "a,b"], 2, "as many names as panels (1), separated by commas"),
         (["--save-scene", "scene.json"], 3, "a scene cannot be written as .json"),
     ],
 )

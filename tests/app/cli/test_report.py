@@ -201,7 +201,7 @@ def test_a_report_is_written_though_signals_come_in_its_runs_and_while_it_is_dra
     path = tmp_path / "report.html"
     assert hexmend("report", mesh_file, *METHODS, "-o", path) == 128 + number
     assert "The runs were interrupted" in path.read_text(encoding="utf-8")
-    assert "Interrupted: the report holds what was done so far." in capsys.readouterr().err
+    assert "Interrupted: the report shows the results so far." in capsys.readouterr().err
 
 
 def test_a_signal_while_the_second_mesh_is_read_keeps_the_first(hexmend, mesh_file, tmp_path, interrupting):

@@ -45,8 +45,8 @@ def test_the_figures_of_the_thesis_are_drawn_by_one_command(tmp_path, monkeypatc
     ("words", "said"),
     [
         (["--format", "gif"], "--format 'gif' cannot be used: expected names among png, pdf, svg"),
-        (["--width-mm", "90"], "--width-mm '90' cannot be used: expected no --thesis with it"),
-        (["--only", "cut"], "--only 'cut' cannot be used: expected no --thesis with it"),
+        (["--width-mm", "90"], "--width-mm '90' cannot be used: expected it without --thesis"),
+        (["--only", "cut"], "--only 'cut' cannot be used: expected it without --thesis"),
     ],
 )
 def test_options_that_the_thesis_excludes_are_rejected_at_once(tmp_path, monkeypatch, capsys, words, said):

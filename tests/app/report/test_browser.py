@@ -191,7 +191,7 @@ def test_fingers_turn_and_zoom_it(browser, written):
 def test_without_webgl_the_picture_is_shown_instead(browser, written):
     with browser(("--disable-3d-apis",)) as opened:
         opened.open(written, alive=False)
-        assert "cannot be turned here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
+        assert "cannot be rotated here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
         assert opened.page.locator(".viewer > figure img").is_visible()
         assert not opened.control("canvas").is_visible()
 
@@ -206,7 +206,7 @@ def test_every_picture_says_what_it_shows(fresh):
     first, behind, cut, *_ = fresh.page.locator("figcaption").all_inner_texts()
     assert "initial, laplacian and mend: whole, seen from a corner. Coloured by q(H)" in first
     assert "opposite side" in behind
-    assert "cut open across x at 50 % of its extent" in cut
+    assert "cut across x at 50 % of its extent" in cut
 
 
 @pytest.mark.slow

@@ -62,5 +62,5 @@ def test_a_mesh_too_large_for_a_browser_is_a_picture_with_the_reason(case, monke
     monkeypatch.setattr(module, "MOST_HEXES", 10)
     page = viewer(case.initial.mesh, [ViewerState("initial", case.initial.mesh.points)], "<figure>picture</figure>")
     assert "<figure>picture</figure>" in page
-    assert "a page holds 10 hexes, and it has" in page
+    assert "864 hexes, at most 10" in page
     assert "<canvas" not in page

@@ -1,4 +1,4 @@
-"""The files of `hexmend figures`."""
+"""Implementation of `hexmend figures`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hexmend.study.thesis import experiments
 from hexmend.study.thesis.mesh_figures import draw_figures
 from hexmend.study.thesis.runner import run_experiments, select_tables
 from hexmend_app.cli import run_options
-from hexmend_app.cli.numbers import numbers, wrong
+from hexmend_app.cli.numbers import invalid_value, numbers
 from hexmend_app.report import figure_set
 from hexmend_app.report.case import command_line, run_methods, source_of
 from hexmend_app.report.figure_captions import write_captions
@@ -32,19 +32,19 @@ _THESIS = {"plane": "4.14"}
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run the methods, draw the figures and write them; what is wrong is reported before the runs."""
+    """Run the methods, draw the figures and write them; invalid options are reported before the runs."""
     check_matplotlib()
     if args.thesis:
         return _thesis(args)
     if args.quick:
-        raise wrong("--quick", "", "--thesis with it")
+        raise invalid_value("--quick", "", "it together with --thesis")
     options = run_options.words(args, ("mesh", "output", "only", "force"))
     smoothers, stop = run_options.methods(args)
     names = run_options.names(args, len(smoothers))
     style = _style(args)
     for part in args.only:
         if part not in PARTS:
-            raise wrong("--only", part, f"one of {', '.join(PARTS)}")
+            raise invalid_value("--only", part, f"one of {', '.join(PARTS)}")
     check_pages(style, 1 + len(smoothers), args.only)
     mesh, source = source_of(args.mesh)
     check_memory(args, smoothers, mesh, "draw fewer methods (--methods)")
@@ -56,9 +56,9 @@ def run(args: argparse.Namespace) -> int:
         for figure in figure_set.write_figures(case, folder, style, args.only):
             figures.append(figure)
             print(f"{', '.join(path.name for path in figure.paths)}: {figure.caption}", flush=True)
-        again = ["figures", args.mesh, *options, "-o", args.output, "--only"]
+        command = ["figures", args.mesh, *options, "-o", args.output, "--only"]
         if not args.only:
-            write_captions(folder, case.name, [(one, command_line([*again, one.part])) for one in figures])
+            write_captions(folder, case.name, [(figure, command_line([*command, figure.part])) for figure in figures])
         for row in case.failed:
             print(f"hexmend: {row.method}: {row.message}", file=sys.stderr)
         print(f"Written to {args.output}{'' if args.only else ', with captions.md and commands.sh'}.")
@@ -71,25 +71,25 @@ def _formats(args: argparse.Namespace) -> tuple[str, ...]:
     formats = tuple(args.format.lower().split(",")) if args.format else _FORMATS[:1]
     for name in formats:
         if name not in _FORMATS:
-            raise wrong("--format", args.format, f"names among {', '.join(_FORMATS)}, separated by commas")
+            raise invalid_value("--format", args.format, f"names among {', '.join(_FORMATS)}, separated by commas")
     return formats
 
 
 def _style(args: argparse.Namespace) -> Style:
     (width,) = numbers(args.width_mm, 1, "--width-mm") if args.width_mm else (170.0,)
     if not WIDTHS[0] <= width <= WIDTHS[1]:
-        raise wrong("--width-mm", args.width_mm, f"a width from {WIDTHS[0]:g} to {WIDTHS[1]:g} mm")
+        raise invalid_value("--width-mm", args.width_mm, f"a width from {WIDTHS[0]:g} to {WIDTHS[1]:g} mm")
     return Style(run_options.scene(args), width, _formats(args))
 
 
 def _thesis(args: argparse.Namespace) -> int:
-    """Run the thesis's experiments on a gallery mesh, and write its figures of them."""
+    """Run the experiments of the thesis on a gallery mesh, and write the figures of the thesis."""
     if args.mesh not in _THESIS:
-        raise wrong("--thesis", args.mesh, f"a mesh of the gallery: {', '.join(_THESIS)}")
+        raise invalid_value("--thesis", args.mesh, f"a mesh of the gallery: {', '.join(_THESIS)}")
     formats = _formats(args)
     for option, value in (("--width-mm", args.width_mm), ("--only", ",".join(args.only)), ("--scene", args.scene)):
         if value:
-            raise wrong(option, value, "no --thesis with it, whose figures are those of the thesis")
+            raise invalid_value(option, value, "it without --thesis")
     thesis = select_tables(experiments.load(), [_THESIS[args.mesh]])
     if "max_seconds" in given_limits(args):
         thesis = thesis.with_max_seconds(given_limits(args)["max_seconds"])
@@ -102,11 +102,11 @@ def _thesis(args: argparse.Namespace) -> int:
             raise HexmendError(missing)
         plotted, _ = write_plots(folder, study.record(), formats)
         figures = []
-        for one in sorted([*drawn, *plotted], key=lambda one: one["number"]):
-            files = [Path(one["file"]).with_suffix(f".{suffix}") for suffix in formats]
-            figures.append(Figure(one["number"], f"{one['caption']}.", tuple(folder / file for file in files)))
-            print(f"{', '.join(map(str, files))}: {one['caption']}.")
-        again = command_line(["figures", args.mesh, *run_options.words(args, ("mesh", "output")), "-o", args.output])
-        write_captions(folder, args.mesh, [(one, again) for one in figures])
+        for record in sorted([*drawn, *plotted], key=lambda record: record["number"]):
+            files = [Path(record["file"]).with_suffix(f".{suffix}") for suffix in formats]
+            figures.append(Figure(record["number"], f"{record['caption']}.", tuple(folder / file for file in files)))
+            print(f"{', '.join(map(str, files))}: {record['caption']}.")
+        command = command_line(["figures", args.mesh, *run_options.words(args, ("mesh", "output")), "-o", args.output])
+        write_captions(folder, args.mesh, [(figure, command) for figure in figures])
         print(f"Written to {args.output}, with captions.md and commands.sh.")
     return progress.signals.status if study.interrupted else 0

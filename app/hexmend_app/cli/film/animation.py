@@ -1,4 +1,4 @@
-"""The animation of `hexmend film`."""
+"""Implementation of `hexmend film`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend.cli.arguments.run_arguments import method_and_limits
 from hexmend.cli.output.progress import follow
 from hexmend.io import read
 from hexmend.run import iterate
-from hexmend_app.cli.numbers import parse_size, whole, wrong
+from hexmend_app.cli.numbers import invalid_value, parse_integer, parse_size
 from hexmend_app.cli.scene_options import look_of, view_of
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.scene.film.film import format_of, pictures, write_film
@@ -25,7 +25,7 @@ from hexmend_app.state.mesh.run_record import RecordedIteration
 def run(args: argparse.Namespace) -> int:
     """Run the method, draw the frames and write the animation."""
     size, view, path = parse_size(args.size), view_of(args), Path(args.output)
-    most, rate = whole(args.frames, "--frames", 2, 1000), whole(args.rate, "--rate", 1, 50)
+    max_frames, rate = parse_integer(args.frames, "--frames", 2, 1000), parse_integer(args.rate, "--rate", 1, 50)
     method, stop = method_and_limits(args)
     mesh = read(args.mesh)
     check_memory(args, [method], mesh)
@@ -35,21 +35,21 @@ def run(args: argparse.Namespace) -> int:
     record = history.begin(method.title, State.of(mesh))
     history.add(record, run.start)
     follow(run, lambda iteration: history.add(record, iteration))
-    numbers = chosen_iterations(history, record, most)
+    numbers = chosen_iterations(history, record, max_frames)
     start = ReferenceState(mesh.points, run.start.quality, "before the run")
     movement = Displacement(mesh, start, mesh.points, run.start.quality) if args.arrows else None
-    taken = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
-    frames = pictures(taken, look, size, view=view, movement=movement, chart=args.histogram)
+    states = film_frames(record, numbers, lambda number: history.state(RecordedIteration(record, number), mesh))
+    frames = pictures(states, look, size, view=view, movement=movement, chart=args.histogram)
     write_film(path, [*frames], rate)
     print(f"{run.message}\n{path}: {len(numbers)} frames of {size[0]} × {size[1]} pixels")
     return 0
 
 
 def _traces(args: argparse.Namespace) -> Traces:
-    """Return the settings of arrows."""
+    """Return the settings of displacement arrows."""
     nodes, since = args.arrows or "none", args.since or "run"
     if nodes not in list(Arrows):
-        raise wrong("--arrows", nodes, "sight or all")
+        raise invalid_value("--arrows", nodes, "sight or all")
     if since not in (Since.RUN, Since.ITERATION):
-        raise wrong("--since", since, "run or iteration")
+        raise invalid_value("--since", since, "run or iteration")
     return Traces(since=Since(since), arrows=Arrows(nodes))

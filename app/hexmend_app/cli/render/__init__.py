@@ -1,4 +1,4 @@
-"""The command `hexmend render`: a picture of meshes, without a window and without an X server."""
+"""The command `hexmend render`, which draws meshes without a window or an X server."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from hexmend_app.cli.picture_command import PictureCommand
 
 _HELP = "Write a picture of a mesh, or of several side by side; needs neither a window nor an X server."
 
-#: Keys whose options are declared here.
-_BY_HAND = ("page.width", "page.height", "page.pixels", "page.background")
+#: Keys with options declared below.
+_DECLARED_HERE = ("page.width", "page.height", "page.pixels", "page.background")
 
 
 @uninterrupted
@@ -21,20 +21,20 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("mesh", metavar="MESH", nargs="+", help="the mesh file; several are drawn side by side")
     text = "where to write the picture: .png, .tif, .pdf or .svg"
     parser.add_argument("-o", "--output", metavar="PICTURE", required=True, help=text)
-    text = "draw the scene of this file; other options override it"
+    text = "scene file; other options override it"
     parser.add_argument("--scene", metavar="FILE.toml", help=text)
-    parser.add_argument("--save-scene", metavar="FILE.toml", help="write the scene that is drawn as such a file")
-    text = "a name in the scene or in the session drawn, or the text that Copy camera gives"
+    parser.add_argument("--save-scene", metavar="FILE.toml", help="write the drawn scene to this file")
+    text = "name of a camera in the scene or session, or a camera copied in the viewer"
     parser.add_argument("--camera", metavar="CAMERA", help=text)
     size = parser.add_mutually_exclusive_group()
     size.add_argument("--size", metavar="WxH", help="in pixels (default 1600x1000)")
     size.add_argument("--mm", metavar="WxH", help="in millimetres, as in 170x90")
     paper = parser.add_mutually_exclusive_group()
     paper.add_argument("--background", metavar="COLOUR", help="white, transparent or #rrggbb (default white)")
-    paper.add_argument("--transparent", action="store_true", help="leave the background out")
+    paper.add_argument("--transparent", action="store_true", help="transparent background")
     parser.add_argument("--captions", metavar="A,B,...", help="captions of the panels (default: their files)")
-    parser.add_argument("--no-bar", action="store_true", help="leave the colour bar out")
-    add_arguments(parser, (*MESH_TABLES, *PAGE_TABLES), _BY_HAND)
+    parser.add_argument("--no-bar", action="store_true", help="do not draw the colour bar")
+    add_arguments(parser, (*MESH_TABLES, *PAGE_TABLES), _DECLARED_HERE)
 
 
 command = PictureCommand("render", _HELP, _arguments, f"{__name__}.picture")

@@ -1,4 +1,4 @@
-"""The picture of `hexmend render`."""
+"""Implementation of `hexmend render`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 from hexmend.io import read
 from hexmend.io.formats.session import SUFFIX
 from hexmend.io.storage.atomic import check_writable
-from hexmend_app.cli.numbers import numbers, parse_size, wrong
+from hexmend_app.cli.numbers import invalid_value, numbers, parse_size
 from hexmend_app.cli.scene_options import with_options
 from hexmend_app.picture import Camera, PicturePanel, Scene, TextPlace, camera_from, read_scene, write_scene
 from hexmend_app.picture.named_cameras import cameras_of
@@ -21,7 +21,7 @@ from hexmend_app.scene.page.still_picture import write_picture
 
 
 def run(args: argparse.Namespace) -> int:
-    """Draw the meshes and write the picture; what is wrong with the options is reported before the meshes are read."""
+    """Draw the meshes and write the picture; invalid options are reported before the meshes are read."""
     scene = _scene(args)
     scene.panels_of(len(args.mesh))
     format_of(Path(args.output))
@@ -29,8 +29,8 @@ def run(args: argparse.Namespace) -> int:
     if args.save_scene:
         write_scene(args.save_scene, scene)
     meshes = [read(path) for path in args.mesh]
-    sheet = write_picture(args.output, scene, meshes, [Path(path).stem for path in args.mesh], files=args.mesh)
-    print(f"{args.output}: {sheet.size[0]} × {sheet.size[1]} pixels")
+    page = write_picture(args.output, scene, meshes, [Path(path).stem for path in args.mesh], files=args.mesh)
+    print(f"{args.output}: {page.size[0]} × {page.size[1]} pixels")
     return 0
 
 
@@ -38,7 +38,7 @@ def _scene(args: argparse.Namespace) -> Scene:
     """Return the scene of the file, overridden by the options."""
     scene = read_scene(args.scene) if args.scene else Scene()
     if not args.scene and not args.metric:
-        args.metric = scene.colours.metric  # with the range that suits it
+        args.metric = scene.colours.metric  # sets its default range too
     bar = {"place": TextPlace.NONE} if args.no_bar else {}
     scene = with_options(args, scene, page=_page(args), bar=bar)
     changes: dict[str, Any] = {}
@@ -50,7 +50,7 @@ def _scene(args: argparse.Namespace) -> Scene:
 
 
 def _page(args: argparse.Namespace) -> dict[str, Any]:
-    """Return the keys of the page that have another notation on the command line."""
+    """Return the keys of the page whose options have another notation."""
     page: dict[str, Any] = {}
     if args.size:
         page |= {"pixels": parse_size(args.size), "width": None, "height": None}
@@ -63,18 +63,19 @@ def _page(args: argparse.Namespace) -> dict[str, Any]:
 
 
 def _camera(text: str, scene: Scene, paths: Sequence[str]) -> Camera:
-    """Return the camera with this name in the scene, else in a session that is drawn, or parse the text of a camera."""
+    """Return the camera of a name in the scene or in a session among the files, or parse the text of a camera."""
     named = scene.cameras if text in scene.cameras else {**_session_cameras(paths), **scene.cameras}
     if text in named:
         return named[text]
     if re.match(r"\s*(camera\s*=\s*)?\{", text):
         return camera_from(text)
     known = ", ".join(named) or "none"
-    raise wrong("--camera", text, f"the text of a camera, or a name in the scene or the session (known: {known})")
+    expected = f"the text of a camera, or a name in the scene or the session (known: {known})"
+    raise invalid_value("--camera", text, expected)
 
 
 def _session_cameras(paths: Sequence[str]) -> dict[str, Camera]:
-    """Return the named cameras of all sessions among the files; the first session wins."""
+    """Return the named cameras of all sessions among the files; the first session has priority."""
     found: dict[str, Camera] = {}
     for path in paths:
         if path.lower().endswith(SUFFIX):
@@ -83,8 +84,10 @@ def _session_cameras(paths: Sequence[str]) -> dict[str, Camera]:
 
 
 def _captioned(args: argparse.Namespace, scene: Scene) -> tuple[PicturePanel, ...]:
-    """Return the panels with the captions of the command line."""
+    """Return the panels with captions from the command line."""
     names, panels = args.captions.split(","), scene.panels_of(len(args.mesh))
     if len(names) != len(panels):
-        raise wrong("--captions", args.captions, f"{len(panels)} names separated by commas, one a panel")
+        raise invalid_value(
+            "--captions", args.captions, f"as many names as panels ({len(panels)}), separated by commas"
+        )
     return tuple(replace(panel, caption=name) for panel, name in zip(panels, names, strict=True))

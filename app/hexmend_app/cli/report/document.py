@@ -1,4 +1,4 @@
-"""The document of `hexmend report`."""
+"""Implementation of `hexmend report`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from hexmend_app.report import case, page
 from hexmend_app.report.case import command_line
 from hexmend_app.report.figure_set import Style, check_pages
 from hexmend_app.report.page import Chapter, write_page
-from hexmend_app.report.paper import check_paper, write_paper
+from hexmend_app.report.pdf import check_pdf, write_pdf
 
 #: Suffixes of reports.
 _SUFFIXES = (".html", ".pdf")
@@ -32,7 +32,7 @@ _DPI = 220.0
 
 
 def run(args: argparse.Namespace) -> int:
-    """Run the methods on each mesh and write the report; what is wrong is reported before the runs."""
+    """Run the methods on each mesh and write the report; invalid options are reported before the runs."""
     path = Path(args.output)
     interactive = suffix_for(path, "a report", _SUFFIXES) == ".html"
     check_writable(path)
@@ -41,26 +41,26 @@ def run(args: argparse.Namespace) -> int:
     smoothers, stop = run_options.methods(args)
     names, scene = run_options.names(args, len(smoothers)), run_options.scene(args)
     if not interactive:
-        check_paper()
+        check_pdf()
     style = Style(replace(scene, page=replace(scene.page, dpi=scene.page.dpi or _DPI)))
     check_pages(style, 1 + len(smoothers))
-    chapters = _Chapters(args, options, smoothers, stop, names, style, interactive)
+    writer = _ChapterWriter(args, options, smoothers, stop, names, style, interactive)
     with FinishWriting() as writing:
-        ended = chapters.write(writing)
-        title = printable(args.title or "") or f"Report on {', '.join(one.name for one in chapters.done)}"
-        titled = ["--title", args.title] if args.title else []
-        command = command_line(["report", *args.mesh, *options, *titled, "-o", args.output])
-        document = page.page(title, chapters.done, command, interactive=interactive)
-        (write_page if interactive else write_paper)(path, document)
+        interrupted = writer.write(writing)
+        title = printable(args.title or "") or f"Report on {', '.join(chapter.name for chapter in writer.chapters)}"
+        title_option = ["--title", args.title] if args.title else []
+        command = command_line(["report", *args.mesh, *options, *title_option, "-o", args.output])
+        document = page.page(title, writer.chapters, command, interactive=interactive)
+        (write_page if interactive else write_pdf)(path, document)
         print(f"{args.output}: {path.stat().st_size / 1e6:.1f} MB")
-        if ended:
-            print("Interrupted: the report holds what was done so far.", file=sys.stderr)
-    return ended.status if ended else 0
+        if interrupted:
+            print("Interrupted: the report shows the results so far.", file=sys.stderr)
+    return interrupted.status if interrupted else 0
 
 
 @dataclass
-class _Chapters:
-    """The chapters of a report, one for each mesh."""
+class _ChapterWriter:
+    """Writer of the chapters of a report, one for each mesh."""
 
     args: argparse.Namespace
     options: list[str]
@@ -69,11 +69,11 @@ class _Chapters:
     names: list[str]
     style: Style
     interactive: bool
-    done: list[Chapter] = field(default_factory=list)
+    chapters: list[Chapter] = field(default_factory=list)
     folders: list[str] = field(default_factory=list)
 
     def write(self, writing: FinishWriting) -> CleanExit | FinishWriting | None:
-        """Add the chapters of all meshes; return the block in which a signal came, which ends the report early."""
+        """Add the chapters of all meshes; return the block interrupted by a signal, which ends the report early."""
         for path in self.args.mesh:
             signals = CleanExit()
             try:
@@ -82,42 +82,42 @@ class _Chapters:
                     check_memory(self.args, self.smoothers, mesh, "report on fewer methods (--methods)")
                 with Progress() as progress:
                     signals = progress.signals
-                    found = case.run_methods(mesh, source, self.smoothers, self.stop, self.names, progress.show)
+                    done = case.run_methods(mesh, source, self.smoothers, self.stop, self.names, progress.show)
             except KeyboardInterrupt:
-                if not self.done:
+                if not self.chapters:
                     raise
                 return signals
-            self._add(path, found)
-            if found.interrupted:
+            self._add(path, done)
+            if done.interrupted:
                 return signals
-            if writing.asked and len(self.done) < len(self.args.mesh):
+            if writing.asked and len(self.chapters) < len(self.args.mesh):
                 return writing
         return None
 
-    def _add(self, path: str, found: case.Case) -> None:
-        self.folders.append(_unique_name(self.folders, found.name, printable(Path(path).resolve().parent.name)))
+    def _add(self, path: str, done: case.Case) -> None:
+        self.folders.append(_unique_name(self.folders, done.name, printable(Path(path).resolve().parent.name)))
         commands = _commands(path, self.folders[-1], self.options, run_options.method_words(self.args))
-        place = f"mesh-{len(self.done) + 1}"
-        self.done.append(page.chapter(found, self.style, commands, interactive=self.interactive, place=place))
+        place = f"mesh-{len(self.chapters) + 1}"
+        self.chapters.append(page.chapter(done, self.style, commands, interactive=self.interactive, place=place))
 
 
-def _unique_name(taken: list[str], name: str, folder: str) -> str:
-    """Return a name for the folders of a mesh: its own or, if that is taken, one with its folder's name or a number.
+def _unique_name(used: list[str], name: str, folder: str) -> str:
+    """Return an unused name for the folders of a mesh: `name`, if necessary with the folder's name or a number.
 
     >>> _unique_name(["part"], "part", "b"), _unique_name(["part", "b-part"], "Part", "b")
     ('b-part', 'Part-2')
     """
-    known = {one.lower() for one in taken}  # some file systems do not distinguish capitals
+    known = {text.lower() for text in used}  # some file systems ignore case
     names = (
         name,
         *([f"{folder}-{name}"] if folder else []),
-        *(f"{name}-{number}" for number in range(2, len(taken) + 3)),
+        *(f"{name}-{number}" for number in range(2, len(used) + 3)),
     )
-    return next(one for one in names if one.lower() not in known)
+    return next(free for free in names if free.lower() not in known)
 
 
 def _commands(path: str, name: str, options: list[str], methods: list[str]) -> list[list[str]]:
-    """Return commands that give the same results for a mesh as the report."""
+    """Return the commands that reproduce the results for a mesh."""
     name = f"./{name}" if name.startswith("-") else name  # otherwise it would be read as an option
-    found = [["info", path, "--doctor", "--metrics"], ["figures", path, *options, "-o", f"{name}-figures"]]
-    return [*found, ["compare", path, *methods, "--write-meshes", "-o", f"{name}-results"]] if methods else found
+    result = [["info", path, "--doctor", "--metrics"], ["figures", path, *options, "-o", f"{name}-figures"]]
+    return [*result, ["compare", path, *methods, "--write-meshes", "-o", f"{name}-results"]] if methods else result

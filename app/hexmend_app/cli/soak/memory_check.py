@@ -1,4 +1,4 @@
-"""The work of `hexmend soak`."""
+"""Implementation of `hexmend soak`."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from hexmend_app.shell.start.display import check_display
 
 
 def run(args: argparse.Namespace) -> int:
-    """Work until the time is over; return 1 if the memory grows."""
+    """Run rounds until the time is over; return 1 if the memory grows."""
     (minutes,) = numbers(args.minutes, 1, "--minutes")
     check_display()
-    from hexmend_app.bench.soak import Memory, soak  # Qt, which cannot be imported without a display's libraries
+    from hexmend_app.bench.soak import Memory, soak  # imports Qt, which needs the libraries of a display
 
     try:
         section.resident_mb()
@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> int:
                 if signals.asked:
                     break
         if args.json:
-            write_json(args.json, memory.given())
+            write_json(args.json, memory.record())
         print(memory.verdict)
     if signals.asked:
         return signals.status

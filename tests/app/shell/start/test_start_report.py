@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hexmend_app.bench.start import MOMENTS, started
+from hexmend_app.bench.start import MOMENTS, measure_start
 
 #: Top packages that the first paint of the window can do without.
 LATER = {"matplotlib", "pyqtgraph", "pyvista", "pyvistaqt", "scipy", "vtk", "vtkmodules"}
@@ -12,7 +12,7 @@ LATER = {"matplotlib", "pyqtgraph", "pyvista", "pyvistaqt", "scipy", "vtk", "vtk
 
 @pytest.fixture(scope="module")
 def moments(qapp, mesh_file):
-    return started(mesh_file)
+    return measure_start(mesh_file)
 
 
 def loaded(moment):

@@ -25,15 +25,15 @@ def listed(names: Sequence[str]) -> str:
 
 
 def opposite(camera: Camera) -> Camera:
-    """Return the camera that looks from the opposite side, with the same axis up.
+    """Return the camera on the opposite side, with the same axis up.
 
     >>> opposite(Camera(from_="+x")).from_
     (-1.0, -0.0, -0.0)
     """
     if camera.stand is None:
         return replace(camera, from_=tuple(-part for part in direction_of(camera.direction, camera.up)))
-    across = tuple(2 * at - stands for at, stands in zip(camera.focal, camera.position, strict=True))
-    return replace(camera, position=across)
+    position = tuple(2 * focal - place for focal, place in zip(camera.focal, camera.position, strict=True))
+    return replace(camera, position=position)
 
 
 def seen_from(camera: Camera) -> str:
@@ -53,21 +53,21 @@ def cut_open(cut: Cut) -> str:
     """Return the description of a cut.
 
     >>> cut_open(Cut((Plane(position=0.25),)))
-    'cut open across x at 25 % of its extent'
+    'cut across x at 25 % of its extent'
     >>> cut_open(Cut((Plane((0.0, 0.0, -1.0), point=(0.0, 0.0, 2.0)), Plane()), style=CutStyle.SMOOTH))
-    'cut open across -z through (0, 0, 2) and across x at 50 % of its extent, through the hexes'
+    'cut across -z through (0, 0, 2) and across x at 50 % of its extent, through the hexes'
     """
     if cut.box is not None:
         low, high = (_vector(corner) for corner in (cut.box.low, cut.box.high))
-        unit = " in shares of its extents" if cut.box.shares else ""
-        where = f"by the box from {low} to {high}{unit}"
+        unit = " relative to the extents" if cut.box.shares else ""
+        place = f"by the box from {low} to {high}{unit}"
     else:
-        where = listed([_plane(one) for one in cut.planes])
-    return f"cut open {where}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
+        place = listed([_plane(one) for one in cut.planes])
+    return f"cut {place}{', through the hexes' if cut.style is CutStyle.SMOOTH else ''}"
 
 
 def coloured_by(colours: Colours, inverted: bool) -> str:
-    """Return a sentence on the colours; it mentions inverted hexes if `inverted` is true.
+    """Return a sentence about the colours, with the colour of inverted hexes if `inverted` is True.
 
     >>> coloured_by(Colours("scaled-jacobian"), inverted=True)
     'Coloured by Scaled Jacobian; inverted hexes are magenta.'
@@ -79,10 +79,10 @@ def coloured_by(colours: Colours, inverted: bool) -> str:
 
 def _plane(plane: Plane) -> str:
     if plane.point is not None:
-        where = f"through {_vector(plane.point)}"
+        place = f"through {_vector(plane.point)}"
     else:
-        where = f"at {100 * (0.5 if plane.position is None else plane.position):.3g} % of its extent"
-    return f"across {_named(plane.normal)} {where}"
+        place = f"at {100 * (0.5 if plane.position is None else plane.position):.3g} % of its extent"
+    return f"across {_named(plane.normal)} {place}"
 
 
 def _named(direction: Vector) -> str:

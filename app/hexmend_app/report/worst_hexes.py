@@ -1,4 +1,4 @@
-"""The worst hexes of a mesh, and the reasons why some are locked."""
+"""Table of the worst hexes of a mesh, with the reasons why some are locked."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ MOST = 12
 
 @dataclass(frozen=True, eq=False)
 class Locked:
-    """The hexes that are inverted because of fixed nodes alone.
+    """Hexes that are inverted because of fixed nodes alone.
 
     Parameters
     ----------
     locked : (m,) bool
     freed : (m,) bool
-        Locked hexes that can be mended if the boundary slides.
+        Locked hexes that can be repaired if the boundary slides.
     """
 
     locked: np.ndarray
@@ -39,21 +39,20 @@ class Locked:
 
     def words(self) -> str:
         """Return sentences on the number of locked hexes; "" for none."""
-        many, freed = int(self.locked.sum()), int(self.freed.sum())
-        if not many:
+        count, freed = int(self.locked.sum()), int(self.freed.sum())
+        if not count:
             return ""
-        rest = many - freed
-        which = "hex is" if many == 1 else "hexes are"
+        rest = count - freed
+        noun = "hex is" if count == 1 else "hexes are"
         return (
-            f"{format_count(many)} inverted {which} locked: at a corner with σ ≤ 0 all four nodes are fixed, so that "
-            f"no method that keeps these nodes can mend them. "
-            f"{format_count(freed)} can be freed where the boundary slides (--boundary slide), "
-            f"{format_count(rest)} cannot."
+            f"{format_count(count)} inverted {noun} locked: all four nodes of a corner with σ ≤ 0 are fixed. "
+            f"Sliding the boundary (--boundary slide) can free {format_count(freed)} of them; "
+            f"{format_count(rest)} cannot be freed."
         )
 
 
 def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) -> Table:
-    """Return a table of the worst hexes by q: number from 0, q, scaled Jacobian, centre in the mesh's unit, and state.
+    """Return a table of the worst hexes by q: number (from 0), q, scaled Jacobian, centre in mesh units, and state.
 
     Inverted hexes come first.
     """
@@ -72,24 +71,24 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) 
 
 
 def reason(mesh: Mesh, figures: ElementQuality, locked: Locked, hex: int) -> str:
-    """Return the state of a hex: locked, inverted or sound, and its free nodes."""
+    """Return the state of a hex (locked, inverted or valid) and its number of free nodes."""
     if locked.locked[hex]:
         return (
             f"locked {_corners(mesh, hex)}; {'sliding frees it' if locked.freed[hex] else 'sliding does not free it'}"
         )
     free = int(mesh.free[mesh.hexes[hex]].sum())
-    state = "inverted, not locked" if figures.inverted[hex] else "sound"
+    state = "inverted, not locked" if figures.inverted[hex] else "valid"
     return f"{state}, {f'{free} of 8 nodes free' if free else 'all 8 nodes fixed'}"
 
 
 def _corners(mesh: Mesh, hex: int) -> str:
-    """Return a phrase with the nodes of the corners that are inverted because of fixed nodes alone."""
+    """Return a phrase with the nodes at the inverted corners whose nodes are all fixed."""
     tetrahedra = mesh.hexes[hex][CORNER_TETRAHEDRA]  # (8, 4)
     sigma = corner_determinants(mesh.points, mesh.hexes, np.array([hex]))[0]
     corners = np.flatnonzero(mesh.fixed[tetrahedra].all(axis=1) & ~(sigma > 0))
     nodes = ", ".join(str(int(mesh.hexes[hex][corner])) for corner in corners)
-    which = "at node" if corners.size == 1 else "at nodes"
-    return f"{which} {nodes} by fixed nodes, σ = {sigma[corners].min():.3g}"
+    noun = "at node" if corners.size == 1 else "at nodes"
+    return f"{noun} {nodes} by fixed nodes, σ = {sigma[corners].min():.3g}"
 
 
 def _number(value: float) -> str:

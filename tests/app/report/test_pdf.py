@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hexmend.report.tables import Table
-from hexmend_app.report import hypertext as html
+from hexmend_app.report import html_elements as html
 from hexmend_app.resources import resource
 
 #: A table after its heading, each part with a mark by which it is found.

@@ -1,4 +1,4 @@
-"""The report as PDF: the page without scripts, on A4, by WeasyPrint."""
+"""Report as PDF on A4, written by WeasyPrint from the page without scripts."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from hexmend.errors import HexmendError
 from hexmend.io.storage.atomic import atomic_write
 
 
-def write_paper(path: Path, text: str) -> None:
+def write_pdf(path: Path, text: str) -> None:
     """Write a page as PDF, atomically.
 
     Raises
     ------
     HexmendError
-        If WeasyPrint or Pango is missing.
+        If WeasyPrint or Pango is not installed.
     FileError
         If the file cannot be written.
     """
-    check_paper()
+    check_pdf()
     from weasyprint import HTML
     from weasyprint.urls import URLFetcher
 
@@ -27,16 +27,16 @@ def write_paper(path: Path, text: str) -> None:
         HTML(string=text, url_fetcher=fetcher).write_pdf(temporary)
 
 
-def check_paper() -> None:
+def check_pdf() -> None:
     """Raise `HexmendError` if no PDF can be written."""
     try:
         import weasyprint as _  # noqa: F401
     except ImportError:
         raise HexmendError(
-            "a report as PDF needs WeasyPrint: run  pip install 'hexmend[app]'  or write .html, which a browser prints"
+            "a PDF report needs WeasyPrint: run  pip install 'hexmend[app]'  or write .html and print it in a browser"
         ) from None
     except OSError as error:
         raise HexmendError(
-            f"a report as PDF needs Pango: run  apt-get install libpangoft2-1.0-0  or write .html, which a browser "
-            f"prints ({str(error).splitlines()[0]})"
+            f"a PDF report needs Pango: run  apt-get install libpangoft2-1.0-0  or write .html and print it in a "
+            f"browser ({str(error).splitlines()[0]})"
         ) from None

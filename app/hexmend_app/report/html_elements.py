@@ -1,4 +1,4 @@
-"""HTML elements of a page; all texts from outside are escaped here."""
+"""HTML elements of a report; texts are escaped here."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from PIL import Image
 
 from hexmend.report.tables import Table
 from hexmend.terminal_text import WorsenedText
-from hexmend_app.report.vectors import inline
+from hexmend_app.report.inline_svg import inline_svg
 
-#: Options of pictures in pixels: half the size of PNG, without a visible difference.
+#: Options of embedded pictures: half the size of PNG without visible differences.
 _WEBP = {"quality": 90, "method": 4}
 
-#: Maximum number of columns of a table on paper, without the first.
+#: Maximum number of columns of a printed table, without the first one.
 _COLUMNS = 7
 
 
@@ -27,8 +27,8 @@ def heading(level: int, text: str, **attributes: str) -> str:
     >>> heading(2, "a < b", id="mesh-1")
     '<h2 id="mesh-1">a &lt; b</h2>'
     """
-    own = "".join(f' {name.rstrip("_")}="{escape(value)}"' for name, value in attributes.items())
-    return f"<h{level}{own}>{escape(text)}</h{level}>"
+    attribute_text = "".join(f' {name.rstrip("_")}="{escape(value)}"' for name, value in attributes.items())
+    return f"<h{level}{attribute_text}>{escape(text)}</h{level}>"
 
 
 def paragraph(text: str) -> str:
@@ -43,17 +43,17 @@ def listed(texts: Iterable[str]) -> str:
 
 
 def commands(lines: Iterable[str]) -> str:
-    """Return lines of a shell."""
+    """Return a block of shell commands."""
     return f"<pre>{escape(chr(10).join(lines))}</pre>"
 
 
 def picture(path: Path, caption: str, prefix: str) -> str:
-    """Return an embedded picture with its caption; the ids of an SVG get a prefix."""
+    """Return an embedded picture with its caption; `prefix` is added to the ids of an SVG."""
     if path.suffix == ".svg":
-        drawn = inline(path, prefix)
+        element = inline_svg(path, prefix)
     else:
-        drawn = f'<img src="data:image/webp;base64,{_webp(path)}" alt="">'  # the caption describes it
-    return f"<figure>{drawn}<figcaption>{escape(caption)}</figcaption></figure>"
+        element = f'<img src="data:image/webp;base64,{_webp(path)}" alt="">'  # the caption describes it
+    return f"<figure>{element}<figcaption>{escape(caption)}</figcaption></figure>"
 
 
 def contents(chapters: Iterable[tuple[str, str, Iterable[tuple[str, str]]]]) -> str:
@@ -87,8 +87,8 @@ def table(table: Table, words: int = 0) -> str:
     width = len(table.head)
 
     def cell(text: str, column: int) -> str:
-        kinds = ["worse"] * isinstance(text, WorsenedText) + ["words"] * (column >= width - words)
-        return f'<td class="{" ".join(kinds)}">{escape(text)}</td>' if kinds else f"<td>{escape(text)}</td>"
+        classes = ["worse"] * isinstance(text, WorsenedText) + ["words"] * (column >= width - words)
+        return f'<td class="{" ".join(classes)}">{escape(text)}</td>' if classes else f"<td>{escape(text)}</td>"
 
     head = "".join(
         f'<th scope="col"{kind}>{escape(text)}</th>'
@@ -102,7 +102,7 @@ def table(table: Table, words: int = 0) -> str:
 
 
 def tables(whole: Table) -> str:
-    """Return a table, split by columns into tables that fit on paper, each with the first column."""
+    """Return a table, split by columns into tables that fit on paper; each repeats the first column."""
     last = max(2, len(whole.head))
     parts = [slice(k, k + _COLUMNS) for k in range(1, last, _COLUMNS)]
     return "".join(
@@ -119,7 +119,7 @@ def tables(whole: Table) -> str:
 
 
 def facts(pairs: Mapping[str, str]) -> str:
-    """Return pairs of name and text as a table without a head."""
+    """Return names and texts as a table with two columns and without a head."""
     rows = "".join(
         f'<tr><th scope="row">{escape(name)}</th><td class="words hash">{escape(text)}</td></tr>'
         for name, text in pairs.items()
