@@ -108,7 +108,7 @@ def smaller(scene: Scene, width: float, height: float) -> Scene:
     dpi = page.resolution * share
     size = tuple(max(16, round(side * share)) for side in page.size)
     edges = scene.lines.edges
-    pen = edges if edges == 0 else page.pen(scene.lines) / page.resolution * PT_PER_INCH
+    pen = edges if edges == 0 else page.line_width(scene.lines) / page.resolution * PT_PER_INCH
     fast = {"shading": False, "supersampling": 1, "font_size": page.letters}
     small = replace(page, width=None, height=None, pixels=size, dpi=max(dpi, 5.0), **fast)
     return replace(scene, page=small, lines=replace(scene.lines, edges=pen))

@@ -115,7 +115,7 @@ def test_a_picture_without_a_scene_is_refused(window, qtbot, tmp_path):
     before = window.session.document.now
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
-    assert "p.png cannot be opened this picture carries no scene" in said(window)[-1]
+    assert "p.png cannot be opened this picture contains no scene" in said(window)[-1]
     assert window.session.document.now is before
 
 
