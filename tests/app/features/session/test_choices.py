@@ -28,7 +28,7 @@ _NOT_KEPT = (
     "session.run.phase", "action panel", "action drawer",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
-_UNSEEN = ("Explain", "View at the left", "View at the right")
+_UNSEEN = ("Explain", "Left view", "Right view")
 
 
 @pytest.fixture
