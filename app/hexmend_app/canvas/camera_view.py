@@ -103,7 +103,7 @@ class CameraView(QWidget):
         self._move_camera(partial(self.panes.eye.look_along, direction))
 
     @property
-    def stand(self) -> CameraPose:
+    def pose(self) -> CameraPose:
         """Current camera pose."""
         return pose_of(self.viewport.camera, self.up)
 
@@ -114,10 +114,10 @@ class CameraView(QWidget):
         poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
         return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
 
-    def stand_at(self, stand: CameraPose, journey: PoseHistoryData | None = None) -> None:
+    def set_pose(self, pose: CameraPose, journey: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
-        self.panes.eye.up = stand.axis
-        self._move_camera(partial(apply_pose, self.viewport.camera, stand))
+        self.panes.eye.up = pose.axis
+        self._move_camera(partial(apply_pose, self.viewport.camera, pose))
         if journey is not None:
             self.travel.resume(journey.before, journey.after, journey.left)
 

@@ -71,7 +71,7 @@ class Camera(ConfigTable):
         return DIRECTIONS[0] if self.from_ is None else self.from_
 
     @property
-    def stand(self) -> CameraPose | None:
+    def pose(self) -> CameraPose | None:
         """Exact pose; None if a direction is given."""
         return None if self.position is None else self._exact_pose()
 

@@ -118,7 +118,7 @@ def _paged(style: Style, scene: Scene, panels: Sequence[PicturePanel]) -> Scene:
     columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
     caption, bar = _AROUND
     wide, tall = scene.page.size
-    shape = _PANEL if scene.camera.stand is None else tall / wide
+    shape = _PANEL if scene.camera.pose is None else tall / wide
     high = -(-count // columns) * (style.width / columns * shape + caption) + bar
     page = replace(scene.page, width=style.width, height=high, pixels=None, columns=columns)
     bar_of = replace(scene.bar, place=TextPlace.BELOW) if scene.bar.place is TextPlace.RIGHT else scene.bar

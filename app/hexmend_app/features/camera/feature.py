@@ -193,7 +193,7 @@ class FeatureCamera(Feature):
 
     def copy(self) -> None:
         """Copy where the camera stands, as `hexmend render --camera` takes it."""
-        QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.stand)))
+        QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.pose)))
         self.host.messages.show_info("The camera was copied: paste it in another window, or after render --camera.")
 
     def paste(self) -> None:
@@ -213,7 +213,7 @@ class FeatureCamera(Feature):
 
     def keep(self, name: str) -> None:
         """Keep where the camera stands under a name, or say why not."""
-        camera = Camera.at(self.canvas.stand)
+        camera = Camera.at(self.canvas.pose)
         done = f"The camera is kept as “{name}”: View > Camera has it, and so have pictures."
         self.host.try_and_report("The camera was not kept", lambda: self._cameras.keep(name, camera), done)
 
@@ -235,8 +235,8 @@ class FeatureCamera(Feature):
         return dialog
 
     def _look_through(self, camera: Camera, journey: PoseHistoryData | None = None) -> None:
-        if camera.stand is not None:
-            self.canvas.stand_at(camera.stand, journey)
+        if camera.pose is not None:
+            self.canvas.set_pose(camera.pose, journey)
         else:
             self.canvas.set_up(camera.up)
             self.canvas.set_parallel(camera.parallel)
@@ -250,7 +250,7 @@ class FeatureCamera(Feature):
 
     def _stand(self) -> CameraPose | None:
         """Return the current pose of the camera."""
-        return self.canvas.stand if self._draws else None
+        return self.canvas.pose if self._draws else None
 
     def _journey(self) -> PoseHistoryData:
         """Return the history of poses."""

@@ -203,7 +203,7 @@ def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float)
     aspect : float
         Width of the picture by its height.
     """
-    pose = described.stand
+    pose = described.pose
     if pose is not None:
         apply_pose(camera, pose)
         return

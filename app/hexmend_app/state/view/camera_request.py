@@ -66,7 +66,7 @@ class CameraRequest(QObject):
 
     def to_data(self) -> CameraPose | None:
         """Return the data for a session file."""
-        return (self.wanted and self.wanted.stand) or self.now()
+        return (self.wanted and self.wanted.pose) or self.now()
 
     def restore(self, stand: CameraPose | None, journey: PoseHistoryData) -> None:
         """Have the camera stand where a session has kept it, with the way that it has come."""

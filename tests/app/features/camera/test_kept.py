@@ -19,14 +19,14 @@ from tests.patience import PATIENCE
 @pytest.fixture
 def kept(window):
     """Two cameras, and what the canvas had for them."""
-    stands = {}
+    poses = {}
     for name, direction in (("front & side", "-y"), ("top", "+z")):
         window.canvas.look_along(direction)
         window.features["camera"].keep(name)
-        stands[name] = window.canvas.stand
+        poses[name] = window.canvas.pose
     window.canvas.look_along("iso")
     window.refresh()
-    return stands
+    return poses
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatc
     cameras, asked = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *given: asked.append(given[4]) or (" front ", True))
     window.action("keep_camera").trigger()
-    first = Camera.at(window.canvas.stand)
+    first = Camera.at(window.canvas.pose)
     assert cameras.all == {"front": first}
     window.canvas.look_along("+x")
     for answer in (QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes):
@@ -62,7 +62,7 @@ def test_a_camera_is_kept_under_a_name_and_replaced_by_asking(window, monkeypatc
         before = cameras.all
         window.action("keep_camera").trigger()
         assert (cameras.all == before) == (answer == QMessageBox.StandardButton.No)
-    assert cameras.all == {"front": Camera.at(window.canvas.stand)}
+    assert cameras.all == {"front": Camera.at(window.canvas.pose)}
     assert asked[0] == "camera 1"
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("never", False))
     window.action("keep_camera").trigger()
@@ -78,9 +78,9 @@ def test_the_menu_goes_to_a_camera(window, kept):
     menu.aboutToShow.emit()
     first, second = menu.actions()
     second.trigger()
-    assert window.canvas.stand == kept["top"]
+    assert window.canvas.pose == kept["top"]
     first.trigger()
-    assert window.canvas.stand == kept["front & side"]
+    assert window.canvas.pose == kept["front & side"]
 
 
 def test_without_cameras_there_is_nothing_to_go_to(window):
@@ -93,7 +93,7 @@ def test_the_dialog_goes_to_cameras_and_deletes_them(window, kept, dialog, qtbot
     assert names(dialog) == list(kept)
     dialog.list.setCurrentRow(1)
     button(dialog, "&Go to").click()
-    assert window.canvas.stand == kept["top"]
+    assert window.canvas.pose == kept["top"]
     button(dialog, "&Delete").click()
     qtbot.waitUntil(lambda: names(dialog) == ["front & side"], timeout=PATIENCE)
     button(dialog, "&Delete").click()
@@ -128,7 +128,7 @@ def test_scenes_and_pictures_of_the_window_have_them(window, kept, tmp_path, qtb
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
     dialog.camera.setCurrentText("top")
-    assert dialog.scene().camera.stand == kept["top"]
+    assert dialog.scene().camera.pose == kept["top"]
     write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
     dialog.load(str(tmp_path / "more.toml"))
     assert list(dialog.scene().cameras) == [*kept, "top (2)", "left"]
@@ -149,7 +149,7 @@ def test_render_looks_through_a_camera_of_a_session(window, kept, tmp_path, caps
     scene = tmp_path / "scene.toml"
     words = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
     assert main([*words, "--camera", "front & side"]) == 0
-    assert read_scene(scene).camera.stand == kept["front & side"]
+    assert read_scene(scene).camera.pose == kept["front & side"]
     with Image.open(tmp_path / "p.png") as image:
         assert image.size == (200, 150)
     assert main([*words, "--camera", "camera 9"]) == 2

@@ -34,7 +34,7 @@ def looked_at(window, qtbot):
     window.refresh()
     qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == session.view.look, timeout=PATIENCE)
     window.canvas.roll(15)
-    return session.view.look, window.canvas.stand
+    return session.view.look, window.canvas.pose
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def mesh(tmp_path):
 @pytest.mark.slow
 def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_path):
     open_and_wait(qtbot, window, mesh)
-    look, stand = looked_at(window, qtbot)
+    look, pose = looked_at(window, qtbot)
     assert window.features["save"].picture(tmp_path / "p.png", (300, 200))
     open_and_wait(qtbot, window, mesh)
     assert window.session.view.look != look
@@ -54,7 +54,7 @@ def test_a_picture_brings_back_mesh_look_and_camera(window, qtbot, mesh, tmp_pat
     window.refresh()
     assert window.session.document.path == mesh
     assert window.session.view.look == look
-    assert window.canvas.stand == stand
+    assert window.canvas.pose == pose
     assert "mesh.vtu is looked at as in p.png." in said(window)[-1]
     assert window.features["save"].picture(tmp_path / "again.png", (300, 200))
     one, other = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
@@ -79,8 +79,8 @@ def test_a_picture_of_the_command_line_is_opened_too(window, qtbot, mesh, tmp_pa
     assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
     open_and_wait(qtbot, window, tmp_path / "p.png")
     window.refresh()
-    stand = window.canvas.stand
-    assert stand.position[1] < stand.focal[1]
+    pose = window.canvas.pose
+    assert pose.position[1] < pose.focal[1]
 
 
 def test_another_mesh_of_the_name_is_said(window, qtbot, mesh, tmp_path):
