@@ -1,4 +1,4 @@
-"""Animated camera movements and the history of views."""
+"""Animated camera movements, and the history of camera poses."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from hexmend_app.scene.camera.flight import Flight
 from hexmend_app.scene.camera.pose_history import PoseHistory
 from hexmend_app.scene.camera.vtk_pose import pose_of
 
-#: Milliseconds that the camera flies, and between two of its frames.
+#: Duration of a flight, and interval between its frames, in milliseconds.
 _FLIGHT, _FRAME = 350, 25
 
-#: Milliseconds without a movement after which the camera has come to rest.
+#: Time without movement after which the camera is at rest, in milliseconds.
 _REST = 300
 
 
 class CameraAnimation(QObject):
     """Animates the camera, and records the poses in which it came to rest.
 
-    Whatever moves the camera says so: `leave` before, `arrive` after.
+    Code that moves the camera must call `leave` before and `arrive` after the movement.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class CameraAnimation(QObject):
     Signals
     -------
     moved
-        The camera is a little further on a flight.
+        The camera was moved during a flight.
     changed
         The history has changed.
     """
@@ -45,63 +45,63 @@ class CameraAnimation(QObject):
         self._poses = PoseHistory()
         self._remembered: CameraPose | None = None
         self._flight: Flight | None = None
-        self._flown = QElapsedTimer()
+        self._flight_time = QElapsedTimer()
         self._timer = QTimer(self, interval=_FRAME)
         self._timer.timeout.connect(self._continue)
-        self._settling = QTimer(self, interval=_REST, singleShot=True)
-        self._settling.timeout.connect(self._commit)
+        self._rest_timer = QTimer(self, interval=_REST, singleShot=True)
+        self._rest_timer.timeout.connect(self._commit)
 
     # Flights
 
     @property
     def active(self) -> bool:
-        """True while the camera moves to another pose."""
+        """True during a flight."""
         return self._timer.isActive()
 
     @property
     def at_rest(self) -> bool:
-        """True while no camera movement is running or has just ended."""
-        return not (self.active or self._settling.isActive())
+        """True unless the camera is moving or has just been moved."""
+        return not (self.active or self._rest_timer.isActive())
 
     def fly(self, flight: Flight) -> None:
-        """Start a camera movement; a running one ends at its present pose."""
+        """Start a flight; a running flight ends at its current pose."""
         self.leave()
-        self._set_out(flight)
+        self._start_flight(flight)
 
-    def _set_out(self, flight: Flight) -> None:
-        self._settling.stop()
+    def _start_flight(self, flight: Flight) -> None:
+        self._rest_timer.stop()
         self._flight = flight
-        self._flown.start()
+        self._flight_time.start()
         self._timer.start()
 
     def _continue(self) -> None:
-        share = min(self._flown.elapsed() / _FLIGHT, 1.0)
+        share = min(self._flight_time.elapsed() / _FLIGHT, 1.0)
         self._flight.at(share)
         if share == 1.0:
             self._timer.stop()
             self._commit()
         self.moved.emit()
 
-    # Comings and goings
+    # Movements by the user
 
     def leave(self) -> None:
-        """Prepare for a movement by the user: record the present pose, and end a running movement."""
+        """Prepare for a movement by the user: record the current pose, and end a running flight."""
         if self.at_rest:
             self._commit()
         self._timer.stop()
 
     def arrive(self) -> None:
-        """Take note of a movement by the user; the camera may come to rest."""
+        """Note the end of a movement by the user; the pose is recorded when the camera is at rest."""
         if not self.active:
-            self._settling.start()
+            self._rest_timer.start()
 
     def stop(self) -> None:
-        """Stop moving and recording."""
+        """Stop flights and recording."""
         self._timer.stop()
-        self._settling.stop()
+        self._rest_timer.stop()
 
-    def begin_anew(self) -> None:
-        """Clear the history: its views show another mesh."""
+    def restart(self) -> None:
+        """Clear the history, for example because another mesh is shown."""
         self.stop()
         self._poses.clear()
         self._remembered = None
@@ -109,19 +109,19 @@ class CameraAnimation(QObject):
         self.changed.emit()
 
     def journey(self) -> tuple[list[CameraPose], list[CameraPose], CameraPose | None]:
-        """The poses before and after the present one, oldest first, and the bookmarked pose."""
+        """Return the poses before and after the current pose, oldest first, and the bookmarked pose."""
         before, after = self._poses.around(pose_of(self._camera))
         return before, after, self._remembered
 
     def resume(self, before: Sequence[CameraPose], after: Sequence[CameraPose], remembered: CameraPose | None) -> None:
-        """Continue at the present pose with a restored history."""
+        """Restore the history before and after the current pose, and the bookmarked pose."""
         self.stop()
         self._poses.restore(before, pose_of(self._camera), after)
         self._remembered = remembered
         self.changed.emit()
 
     def _commit(self) -> None:
-        self._settling.stop()
+        self._rest_timer.stop()
         if self._poses.add(pose_of(self._camera)):
             self.changed.emit()
 
@@ -129,39 +129,39 @@ class CameraAnimation(QObject):
 
     @property
     def can_go_back(self) -> bool:
-        """True if there is a previous view."""
+        """True if there is a previous pose."""
         return self._poses.can_go_back
 
     @property
     def can_go_forward(self) -> bool:
-        """True if there is a next view."""
+        """True if there is a next pose."""
         return self._poses.can_go_forward
 
     def go_back(self) -> None:
-        """Move to the previous view, if there is one."""
+        """Fly to the previous pose, if there is one."""
         self._go(self._poses.back)
 
     def go_forward(self) -> None:
-        """Move to the next view, if there is one."""
+        """Fly to the next pose, if there is one."""
         self._go(self._poses.forward)
 
     def _go(self, step: Callable[[], CameraPose | None]) -> None:
         if not self.active:
-            self._commit()  # where the camera has just been led, it has not rested yet
+            self._commit()  # a pose that was just reached has not been recorded yet
         pose = step()
         if pose is not None:
-            self._set_out(Flight(self._camera, pose))
+            self._start_flight(Flight(self._camera, pose))
             self.changed.emit()
 
-    # The pose before an excursion
+    # Bookmarked pose
 
     def remember(self) -> None:
-        """Bookmark the present pose, unless another one is bookmarked."""
+        """Bookmark the current pose, unless another pose is bookmarked."""
         if self._remembered is None:
             self._remembered = self._flight.goal if self.active else pose_of(self._camera)
 
     def come_back(self) -> None:
-        """Move to the bookmarked pose, if there is one, and clear it."""
+        """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
         pose, self._remembered = self._remembered, None
         if pose is not None:
             self.fly(Flight(self._camera, pose))

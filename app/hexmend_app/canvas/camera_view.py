@@ -1,4 +1,4 @@
-"""The 3D view as a widget with a camera: the scene in a Qt interactor."""
+"""3D view with a camera as a widget."""
 
 from __future__ import annotations
 
@@ -28,31 +28,31 @@ if TYPE_CHECKING:
 
     from hexmend_app.canvas.plotter import CanvasPlotter
 
-#: Milliseconds of rest after which the fine still frame is drawn.
+#: Time without changes after which the fine frame is drawn, in milliseconds.
 _REST = 300
 
-#: Width and height in pixels that the view has at least.
-_LEAST = (320, 240)
+#: Minimum width and height in pixels.
+_MIN_SIZE = (320, 240)
 
 
 class CameraView(QWidget):
-    """Shows views of meshes through a camera that mouse, keys and calls move; draws after changes.
+    """Shows views of meshes with a common camera, which is moved by mouse, keyboard and method calls.
 
     Attributes
     ----------
     interactor : RenderWidget
-        Draws the views.
+        Widget that draws the views.
     panes : Panes
         The views.
     viewport : Viewport
-        The first of them.
-    travel : Travel
-        The camera's flights and rests.
+        The first view.
+    travel : CameraAnimation
+        Flights and pose history of the camera.
 
     Signals
     -------
     views_changed
-        There is another view to go back or forward to, or another projection.
+        The history of camera poses or the projection has changed.
     """
 
     views_changed = Signal()
@@ -60,28 +60,28 @@ class CameraView(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.interactor = RenderWidget(self)
-        self.interactor.setMinimumSize(*_LEAST)
+        self.interactor.setMinimumSize(*_MIN_SIZE)
         set_help(self.interactor, "3D view", "")
         self.interactor.setAccessibleDescription(
-            "Arrow keys turn the mesh, Shift and arrow keys shift it, + and − zoom; F shows all of it."
+            "Arrow keys rotate, Shift and arrow keys pan, + and − zoom; F fits the mesh into the view."
         )
         self.panes = Panes(self.interactor.render_window, pixel_ratio=self.devicePixelRatioF(), on_failure=_report)
         self.viewport = self.panes.first
         self._rest = QTimer(self, interval=_REST, singleShot=True)
         self._rest.timeout.connect(self.draw_still)
         self.travel = CameraAnimation(self.viewport.camera, self)
-        self.travel.moved.connect(self._on_flown)
+        self.travel.moved.connect(self._on_flight_frame)
         self.travel.changed.connect(self.views_changed)
-        watch = self.interactor.iren.AddObserver
-        watch("StartInteractionEvent", lambda *_: self.travel.leave())
-        watch("InteractionEvent", lambda *_: self.turning())
-        watch("EndInteractionEvent", lambda *_: self._on_turned())
+        observe = self.interactor.iren.AddObserver
+        observe("StartInteractionEvent", lambda *_: self.travel.leave())
+        observe("InteractionEvent", lambda *_: self.turning())
+        observe("EndInteractionEvent", lambda *_: self._on_interaction_end())
         self._keys = _Keys(self)
         self._plotter: CanvasPlotter | None = None
 
     @property
     def plotter(self) -> CanvasPlotter:
-        """PyVista's plotter on the first view, made when first asked for: its import takes half a second."""
+        """PyVista plotter on the first view, created on first access because its import takes half a second."""
         if self._plotter is None:
             from hexmend_app.canvas.plotter import CanvasPlotter
 
@@ -89,50 +89,50 @@ class CameraView(QWidget):
         return self._plotter
 
     def new_plotter_window(self, title: str = "PyVista") -> BackgroundPlotter:
-        """Open a further view in a window of its own, with PyVista's interactor and widgets."""
+        """Open a separate pyvistaqt window, with the interactor and the widgets of PyVista."""
         from hexmend_app.canvas.plotter import open_window
 
         return open_window(title)
 
     def fit(self) -> None:
         """Fit the shown hexes into the view."""
-        self._lead(self.panes.eye.fit)
+        self._move_camera(self.panes.eye.fit)
 
     def look_along(self, direction: str) -> None:
-        """Look along an axis: +x, -x, ..., iso."""
-        self._lead(partial(self.panes.eye.look_along, direction))
+        """Show the mesh from a direction: +x, -x, ..., iso."""
+        self._move_camera(partial(self.panes.eye.look_along, direction))
 
     @property
-    def stand(self) -> CameraPose:
-        """The present camera pose."""
+    def pose(self) -> CameraPose:
+        """Current camera pose."""
         return pose_of(self.viewport.camera, self.up)
 
     @property
     def journey(self) -> PoseHistoryData:
-        """The history of camera poses."""
+        """History of camera poses."""
         before, after, remembered = self.travel.journey()
         poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
         return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
 
-    def stand_at(self, stand: CameraPose, journey: PoseHistoryData | None = None) -> None:
+    def set_pose(self, pose: CameraPose, journey: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
-        self.panes.eye.up = stand.axis
-        self._lead(partial(apply_pose, self.viewport.camera, stand))
+        self.panes.eye.up = pose.axis
+        self._move_camera(partial(apply_pose, self.viewport.camera, pose))
         if journey is not None:
             self.travel.resume(journey.before, journey.after, journey.left)
 
     @property
     def up(self) -> str:
-        """The axis that is up: x, y or z."""
+        """Vertical axis: x, y or z."""
         return self.panes.eye.up
 
     def set_up(self, axis: str) -> None:
         """Set the vertical axis: x, y or z."""
-        self._lead(partial(self.panes.eye.set_up, axis))
+        self._move_camera(partial(self.panes.eye.set_up, axis))
 
     def roll(self, degrees: float) -> None:
-        """Turn the picture, counter-clockwise."""
-        self._lead(partial(self.panes.eye.roll, degrees))
+        """Rotate the picture counter-clockwise."""
+        self._move_camera(partial(self.panes.eye.roll, degrees))
 
     @property
     def parallel(self) -> bool:
@@ -140,11 +140,11 @@ class CameraView(QWidget):
         return bool(self.viewport.camera.GetParallelProjection())
 
     def set_parallel(self, on: bool) -> None:
-        """Choose parallel projection, or perspective."""
-        self._lead(partial(self.panes.eye.set_parallel, on))
+        """Switch between parallel and perspective projection."""
+        self._move_camera(partial(self.panes.eye.set_parallel, on))
 
-    def _lead(self, move: Callable[[], None]) -> None:
-        """Move the camera at once."""
+    def _move_camera(self, move: Callable[[], None]) -> None:
+        """Move the camera immediately and record the movement."""
         self.travel.leave()
         move()
         self.travel.arrive()
@@ -152,56 +152,56 @@ class CameraView(QWidget):
         self.changed()
 
     def face(self, plane: ClipPlane) -> None:
-        """Move to a view straight at a plane, from the side that the cut removes."""
+        """Fly to a view perpendicular to a plane, from the side that the cut removes."""
         self.travel.fly(self.panes.eye.flight_along(plane.normal))
 
     def fly_to(self, *hexes: int) -> None:
-        """Move the camera to an element, or to several."""
+        """Fly to one or several hexes."""
         if self.viewport.frame is None:
             return
         mesh = self.viewport.frame.mesh
         self.travel.fly(self.panes.eye.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
     def fly_around(self, place: np.ndarray) -> None:
-        """Make a point, (3,) float64, the centre of the view and of rotation."""
+        """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
         self.travel.fly(self.panes.eye.flight_around(place))
 
     @property
     def can_go_back(self) -> bool:
-        """True if there is a previous view."""
+        """True if there is a previous camera pose."""
         return self.travel.can_go_back
 
     @property
     def can_go_forward(self) -> bool:
-        """True if there is a next view."""
+        """True if there is a next camera pose."""
         return self.travel.can_go_forward
 
     def back_view(self) -> None:
-        """Move to the previous view."""
+        """Fly to the previous camera pose."""
         self.travel.go_back()
 
     def forward_view(self) -> None:
-        """Move to the next view."""
+        """Fly to the next camera pose."""
         self.travel.go_forward()
 
     def remember_pose(self) -> None:
-        """Bookmark the present pose, unless another one is bookmarked."""
+        """Bookmark the current pose, unless another pose is bookmarked."""
         self.travel.remember()
 
     def return_to_pose(self) -> None:
-        """Move to the bookmarked pose, if there is one, and clear it."""
+        """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
         self.travel.come_back()
 
-    def _on_flown(self) -> None:
+    def _on_flight_frame(self) -> None:
         self.panes.eye.reset_depth()
         self.turning()
         self.draw_soon()
 
-    def _on_turned(self) -> None:
+    def _on_interaction_end(self) -> None:
         self.travel.arrive()
         self._rest.start()
 
-    # Fast frames and fine ones
+    # Fast and fine frames
 
     def changed(self) -> None:
         """Schedule drawing after a change."""
@@ -209,21 +209,21 @@ class CameraView(QWidget):
         self.draw_soon()
 
     def draw_soon(self) -> None:
-        """Schedule a fast frame, and a fine one when nothing has moved for a while."""
+        """Schedule a fast frame, and a fine frame after a time without changes."""
         self._rest.start()
         self.interactor.update()
 
     def turning(self) -> None:
-        """Prepare for frames in which nothing but the camera moves."""
+        """Prepare for fast frames in which only the camera moves."""
         self._rest.stop()
         self.panes.turning()
 
     def stay_coarse(self) -> None:
-        """Cancel the fine frame: further changes follow."""
+        """Cancel the scheduled fine frame because more changes follow."""
         self._rest.stop()
 
     def rest(self) -> None:
-        """Schedule the fine frame: nothing moves for now."""
+        """Schedule a fine frame."""
         self._rest.start()
 
     def draw_still(self) -> None:
@@ -240,19 +240,19 @@ class CameraView(QWidget):
         self.interactor.let_go()
 
     def on_key(self, event: QKeyEvent) -> None:
-        """Move the camera by a key that is bound to it."""
+        """Move the camera if the key is bound to a movement."""
         move = move_of(event, self.panes.eye.up)
         if move is not None:
-            self._lead(partial(move, self.viewport.camera))
+            self._move_camera(partial(move, self.viewport.camera))
 
 
 def _report(error: Exception) -> None:
-    """Report the exception of a layer through the exception hook; the frame is drawn without that layer."""
+    """Report the exception of a layer through the exception hook; the frame is drawn without the layer."""
     sys.excepthook(type(error), error, error.__traceback__)
 
 
 class _Keys(QObject):
-    """Event filter that keeps keys from VTK, whose bindings would draw wireframes or quit."""
+    """Event filter that handles keys itself, because key bindings of VTK switch to wireframe or quit."""
 
     def __init__(self, view: CameraView):
         super().__init__(view)
@@ -260,7 +260,7 @@ class _Keys(QObject):
         view.interactor.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Move the camera by keys."""
+        """Handle all keys except Tab."""
         if event.type() == QEvent.Type.KeyPress and event.key() not in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
             self._view.on_key(event)
             return True

@@ -1,4 +1,4 @@
-"""The 3D view as a widget: the scene in a Qt interactor, cut handles and the colour bar."""
+"""3D view as a widget with cut handles, captions and colour bar."""
 
 from __future__ import annotations
 
@@ -34,27 +34,27 @@ if TYPE_CHECKING:
     from hexmend_app.picture import Camera, Page, Scene
     from hexmend_app.scene.page.page_renderer import PageRenderer
 
-#: Width in pixels of the ring that marks the focus, and how the focus comes by keys.
+#: Width of the focus ring in pixels, and reasons of keyboard focus.
 _RING = 2
 _BY_KEYS = (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason, Qt.FocusReason.ShortcutFocusReason)
 
 
 class Canvas(CameraView):
-    """Draws a mesh, and others beside it for comparison.
+    """Draws a mesh, and others next to it for comparison.
 
     Signals
     -------
     plane_dragged(ClipPlane)
-        The user moved or turned the plane in the view.
+        The user moved or rotated the plane in the view.
     box_dragged(low, high)
         The user moved a side of the box in the view.
     clicked(hit)
-        The user clicked on an element, (hex, its nearest node), or beside the mesh, None.
+        The user clicked on a hex, (hex, nearest node), or outside the mesh, None.
     dug(hex)
-        The user clicked on an element with Ctrl held down.
+        The user clicked on a hex with Ctrl.
     menu_requested(hit, place)
-        The user opens the context menu at a hex, (hex, its nearest node), or outside the mesh, None; the
-        place, a QPoint of the screen, is that of the menu.
+        The user opened the context menu on a hex, (hex, nearest node), or outside the mesh, None; `place` is its
+        position on the screen, a QPoint.
     """
 
     plane_dragged = Signal(object)
@@ -68,32 +68,32 @@ class Canvas(CameraView):
         self.plane = PlaneWidget(self.panes.pane, self.plane_dragged.emit)
         self.box = BoxWidget(self.panes.pane, self.box_dragged.emit)
         self.colour_bar = ColourBar()
-        self._bar_place = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
+        self._bar_overlay = Overlay(self.colour_bar, self.interactor, (1.0, 0.5), key="colour_bar")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(_RING, _RING, _RING, _RING)
         self.frame = ViewFrame(self.interactor)
         for part, area in self.frame.clickable.items():
-            self._bar_place.keep_off(part, area)
+            self._bar_overlay.keep_off(part, area)
         layout.addLayout(self.frame, 1)
-        self._handled = False, 0
-        self._chosen: tuple[int | None, bool] = (None, False)
-        self._watch_pointer()
+        self._handles = False, 0
+        self._selected: tuple[int | None, bool] = (None, False)
+        self._connect_pointer()
         self.interactor.installEventFilter(self)
         self._ring = False
         self.lighting = Lighting(self.panes, self)
         self.lighting.lit.connect(self.interactor.update)
         self._closed = False
-        on_theme_change(self, self._wear_theme)
+        on_theme_change(self, self._apply_theme)
 
-    def _watch_pointer(self) -> None:
+    def _connect_pointer(self) -> None:
         pointer = Pointer(self.interactor)
         pointer.pressed.connect(self.travel.leave)
         pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
         pointer.dug.connect(self._dig)
-        pointer.double_clicked.connect(self._turn_about)
-        pointer.menu_wanted.connect(self._ask_for_menu)
+        pointer.double_clicked.connect(self._rotate_about)
+        pointer.menu_requested_at.connect(self._request_menu)
 
-    def _wear_theme(self) -> None:
+    def _apply_theme(self) -> None:
         if self._closed:
             return
         self.panes.set_dark(THEME.dark)
@@ -102,12 +102,12 @@ class Canvas(CameraView):
         self.changed()
 
     def draw(self, frame: Frame, live: bool = False) -> None:
-        """Draw a frame in all views; `live` frames follow one another, so that none is refined."""
+        """Draw a frame in all views; `live` frames are followed by others, so no fine frame is drawn."""
         last = self.viewport.frame
         self.panes.draw(frame)
         if not frame.is_of(last):
-            self._chosen = None, False
-            self.travel.begin_anew()
+            self._selected = None, False
+            self.travel.restart()
             for handles in (self.plane, self.box):
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()
@@ -118,44 +118,44 @@ class Canvas(CameraView):
 
     def clear(self) -> None:
         """Draw no mesh."""
-        self._chosen = None, False
+        self._selected = None, False
         self.panes.clear()
         self._place_handles()
         self._show_colours()
         self.changed()
 
     def shows(self, mesh: Mesh) -> bool:
-        """Return True if a mesh is drawn, with its nodes at any positions."""
+        """Return True if the hexes of a mesh are drawn; positions of nodes may differ."""
         frame = self.viewport.frame
         return frame is not None and frame.mesh.hexes is mesh.hexes
 
     def show_handles(self, handles: bool, at: int) -> None:
-        """Show the handles of the box or of one plane, or none."""
-        self._handled = handles, at
+        """Show or hide the handles of the box or of the plane with index `at`."""
+        self._handles = handles, at
         self._place_handles()
         self.draw_soon()
 
     def _place_handles(self) -> None:
-        """Place the handles in the first view; a wipe without that view has none."""
-        handles, at = self._handled
+        """Place the handles in the first view; they are hidden if it is not visible."""
+        handles, at = self._handles
         clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
         shown = handles and self.viewport in self.panes.seen
         self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
         self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
-    # What is pointed at
+    # Selection
 
     def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
-        """Mark a hex, with or without the qualities of its corners, and one of its nodes; None marks nothing."""
-        self._chosen = h, corners
+        """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
+        self._selected = h, corners
         self.viewport.extras.selection.select(h, corners, node)
         self._select_in_other_views()
         self.changed()
 
     def _select_in_other_views(self) -> None:
-        """Mark the same element in the other views."""
+        """Mark the same hex in the other views."""
         for view in self.panes.all[1:]:
-            view.extras.selection.select(*self._chosen, None)
+            view.extras.selection.select(*self._selected, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw the step of a node; None removes it."""
@@ -164,13 +164,13 @@ class Canvas(CameraView):
             self.changed()
 
     def show_side_by_side(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
-        """Show other states of the mesh in views beside the first, or two views with a wipe.
+        """Show other meshes in views next to the first, or two views as a wipe.
 
         Parameters
         ----------
         others : sequence of (Mesh, ElementQuality)
         wipe : Wipe, optional
-            None shows all side by side.
+            None shows all views side by side.
         """
         self.panes.reserve_captions(round(HEIGHT * self.devicePixelRatioF()))
         self.panes.show(others, wipe)
@@ -191,17 +191,17 @@ class Canvas(CameraView):
         """Redraw on changes of focus; open the context menu for the menu key."""
         kind = event.type()
         if kind == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Menu:
-            self._ask_for_menu(QPointF(self.interactor.rect().center()))
+            self._request_menu(QPointF(self.interactor.rect().center()))
         if kind == QEvent.Type.Resize:
             self.frame.fit()
         if kind in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
-            # Marked where keys brought it here: who clicks knows where.
+            # Show the ring for keyboard focus only.
             self._ring = kind == QEvent.Type.FocusIn and event.reason() in _BY_KEYS
             self.update()
         return super().eventFilter(watched, event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Align the view with device pixels: at a scale of 150 %, half a pixel would stay black."""
+        """Align the view with device pixels; with a scale of 150 %, half a pixel would stay black otherwise."""
         super().resizeEvent(event)
         whole = Fraction(self.devicePixelRatioF()).limit_denominator(4).denominator
         at = self.mapTo(self.window(), QPoint(0, 0))
@@ -217,8 +217,7 @@ class Canvas(CameraView):
         """Draw a focus ring around the view."""
         if self._ring:
             painter = QPainter(self)
-            around = self.interactor.geometry().adjusted(-_RING, -_RING, _RING, _RING)
-            painter.fillRect(around, QColor(str(BLUE)))
+            painter.fillRect(self.interactor.geometry().adjusted(-_RING, -_RING, _RING, _RING), QColor(str(BLUE)))
 
     def _pick(self, place: QPointF) -> Hit | None:
         ratio = self.devicePixelRatioF()
@@ -234,28 +233,28 @@ class Canvas(CameraView):
         if hit is not None:
             self.dug.emit(hit.hex)
 
-    def _turn_about(self, place: QPointF) -> None:
+    def _rotate_about(self, place: QPointF) -> None:
         """Make the picked point the centre of rotation."""
         hit = self._pick(place)
         if hit is not None:
             self.fly_around(hit.place)
 
-    def _ask_for_menu(self, place: QPointF) -> None:
+    def _request_menu(self, place: QPointF) -> None:
         self.menu_requested.emit(self._at(place), self.interactor.mapToGlobal(place.toPoint()))
 
     @property
     def names(self) -> list[str]:
-        """The names in the captions of several views."""
+        """Names in the captions of several views."""
         return [caption.name for caption in self.frame.captions]
 
     def scene(self, page: Page, cameras: Mapping[str, Camera] | None = None) -> Scene:
-        """Return the scene of the present view, without cut handles, on a page, with named cameras."""
-        from hexmend_app.scene.page.views_page import scene_of  # with what no view needs
+        """Return the scene of the current views, with a page and named cameras."""
+        from hexmend_app.scene.page.views_page import scene_of  # not needed for the view itself
 
         return scene_of(self.panes, self.names, page, cameras)
 
     def sheet(self, scene: Scene) -> PageRenderer:
-        """Draw a scene of the present views."""
+        """Draw the page of a scene of the current views."""
         from hexmend_app.scene.page.views_page import draw_views
 
         return draw_views(scene, self.panes, self.names, self._plotter and self._plotter.copied_props)
@@ -271,7 +270,7 @@ class Canvas(CameraView):
 
     @property
     def colouring(self) -> Colouring | None:
-        """The colouring of the mesh; None while no mesh is drawn."""
+        """Colouring of the mesh; None if no mesh is drawn."""
         return self.viewport.colouring
 
     def _show_colours(self) -> None:
@@ -283,12 +282,12 @@ class Canvas(CameraView):
             self.colour_bar.set_label(colouring.title)
             self.colour_bar.set_table(colouring.table)
             self.colour_bar.set_range(colouring.low, colouring.high)
-            alone = len(self.panes.all) == 1  # of several, the captions say how many
+            single = len(self.panes.all) == 1  # the captions of several views show the numbers of inverted hexes
             self.colour_bar.set_special(
-                [(name, n if alone else 0, colour) for name, n, colour in self.viewport.colours.special_counts]
+                [(name, n if single else 0, colour) for name, n, colour in self.viewport.colours.special_counts]
             )
 
     def draw_still(self) -> None:
-        """Draw the fine frame, and start to compute its shading."""
+        """Draw a fine frame, and start to compute its shading."""
         super().draw_still()
         self.lighting.start()

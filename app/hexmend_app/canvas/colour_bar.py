@@ -1,4 +1,4 @@
-"""The colour bar, painted by Qt to stay sharp at every scale."""
+"""Colour bar, painted by Qt so that it is sharp at all scales."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.theme.style import INVERTED, LINE, MUTED, PANEL, TEXT, on_theme_change, set_help, smaller, tabular
 
-#: Pixels: of the whole, of the gradient, of a tick, and between a tick and its number.
+#: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
 _HEIGHT = 300
 _THICKNESS, _TICK, _GAP = 14.0, 4.0, 3.0
-_WIDEST_TITLE = 116
-_MOST_TICKS = 11
+_MAX_TITLE = 116
+
+_MAX_TICKS = 11
 
 
 class ColourBar(QFrame):
@@ -28,12 +29,12 @@ class ColourBar(QFrame):
     Parameters
     ----------
     label : str
-        The quantity.
+        Name of the quantity.
 
     Signals
     -------
-    apart_clicked(str)
-        The user clicked on the swatch of what has this name.
+    special_clicked(str)
+        The user clicked on the swatch of the special colour with this name.
     """
 
     special_clicked = Signal(str)
@@ -57,7 +58,7 @@ class ColourBar(QFrame):
         on_theme_change(self, lambda: self.setStyleSheet(sheet.format(PANEL, LINE)))
 
     def set_table(self, table: np.ndarray) -> None:
-        """Set the colour map, (256, 3) uint8, lowest value first."""
+        """Set the colours, (256, 3) uint8, from the lowest to the highest value."""
         table = np.ascontiguousarray(table, dtype=np.uint8)
         if table.ndim != 2 or table.shape[1] != 3:
             raise ValueError(f"the colour table has shape {table.shape}: expected (n, 3)")
@@ -79,15 +80,15 @@ class ColourBar(QFrame):
 
     @property
     def range(self) -> tuple[float, float]:
-        """The values at the ends of the gradient."""
+        """Values at the ends of the gradient."""
         return self._gradient.low, self._gradient.high
 
     def ticks(self, length: float) -> list[float]:
-        """Return the values at the ticks of a gradient of a height in pixels."""
+        """Return the tick values for a gradient with a height in pixels."""
         return self._gradient.ticks(length)
 
     def set_special(self, special_colours: Sequence[tuple[str, int, object]]) -> None:
-        """Set the special colours: name, number of elements, colour as name or (red, green, blue) bytes."""
+        """Set the special colours: name, number of hexes, colour as name or (red, green, blue) bytes."""
         while len(self.swatches) < len(special_colours):
             swatch = SwatchButton()
             swatch.clicked.connect(lambda _=False, swatch=swatch: self.special_clicked.emit(swatch.name))
@@ -98,42 +99,41 @@ class ColourBar(QFrame):
         for swatch in self.swatches[len(special_colours) :]:
             swatch.hide()
         for swatch, (name, count, colour) in zip(self.swatches, special_colours, strict=False):
-            known = isinstance(colour, str | QColor)
-            swatch.show_kind(name, int(count), QColor(colour) if known else QColor(*map(int, colour)))
+            is_colour = isinstance(colour, str | QColor)
+            swatch.show_kind(name, int(count), QColor(colour) if is_colour else QColor(*map(int, colour)))
             swatch.show()
         self._describe()
 
     def _describe(self) -> None:
         low, high = (self._gradient.text(end) for end in self.range)
-        label, special_colours = self._title.text(), [one for one in self.swatches if not one.isHidden()]
+        label, shown = self._title.text(), [swatch for swatch in self.swatches if not swatch.isHidden()]
         set_help(
             self,
             "Colour bar",
-            f"Colours stand for {label} from {low} to {high}; values beyond an end have the end's colour. "
-            f"Hexes that are {' or '.join(one.name for one in special_colours)} have a colour of their own; inverted "
-            "ones are turned inside out at a corner (a determinant σ ≤ 0), and outlined. Drag the bar elsewhere; a "
-            "double click puts it back.",
+            f"Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest end. "
+            f"Special colours: {', '.join(swatch.name for swatch in shown)}. Inverted hexes have a corner with a "
+            "determinant σ ≤ 0 and are outlined. Drag the bar to move it; double-click it to reset its position.",
         )
-        texts = "; ".join(swatch_text(one.name, one.count) for one in special_colours)
+        texts = "; ".join(swatch_text(swatch.name, swatch.count) for swatch in shown)
         self.setAccessibleDescription(f"{texts}; {label} from {low} to {high}")
 
     def sizeHint(self) -> QSize:
-        """Return the width of the texts, and a comfortable height."""
-        title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _WIDEST_TITLE)
-        parts = [title, self._gradient.sizeHint().width()]
-        parts += [one.sizeHint().width() for one in self.swatches if not one.isHidden()]
+        """Return the width of the texts, and the default height."""
+        title = min(self._title.fontMetrics().horizontalAdvance(self._title.text()) + 2, _MAX_TITLE)
+        widths = [title, self._gradient.sizeHint().width()]
+        widths += [swatch.sizeHint().width() for swatch in self.swatches if not swatch.isHidden()]
         margins = self._layout.contentsMargins()
-        return QSize(max(parts) + margins.left() + margins.right(), _HEIGHT)
+        return QSize(max(widths) + margins.left() + margins.right(), _HEIGHT)
 
 
 class _Gradient(QWidget):
-    """The colours from the highest value down, with ticks at their right."""
+    """Gradient with the highest value at the top, and ticks on its right."""
 
     def __init__(self) -> None:
         super().__init__()
         self.table = np.repeat(np.arange(256, dtype=np.uint8)[:, None], 3, axis=1)
         self.low, self.high = 0.0, 1.0
-        self._like: tuple = ()  # what `_drawn` was drawn for
+        self._key: tuple = ()  # values that `_drawn` depends on
         self._drawn = QPixmap()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
@@ -142,40 +142,40 @@ class _Gradient(QWidget):
         return range_label(value, self.low, self.high)
 
     def sizeHint(self) -> QSize:
-        """Return the width of the numbers, at least that of common ones, so that it seldom changes."""
+        """Return the width of gradient and numbers; a minimum width makes changes rare."""
         metrics = QFontMetricsF(self.font())
         texts = ["0.000", *(self.text(tick) for tick in self.ticks(_HEIGHT / 2))]
         widest = max(map(metrics.horizontalAdvance, texts))
         return QSize(math.ceil(_THICKNESS + _TICK + _GAP + widest), 40)
 
     def minimumSizeHint(self) -> QSize:
-        """Return a height that fits a low view."""
+        """Return a height that fits into small views."""
         return QSize(self.sizeHint().width(), 20)
 
     def ticks(self, length: float) -> list[float]:
-        """Return both ends, and the round values between them whose labels fit into a height in pixels."""
+        """Return both ends, and round values between them whose labels fit into a height in pixels."""
         space = 2 * QFontMetricsF(self.font()).height() / max(length, 1)
-        return ticks_with_ends(self.low, self.high, space, _MOST_TICKS)
+        return ticks_with_ends(self.low, self.high, space, _MAX_TICKS)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint gradient, ticks and numbers; called with every frame of the view below."""
-        like = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.font().key())
-        like += (str(LINE), str(MUTED), str(TEXT))
-        if like != self._like:
-            self._like, self._drawn = like, self._draw()
+        """Paint gradient, ticks and numbers from a cached pixmap; called with every frame of the view below."""
+        key = (self.size(), self.devicePixelRatioF(), self.table.tobytes(), self.low, self.high, self.font().key())
+        key += (str(LINE), str(MUTED), str(TEXT))
+        if key != self._key:
+            self._key, self._drawn = key, self._draw()
         QPainter(self).drawPixmap(0, 0, self._drawn)
 
     def _draw(self) -> QPixmap:
         ratio = self.devicePixelRatioF()
-        drawn = QPixmap(self.size() * ratio)
-        drawn.setDevicePixelRatio(ratio)
-        drawn.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(drawn)
+        pixmap = QPixmap(self.size() * ratio)
+        pixmap.setDevicePixelRatio(ratio)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(pixmap)
         painter.setFont(self.font())
         metrics = QFontMetricsF(self.font())
         half = metrics.height() / 2
         bar = QRectF(0.0, half, _THICKNESS, max(self.height() - 2 * half, 1.0))
-        # One column of 256 pixels, stretched by the painter at the screen's own resolution.
+        # A column of 256 pixels, which the painter stretches at the resolution of the screen.
         table = np.ascontiguousarray(self.table[::-1])
         painter.drawImage(bar, QImage(table.tobytes(), 1, len(table), 3, QImage.Format.Format_RGB888))
         painter.setPen(QPen(QColor(str(LINE)), 0))
@@ -188,4 +188,4 @@ class _Gradient(QWidget):
             painter.setPen(QColor(str(TEXT)))
             painter.drawText(QPointF(bar.right() + _TICK + _GAP, y + metrics.ascent() / 2 - 1), self.text(value))
         painter.end()
-        return drawn
+        return pixmap

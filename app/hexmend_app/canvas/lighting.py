@@ -1,4 +1,4 @@
-"""Shading of fine frames, computed in the background: a frame is drawn first, its shading later."""
+"""Shading of fine frames, computed in the background after the frame has been drawn."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from hexmend_app.state.tasks.task import Task, drop
 
 
 class Lighting(QObject):
-    """Computes the shading of visible views in the background, one after another.
+    """Computes the shading of the visible views in the background, one view at a time.
 
     Signals
     -------
     lit
-        The shading of a view is known; the view must be drawn again.
+        The shading of a view has been computed; the view must be drawn again.
     """
 
     lit = Signal()
@@ -34,7 +34,7 @@ class Lighting(QObject):
         return self._task is not None
 
     def start(self) -> None:
-        """Compute the shading that fine frames lack."""
+        """Compute the missing shading of fine frames."""
         if self._task is not None:
             return
         for view in self._panes.seen:
@@ -43,21 +43,21 @@ class Lighting(QObject):
                 self._begin(view.body, scene)
                 return
 
-    def _begin(self, body: MeshLayer, scene: Polygons) -> None:
+    def _begin(self, mesh_layer: MeshLayer, scene: Polygons) -> None:
         def work(task: Task) -> np.ndarray | None:
-            return occlusion.light(scene, lambda: body.draws(scene) and not task.cancelled.is_set())
+            return occlusion.light(scene, lambda: mesh_layer.draws(scene) and not task.cancelled.is_set())
 
-        self._lit = body, scene
-        self._task = Task("light on the mesh", work, yields=True)
+        self._target = mesh_layer, scene
+        self._task = Task("shading of the mesh", work, yields=True)
         self._task.ended.connect(self._finish)
         self._task.start()
 
     def _finish(self) -> None:
         task, self._task = self._task, None
-        body, scene = self._lit
+        mesh_layer, scene = self._target
         if task.error is not None:
             raise task.error
-        if task.result is not None and body.apply_shading(scene, task.result):
+        if task.result is not None and mesh_layer.apply_shading(scene, task.result):
             self.lit.emit()
         self.start()
 

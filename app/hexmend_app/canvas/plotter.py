@@ -1,9 +1,9 @@
-"""A PyVista plotter that draws into the 3D view, for features, scripts and the console.
+"""PyVista plotter that draws into the 3D view, for features, scripts and the console.
 
-pyvistaqt's `QtInteractor` is not the canvas: its import and first picture take 1.5 s of processor time, and it needs a
-native window, over which no other widget can lie. Instead the plotter adopts the render window of the view: it puts its
-actors into the renderer of the first view, and the two cameras follow each other. Widgets and picking of PyVista need
-PyVista's interactor: `open_window` opens a pyvistaqt window for them.
+The canvas does not use `QtInteractor` of pyvistaqt: its import and first picture take 1.5 s of processor time, and it
+requires a native window, which no other widget can overlap. Instead, the plotter uses the render window of the view:
+it adds its actors to the renderer of the first view, and synchronises the two cameras. Widgets and picking of PyVista
+require its interactor; `open_window` opens a pyvistaqt window for them.
 """
 
 from __future__ import annotations
@@ -25,30 +25,30 @@ from hexmend_app.theme.palette import THEME
 
 
 class View(Protocol):
-    """The 3D view as the plotter uses it: `hexmend_app.canvas.camera_view.CameraView`."""
+    """Interface of the 3D view for the plotter, implemented by `hexmend_app.canvas.camera_view.CameraView`."""
 
     interactor: Any
     panes: Any
     viewport: Any
 
     def changed(self) -> None:
-        """Draw soon: something else is to be seen."""
+        """Schedule drawing after a change."""
 
     def draw_soon(self) -> None:
-        """Draw soon from where the camera is."""
+        """Schedule drawing after a camera movement."""
 
     def devicePixelRatioF(self) -> float:
-        """Return the pixels of the screen for one of Qt's."""
+        """Return the number of device pixels per logical pixel."""
 
 
 class AdoptedRenderer(pv.Renderer):
-    """PyVista's list of its own actors, which another renderer draws.
+    """PyVista renderer that lists the actors of a plotter, which another renderer draws.
 
     Parameters
     ----------
-    plotter : Plotter
+    plotter : BasePlotter
     target : vtkRenderer
-        Draws what is added here; nothing else of it is touched.
+        Renderer that draws the props that are added here; its other props are not changed.
     """
 
     def __init__(self, plotter: BasePlotter, target: vtkRenderer):
@@ -56,34 +56,34 @@ class AdoptedRenderer(pv.Renderer):
         self._target = target
 
     def AddActor(self, prop: vtkProp) -> None:
-        """Draw a prop."""
+        """Add a prop."""
         self.AddViewProp(prop)
 
     def AddViewProp(self, prop: vtkProp) -> None:
-        """Draw a prop."""
+        """Add a prop."""
         super().AddViewProp(prop)
         self._target.AddViewProp(prop)
 
     def RemoveActor(self, prop: vtkProp) -> None:
-        """Draw a prop no longer."""
+        """Remove a prop."""
         self.RemoveViewProp(prop)
 
     def RemoveViewProp(self, prop: vtkProp) -> None:
-        """Draw a prop no longer."""
+        """Remove a prop."""
         self._target.RemoveViewProp(prop)
         super().RemoveViewProp(prop)
 
     def RemoveAllViewProps(self) -> None:
-        """Draw none of the props that were added here."""
+        """Remove all props that were added here."""
         for prop in list(self.GetViewProps()):
             self.RemoveViewProp(prop)
 
 
 class CanvasPlotter(pv.Plotter):
-    """PyVista's plotter on the first view of a canvas.
+    """PyVista plotter on the first view of a canvas.
 
-    `clear` removes only what was added through the plotter. Another mesh, look or theme leaves it as it is, and saved
-    pictures have it too.
+    `clear` removes only actors that were added through the plotter. They remain when mesh, look or theme change, and
+    are part of saved pictures.
 
     Parameters
     ----------
@@ -91,9 +91,9 @@ class CanvasPlotter(pv.Plotter):
     """
 
     def __init__(self, canvas: View):
-        # Plotter's own constructor makes a render window.
+        # The constructor of Plotter would create a render window.
         BasePlotter.__init__(self, lighting="none", border=False, theme="dark" if THEME.dark else "document")
-        self._initialized = False  # attributes may still be added
+        self._initialized = False  # PyVista forbids new attributes of initialised plotters
         self._canvas = canvas
         self.off_screen = self.notebook = False
         self.ren_win = canvas.interactor.render_window
@@ -104,17 +104,17 @@ class CanvasPlotter(pv.Plotter):
         self._initialized = True
 
     def render(self) -> None:
-        """Draw soon; several calls make one frame."""
+        """Schedule drawing; several calls are combined into one frame."""
         if not (self._closed or self._suppress_rendering):
             self._canvas.panes.eye.reset_depth()
             self._canvas.changed()
 
     def show(self, *_: Any, **__: Any) -> None:
-        """Draw soon: the window is open already."""
+        """Schedule drawing; the window is open already."""
         self.render()
 
     def screenshot(self, filename: Any = None, **_: Any) -> np.ndarray:
-        """Return the pixels of the view, (height, width, 3) uint8, and write them to a file if one is named."""
+        """Return the pixels of the view, (height, width, 3) uint8, and optionally write them to a file."""
         image = self._canvas.interactor.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
         size = image.width(), image.height()
         pixels = Image.frombuffer("RGB", size, bytes(image.constBits()), "raw", "RGB", image.bytesPerLine(), 1)
@@ -123,27 +123,27 @@ class CanvasPlotter(pv.Plotter):
         return np.array(pixels)
 
     def copied_props(self, line_width: float) -> list[vtkProp]:
-        """Copies of the visible props for another render window.
+        """Return copies of the visible props for another render window.
 
         Parameters
         ----------
         line_width : float
-            Width in pixels of a thin line there.
+            Width of a thin line in the other window, in pixels.
         """
         ratio = line_width / self._canvas.devicePixelRatioF()
         return [copy_prop(prop, ratio) for prop in self.renderer.GetViewProps() if prop.GetVisibility()]
 
     def close(self) -> None:
-        """Remove what was added, and leave the view to the canvas."""
+        """Remove all actors of the plotter; the render window remains open."""
         if not self._closed:
             self._link.close()
             self.clear()
-            self.ren_win = None  # it stays the canvas's
+            self.ren_win = None  # the canvas owns the render window
             super().close()
 
 
 class _CameraLink:
-    """Keeps a camera of PyVista's like that of a view, whichever is moved."""
+    """Synchronises a PyVista camera with the camera of a view, in both directions."""
 
     def __init__(self, canvas: View, camera: pv.Camera):
         self._canvas, self._busy = canvas, False
@@ -151,7 +151,7 @@ class _CameraLink:
         camera.DeepCopy(view)
         self._observers: list[tuple[vtkObject, int]] = [
             (view, view.AddObserver("ModifiedEvent", lambda *_: self._copy(view, camera))),
-            (camera, camera.AddObserver("ModifiedEvent", lambda *_: self._lead(camera, view))),
+            (camera, camera.AddObserver("ModifiedEvent", lambda *_: self._copy_to_view(camera, view))),
         ]
 
     def _copy(self, source: Any, target: Any) -> bool:
@@ -164,7 +164,7 @@ class _CameraLink:
             self._busy = False
         return True
 
-    def _lead(self, camera: Any, view: Any) -> None:
+    def _copy_to_view(self, camera: Any, view: Any) -> None:
         if self._copy(camera, view):
             self._canvas.draw_soon()
 
@@ -175,12 +175,12 @@ class _CameraLink:
 
 
 def open_window(title: str = "PyVista") -> Any:
-    """Open a further view in a window of its own, through pyvistaqt.
+    """Open a separate pyvistaqt window.
 
     Returns
     -------
     pyvistaqt.BackgroundPlotter
-        With PyVista's interactor, widgets and picking.
+        Window with the interactor, widgets and picking of PyVista.
 
     Raises
     ------

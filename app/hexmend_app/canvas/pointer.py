@@ -5,12 +5,12 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
-#: How far the mouse may stray in a click, in pixels; beyond it drags.
-_STRAY = 3
+#: Maximum movement of the mouse during a click, in pixels; more is a drag.
+_MAX_MOVEMENT = 3
 
 
 class Pointer(QObject):
-    """Tells clicks from drags.
+    """Distinguishes clicks from drags.
 
     Parameters
     ----------
@@ -19,44 +19,44 @@ class Pointer(QObject):
     Signals
     -------
     pressed
-        A button is down: a click or a drag begins.
+        A button was pressed; a click or a drag begins.
     clicked(place), dug(place)
-        A click of the left button in the view, or one with Ctrl held down.
+        Click of the left button, without or with Ctrl.
     double_clicked(place)
-        Double click of the left button; its first click is reported as a click.
-    menu_wanted(place)
-        A click of the right button.
+        Double click of the left button; its first click is reported by `clicked` too.
+    menu_requested_at(place)
+        Click of the right button.
 
-    The last two are emitted after VTK has released the button: it would turn or zoom on under a menu that waits for an
-    answer, and end what leads the camera.
+    The last two are emitted after VTK has handled the release of the button. Otherwise VTK would continue to zoom under
+    an open menu, and would interrupt flights of the camera.
     """
 
     pressed = Signal()
     clicked = Signal(QPointF)
     dug = Signal(QPointF)
     double_clicked = Signal(QPointF)
-    menu_wanted = Signal(QPointF)
+    menu_requested_at = Signal(QPointF)
 
     def __init__(self, view: QWidget):
         super().__init__(view)
         self._down: tuple[Qt.MouseButton, QPointF] | None = None
-        self._second = False  # of a double click
+        self._double = False
         view.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Watch the mouse buttons; VTK receives each event too."""
+        """Observe the mouse buttons; VTK receives all events too."""
         kind = event.type()
         if kind == QEvent.Type.MouseButtonPress:
             self._press(event)
         elif kind == QEvent.Type.MouseButtonDblClick:
             self._press(event)
-            self._second = not _with_ctrl(event)  # with Ctrl held down, two clicks are two clicks
+            self._double = not _with_ctrl(event)  # with Ctrl, two clicks remain two clicks
         elif kind == QEvent.Type.MouseButtonRelease:
             self._release(event)
         return super().eventFilter(watched, event)
 
     def _press(self, event: QEvent) -> None:
-        self._down, self._second = (event.button(), event.position()), False
+        self._down, self._double = (event.button(), event.position()), False
         self.pressed.emit()
 
     def _release(self, event: QEvent) -> None:
@@ -64,15 +64,15 @@ class Pointer(QObject):
         if down is None or down[0] != event.button():
             return
         place = event.position()
-        away = place - down[1]
-        if max(abs(away.x()), abs(away.y())) > _STRAY:
+        movement = place - down[1]
+        if max(abs(movement.x()), abs(movement.y())) > _MAX_MOVEMENT:
             return
-        if event.button() == Qt.MouseButton.LeftButton and self._second:
+        if event.button() == Qt.MouseButton.LeftButton and self._double:
             QTimer.singleShot(0, self, lambda: self.double_clicked.emit(place))
         elif event.button() == Qt.MouseButton.LeftButton:
             (self.dug if _with_ctrl(event) else self.clicked).emit(place)
         elif event.button() == Qt.MouseButton.RightButton:
-            QTimer.singleShot(0, self, lambda: self.menu_wanted.emit(place))
+            QTimer.singleShot(0, self, lambda: self.menu_requested_at.emit(place))
 
 
 def _with_ctrl(event: QEvent) -> bool:

@@ -1,11 +1,11 @@
-"""The widget that VTK draws in."""
+"""Widget that VTK draws into."""
 
 from __future__ import annotations
 
 import ctypes
 import sys
 
-import vtkmodules.vtkRenderingFreeType  # noqa: F401  brings what VTK writes with
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  registers the text renderer of VTK
 from PySide6.QtCore import QEvent, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QMouseEvent, QOpenGLContext, QWheelEvent
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
@@ -18,13 +18,13 @@ from hexmend_app.widgets.opengl import choose_format
 
 _DRAW_FRAMEBUFFER, _COLOUR = 0x8CA9, 0x8CE0  # GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0
 _SCISSORS, _DEPTH_TEST = 0x0C11, 0x0B71  # GL_SCISSOR_TEST, GL_DEPTH_TEST
-_NOT_BEYOND, _LINEAR = 0x0203, 0x2601  # GL_LEQUAL, GL_LINEAR
+_LESS_OR_EQUAL, _LINEAR = 0x0203, 0x2601  # GL_LEQUAL, GL_LINEAR
 _COLOURS = 0x00004000  # GL_COLOR_BUFFER_BIT
 
-#: Units of a wheel's step.
+#: Angle units of a step of the mouse wheel.
 _STEP = 120
 
-#: VTK's cursors that are not the arrow.
+#: Qt cursors by number of the VTK cursor; all others are the arrow.
 _CURSORS = {
     2: Qt.CursorShape.SizeBDiagCursor,
     3: Qt.CursorShape.SizeFDiagCursor,
@@ -37,7 +37,7 @@ _CURSORS = {
     10: Qt.CursorShape.CrossCursor,
 }
 
-#: What VTK calls the buttons.
+#: Names of the mouse buttons in VTK events.
 _BUTTONS = {
     Qt.MouseButton.LeftButton: "LeftButton",
     Qt.MouseButton.RightButton: "RightButton",
@@ -46,17 +46,17 @@ _BUTTONS = {
 
 
 class RenderWidget(QOpenGLWidget):
-    """Shows what VTK renders into a Qt framebuffer, and passes mouse events on.
+    """Lets VTK render into a Qt framebuffer, and passes mouse events to VTK.
 
-    It does what VTK's `QVTKOpenGLNativeWidget` does in C++: without a window of the system's, so that other widgets can
-    lie over it, and Wayland knows it. It renders as Qt paints it, and at no other time: a wish of VTK's to render asks
-    Qt to paint, and several make one frame.
+    It corresponds to `QVTKOpenGLNativeWidget`, which VTK provides in C++ only. It has no native window, so that other
+    widgets can overlap it and Wayland is supported. It renders only when Qt paints it: render requests of VTK schedule
+    a paint event, and several requests are combined into one frame.
 
     Attributes
     ----------
     render_window : vtkGenericOpenGLRenderWindow
     iren : vtkGenericRenderWindowInteractor
-        Its own: the left button turns the camera, with Shift it shifts, the right one and the wheel zoom.
+        Interactor: the left button rotates, with Shift it pans; the right button and the wheel zoom.
     """
 
     def __init__(self, parent: QWidget | None = None):
@@ -66,9 +66,9 @@ class RenderWidget(QOpenGLWidget):
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.WheelFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self._drawn_on: QOpenGLContext | None = None
+        self._gl_context: QOpenGLContext | None = None
         self._painting = False
-        self._turned = 0  # of the wheel, since its last whole step
+        self._wheel_angle = 0  # since the last whole step
         window = self.render_window = vtkGenericOpenGLRenderWindow()
         window.SetReadyForRendering(False)
         window.SetFrameBlitModeToNoBlit()
@@ -77,36 +77,36 @@ class RenderWidget(QOpenGLWidget):
         iren.SetInteractorStyle(vtkInteractorStyleTrackballCamera())
         iren.EnableRenderOff()
         iren.Initialize()
-        self._report = [
-            (of, of.AddObserver(event, act))
-            for of, event, act in (
+        self._observers = [
+            (source, source.AddObserver(event, handler))
+            for source, event, handler in (
                 (window, "WindowMakeCurrentEvent", self._make_current),
-                (window, "WindowIsCurrentEvent", self._tell_current),
-                (window, "WindowFrameEvent", self._ask_for_frame),
+                (window, "WindowIsCurrentEvent", self._report_current),
+                (window, "WindowFrameEvent", self._request_frame),
                 (window, "CursorChangedEvent", lambda *_: QTimer.singleShot(0, self, self._show_cursor)),
-                (iren, "RenderEvent", self._ask_for_frame),
+                (iren, "RenderEvent", self._request_frame),
             )
         ]
 
     # OpenGL
 
     def _make_current(self, *_: object) -> None:
-        """Let VTK draw; Qt's own `makeCurrent` would change the buffer that it draws into, too."""
-        if self._drawn_on is not None:
-            self._drawn_on.makeCurrent(self._drawn_on.surface())
+        """Make the OpenGL context current; `makeCurrent` of Qt would also bind another framebuffer."""
+        if self._gl_context is not None:
+            self._gl_context.makeCurrent(self._gl_context.surface())
 
-    def _tell_current(self, *_: object) -> None:
+    def _report_current(self, *_: object) -> None:
         current = QOpenGLContext.currentContext()
-        self.render_window.SetIsCurrent(self._drawn_on is not None and current is self._drawn_on)
+        self.render_window.SetIsCurrent(self._gl_context is not None and current is self._gl_context)
 
-    def _ask_for_frame(self, *_: object) -> None:
+    def _request_frame(self, *_: object) -> None:
         if not self._painting:
             self.update()
 
     def initializeGL(self) -> None:
-        """Let VTK draw with what Qt has prepared."""
-        self._drawn_on = self.context()
-        self._drawn_on.aboutToBeDestroyed.connect(self._let_go_of_graphics)
+        """Initialise VTK with the OpenGL context of Qt."""
+        self._gl_context = self.context()
+        self._gl_context.aboutToBeDestroyed.connect(self._release_graphics)
         window = self.render_window
         if sys.platform.startswith("linux"):
             window.SetOpenGLSymbolLoader2(_loader(), 0)
@@ -114,7 +114,7 @@ class RenderWidget(QOpenGLWidget):
         window.OpenGLInit()
         state = window.GetState()
         state.Reset()
-        state.vtkglDepthFunc(_NOT_BEYOND)  # Qt leaves it at less
+        state.vtkglDepthFunc(_LESS_OR_EQUAL)  # Qt sets GL_LESS
         state.vtkglEnable(_DEPTH_TEST)
         window.SetForceMaximumHardwareLineWidth(1)
         window.SetReadyForRendering(True)
@@ -137,9 +137,9 @@ class RenderWidget(QOpenGLWidget):
         if not window.GetReadyForRendering():
             return
         state = window.GetState()
-        state.Reset()  # Qt has drawn since
+        state.Reset()  # Qt may have changed the state
         state.Push()
-        state.vtkglDepthFunc(_NOT_BEYOND)
+        state.vtkglDepthFunc(_LESS_OR_EQUAL)
         self._painting = True
         try:
             window.Render()
@@ -150,13 +150,13 @@ class RenderWidget(QOpenGLWidget):
         state.Pop()
 
     def _copy(self) -> None:
-        """Copy the rendered picture with full opacity: a translucent one would show what is behind the window."""
+        """Copy the rendered picture with full opacity; a translucent picture would show windows behind."""
         window, pixels = self.render_window, self._pixels
-        gl = self._drawn_on.extraFunctions()
+        gl = self._gl_context.extraFunctions()
         gl.glBindFramebuffer(_DRAW_FRAMEBUFFER, self.defaultFramebufferObject())
         gl.glDrawBuffers(1, [_COLOUR])
-        cut = gl.glIsEnabled(_SCISSORS)
-        if cut:
+        scissors = gl.glIsEnabled(_SCISSORS)
+        if scissors:
             window.GetState().vtkglDisable(_SCISSORS)
             gl.glDisable(_SCISSORS)
         window.BlitDisplayFramebuffer(0, 0, 0, *window.GetSize(), 0, 0, *pixels, _COLOURS, _LINEAR)
@@ -165,34 +165,34 @@ class RenderWidget(QOpenGLWidget):
         gl.glViewport(0, 0, *pixels)
         gl.glClear(_COLOURS)
         gl.glColorMask(True, True, True, True)
-        if cut:
+        if scissors:
             window.GetState().vtkglEnable(_SCISSORS)
             gl.glEnable(_SCISSORS)
 
-    def _let_go_of_graphics(self) -> None:
+    def _release_graphics(self) -> None:
         self._make_current()
-        self._end()
+        self._finalise()
         self.forget_context()
 
-    def _end(self) -> None:
+    def _finalise(self) -> None:
         self.render_window.Finalize()
         self.render_window.SetReadyForRendering(False)
 
     def forget_context(self) -> None:
-        """Stop drawing on a destroyed context."""
-        self._drawn_on = None
+        """Forget a destroyed OpenGL context."""
+        self._gl_context = None
 
     def let_go(self) -> None:
-        """End drawing for good, while the window still exists."""
-        self._end()
-        for of, observer in self._report:
-            of.RemoveObserver(observer)
-        self._report.clear()
+        """Release graphics resources; must be called while the window exists."""
+        self._finalise()
+        for source, observer in self._observers:
+            source.RemoveObserver(observer)
+        self._observers.clear()
 
-    # The mouse
+    # Mouse
 
-    def _tell_place(self, event: QMouseEvent, repeat: int = 0) -> None:
-        """Pass the pointer position, in device pixels from below, and pressed modifiers to VTK."""
+    def _pass_position(self, event: QMouseEvent, repeat: int = 0) -> None:
+        """Pass the pointer position, in device pixels from the lower left corner, and modifier keys to VTK."""
         ratio, place, keys = self.devicePixelRatioF(), event.position(), event.modifiers()
         self.iren.SetEventInformation(
             round(place.x() * ratio),
@@ -205,29 +205,29 @@ class RenderWidget(QOpenGLWidget):
         )
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begin to move the camera, or to drag a handle."""
-        self._tell_place(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
+        """Start to move the camera or to drag a handle."""
+        self._pass_position(event, int(event.type() == QEvent.Type.MouseButtonDblClick))
         if event.button() in _BUTTONS:
             self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}PressEvent")
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """End the drag."""
-        self._tell_place(event)
+        self._pass_position(event)
         if event.button() in _BUTTONS:
             self.iren.InvokeEvent(f"{_BUTTONS[event.button()]}ReleaseEvent")
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Continue the drag."""
-        self._tell_place(event)
+        self._pass_position(event)
         self.iren.MouseMoveEvent()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         """Zoom by whole steps."""
-        self._turned += event.angleDelta().y()
-        zoom = self.iren.MouseWheelForwardEvent if self._turned > 0 else self.iren.MouseWheelBackwardEvent
-        for _ in range(abs(self._turned) // _STEP):
+        self._wheel_angle += event.angleDelta().y()
+        zoom = self.iren.MouseWheelForwardEvent if self._wheel_angle > 0 else self.iren.MouseWheelBackwardEvent
+        for _ in range(abs(self._wheel_angle) // _STEP):
             zoom()
-        self._turned -= int(self._turned / _STEP) * _STEP
+        self._wheel_angle -= int(self._wheel_angle / _STEP) * _STEP
 
     def _show_cursor(self) -> None:
         self.setCursor(_CURSORS.get(self.render_window.GetCurrentCursor(), Qt.CursorShape.ArrowCursor))

@@ -1,4 +1,4 @@
-"""Clickable swatch of a colour with its name and number of elements."""
+"""Clickable swatch of a special colour with its name and number of hexes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _SIZE, _GAP = 12, 5
 
 
 def swatch_text(name: str, count: int) -> str:
-    """Format a name with its count, if that is not 0.
+    """Format a name with its count, unless the count is 0.
 
     >>> swatch_text("inverted", 2707), swatch_text("inverted", 0)
     ('inverted (2,707)', 'inverted')
@@ -24,7 +24,7 @@ def swatch_text(name: str, count: int) -> str:
 
 
 class SwatchButton(QAbstractButton):
-    """Link-like swatch that requests the elements of its kind; pale while there are none.
+    """Swatch that isolates the hexes with its colour when clicked; disabled if there are none.
 
     Attributes
     ----------
@@ -47,18 +47,18 @@ class SwatchButton(QAbstractButton):
         self.name, self.count, self._colour = name, count, colour
         self.setEnabled(count > 0)
         self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
-        set_help(self, f"Show only what is {name}", f"Show only the hexes that are {name}; Esc brings back the rest.")
+        set_help(self, f"Isolate {name}", f"Show only {name} hexes; Esc shows all again.")
         self.updateGeometry()
         self.update()
 
     def sizeHint(self) -> QSize:
-        """Return a size that fits a large number, so that nothing moves while numbers change."""
+        """Return a size that fits large numbers, so that the layout does not change with the number."""
         metrics = QFontMetricsF(self.font())
         text = f"{self.name} (00,000)" if 0 < self.count < 100_000 else swatch_text(self.name, self.count)
         return QSize(math.ceil(_SIZE + _GAP + metrics.horizontalAdvance(text)) + 2, math.ceil(metrics.height()) + 4)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the swatch and its text; underlined under the mouse, framed while it has the focus."""
+        """Paint the swatch and its text, underlined under the mouse and framed with keyboard focus."""
         painter = QPainter(self)
         metrics, middle = QFontMetricsF(self.font()), self.height() / 2
         painter.setPen(QPen(QColor(str(LINE)), 0))

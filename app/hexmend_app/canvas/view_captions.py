@@ -1,4 +1,4 @@
-"""Captions of compared views: names, figures, close buttons, and the choices of the wipe."""
+"""Captions of compared views: names, figures, close buttons, and the view selectors of a wipe."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from hexmend_app.widgets.wording import figure
 
 _CROSS = 11
 
-#: Pixels of a row; where the screen's scale is 150 %, a multiple of four is whole pixels of the screen.
+#: Height of a row in pixels; with a screen scale of 150 %, a multiple of four gives whole device pixels.
 HEIGHT = 24
 
 
 @dataclass(frozen=True, eq=False)
 class Caption:
-    """Contents of a view for its caption.
+    """Contents of the caption of a view.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class Caption:
     q_min : float
     inverted : int
     colour : Role or None
-        Of its distribution in the histogram; None where it is not there.
+        Colour of the mesh in the histogram; None if it is not in the histogram.
     """
 
     name: str
@@ -40,22 +40,22 @@ class Caption:
 
     @property
     def figures(self) -> str:
-        """Format the figures."""
+        """Smallest q and number of inverted hexes as text."""
         return f"q min {figure(self.q_min)} · {f'{self.inverted:,}' if self.inverted else 'none'} inverted"
 
 
 class CaptionRow(QWidget):
-    """Captions of one row of views, each at the top of its view.
+    """Captions of a row of views, each at the top of its view.
 
     Parameters
     ----------
     over : QWidget
-        Widget of the views, which reserves space for captions above each.
+        Widget of the views, which reserves space for the captions.
 
     Signals
     -------
     closed(int)
-        The user closes the view of this number.
+        The user closed the view with this number.
     """
 
     closed = Signal(int)
@@ -71,23 +71,23 @@ class CaptionRow(QWidget):
         self.hide()
 
     def set_captions(self, captions: Sequence[Caption], first: int) -> None:
-        """Show captions, of views from the number `first` on; that of number 0 cannot be closed."""
+        """Show the captions of views with numbers from `first`; view 0 cannot be closed."""
         shown = [(first, caption.name, caption.colour) for caption in captions]
         if shown != self._shown:
             self._shown = shown
             for part in self._parts:
                 self._row.removeWidget(part)
                 part.hide()
-                part.deleteLater()  # its button is the one that was clicked
+                part.deleteLater()  # not immediately, as its button may be the sender of this change
             self._parts = [self._part(caption, number) for number, caption in enumerate(captions, first)]
             for part in self._parts:
                 self._row.addWidget(part, 1)
         for part, caption in zip(self._parts, captions, strict=True):
-            part.say(caption)
+            part.set_figures(caption)
         self.setVisible(bool(captions))
 
-    def stand_at(self, share: float) -> None:
-        """Move to a share of the parent's height from its top, at its full width."""
+    def place_at(self, share: float) -> None:
+        """Place the row at a fraction of the height of the parent from its top, with full width."""
         over = self.parentWidget().size()
         self.setGeometry(0, round(share * over.height()), over.width(), HEIGHT)
 
@@ -99,19 +99,19 @@ class CaptionRow(QWidget):
             cross.setIconSize(QSize(_CROSS, _CROSS))
             cross.setAutoRaise(True)
             cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            set_help(cross, f"Close the view of {caption.name}", f"Close the view of {caption.name}.")
+            set_help(cross, f"Close the view of {caption.name}", f"Close the view of {caption.name}")
             cross.clicked.connect(lambda: self.closed.emit(number))
             part.layout().addWidget(cross)
         return part
 
 
 class WipeRow(QWidget):
-    """Choices of the views on both sides of the wipe.
+    """Selectors of the views on both sides of a wipe.
 
     Signals
     -------
     chosen(left, right)
-        The user chose other views, by their numbers.
+        The user selected views, by their numbers.
     """
 
     chosen = Signal(int, int)
@@ -123,30 +123,30 @@ class WipeRow(QWidget):
         self._sides, self._figures = [], []
         for side in ("left", "right"):
             box, label = QComboBox(), _figures()
-            set_help(box, f"View at the {side}", f"What is seen at the {side} of the edge that is dragged.")
+            set_help(box, f"{side.capitalize()} view", f"View on the {side} of the draggable edge")
             box.activated.connect(lambda _: self.chosen.emit(*(side.currentIndex() for side in self._sides)))
             self._sides.append(box)
             self._figures.append(label)
-        (left, right), (its, others) = self._sides, self._figures
-        for part, stretch in ((left, 0), (its, 1), (others, 1), (right, 0)):
+        (left, right), (left_figures, right_figures) = self._sides, self._figures
+        for part, stretch in ((left, 0), (left_figures, 1), (right_figures, 1), (right, 0)):
             row.addWidget(part, stretch)
         self.setFixedHeight(HEIGHT + 4)
-        others.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        right_figures.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.hide()
 
     def set_captions(self, captions: Sequence[Caption], chosen: tuple[int, int] | None) -> None:
-        """List the views and the two that are chosen; None hides the row."""
+        """List the views and select two of them by number; None hides the row."""
         self.setVisible(chosen is not None)
         for box, label, at in zip(self._sides, self._figures, chosen or (), strict=False):
             with QSignalBlocker(box):
                 box.clear()
                 box.addItems([caption.name for caption in captions])
                 box.setCurrentIndex(at)
-            _say(label, captions[at])
+            _show_figures(label, captions[at])
 
 
 class _Entry(QWidget):
-    """A colour, a name and figures in one line."""
+    """Caption of a view: colour, name and figures in a line."""
 
     def __init__(self, caption: Caption):
         super().__init__()
@@ -164,10 +164,10 @@ class _Entry(QWidget):
         row.addWidget(self._figures, 1)
         self.setFixedHeight(HEIGHT)
 
-    def say(self, caption: Caption) -> None:
-        """Show the present figures."""
+    def set_figures(self, caption: Caption) -> None:
+        """Update the figures."""
         if self._figures.text() != caption.figures:
-            _say(self._figures, caption)
+            _show_figures(self._figures, caption)
             set_help(self, f"{caption.name}: {caption.figures}", "")
 
 
@@ -177,7 +177,7 @@ def _figures() -> ElidingLabel:
     return label
 
 
-def _say(label: ElidingLabel, caption: Caption) -> None:
+def _show_figures(label: ElidingLabel, caption: Caption) -> None:
     label.setText(caption.figures)
     label.setToolTip(caption.figures)
     tint(label, WORSE if caption.inverted else MUTED)

@@ -1,4 +1,4 @@
-"""Decoration of compared views: a caption above each, and the choices and edge of the wipe."""
+"""Layout of compared views: captions, and view selectors and edge of a wipe."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from hexmend_app.canvas.wipe_handle import WipeHandle
 from hexmend_app.scene.views.arrangement import columns
 from hexmend_app.state.view.side_views import Wipe
 
-#: Most rows in which views stand.
-_ROWS = 2
+#: Maximum number of rows of views.
+_MAX_ROWS = 2
 
 
 class ViewFrame(QVBoxLayout):
-    """The view with captions of its parts; a single mesh has none.
+    """Layout of the 3D view with captions of its views; a single view has no caption.
 
     Parameters
     ----------
@@ -26,9 +26,9 @@ class ViewFrame(QVBoxLayout):
     Signals
     -------
     view_closed(int)
-        The user closes a view: 1 is the first beside that of the mesh.
-    wipe_chosen(left, right), wipe_moved(share), wipe_stepped(way)
-        The user chooses the views of the wipe, or moves its edge to a position, or by a step.
+        The user closed a view; number 1 is the view next to the first.
+    wipe_chosen(left, right), wipe_moved(share), wipe_stepped(step)
+        The user selected the views of the wipe, or moved its edge to a position or by a step.
     """
 
     view_closed = Signal(int)
@@ -40,30 +40,30 @@ class ViewFrame(QVBoxLayout):
         super().__init__()
         self.setSpacing(0)
         self.captions: Sequence[Caption] = ()
-        self._rows, self._wiped = [CaptionRow(view) for _ in range(_ROWS)], WipeRow()
+        self._rows, self._wipe_row = [CaptionRow(view) for _ in range(_MAX_ROWS)], WipeRow()
         self._edge = WipeHandle(view)
-        self.addWidget(self._wiped)
+        self.addWidget(self._wipe_row)
         self.addWidget(view, 1)
         for row in self._rows:
             row.closed.connect(self.view_closed)
-        self._wiped.chosen.connect(self.wipe_chosen)
+        self._wipe_row.chosen.connect(self.wipe_chosen)
         self._edge.moved.connect(self.wipe_moved)
         self._edge.stepped.connect(self.wipe_stepped)
 
     @property
     def clickable(self) -> dict[QWidget, Callable[[], QRect]]:
-        """The widgets over the view that are clicked or dragged, each with the area that must stay free."""
+        """Widgets over the view that can be clicked or dragged, each with the area that must stay free."""
         return {row: row.rect for row in self._rows} | {self._edge: self._edge.knob}
 
     def set_captions(self, captions: Sequence[Caption], wipe: Wipe | None) -> None:
         """Set the captions of the views, or of the sides of a wipe."""
         self.captions = captions
         side_by_side = captions if len(captions) > 1 and wipe is None else []
-        wide = columns(max(len(side_by_side), 1))
-        for at, row in enumerate(self._rows):
-            row.set_captions(side_by_side[at * wide : (at + 1) * wide], at * wide)
+        n_columns = columns(max(len(side_by_side), 1))
+        for i, row in enumerate(self._rows):
+            row.set_captions(side_by_side[i * n_columns : (i + 1) * n_columns], i * n_columns)
         self.fit()
-        self._wiped.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
+        self._wipe_row.set_captions(captions, (wipe.left, wipe.right) if wipe is not None else None)
 
     def set_wipe(self, wipe: Wipe | None) -> None:
         """Show the edge of the wipe at a position, or hide it."""
@@ -72,7 +72,7 @@ class ViewFrame(QVBoxLayout):
             self._edge.set_share(wipe.at)
 
     def fit(self) -> None:
-        """Lay out all parts for the present size of the view."""
+        """Place the captions for the current size of the view."""
         shown = [row for row in self._rows if not row.isHidden()]
-        for at, row in enumerate(shown):
-            row.stand_at(at / len(shown))
+        for i, row in enumerate(shown):
+            row.place_at(i / len(shown))

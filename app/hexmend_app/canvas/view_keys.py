@@ -11,7 +11,7 @@ from vtkmodules.vtkRenderingCore import vtkCamera
 
 from hexmend_app.scene.camera import steering
 
-#: Degrees, share of the picture's height, and factor of one stroke.
+#: Steps of a key: rotation in degrees, panning as a fraction of the picture height, and zoom factor.
 _TURN, _PAN, _ZOOM = 15.0, 0.1, 1.2
 
 _ARROWS = {
@@ -22,7 +22,7 @@ _ARROWS = {
 }
 _ZOOMS = {Qt.Key.Key_Plus: _ZOOM, Qt.Key.Key_Equal: _ZOOM, Qt.Key.Key_Minus: 1 / _ZOOM}
 
-#: Held down, they make another key of it: Alt and an arrow go back and forward.
+#: Modifiers of other shortcuts; for example, Alt with an arrow goes back or forward.
 _OTHERS = Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.MetaModifier
 
 

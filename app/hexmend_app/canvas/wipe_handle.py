@@ -1,4 +1,4 @@
-"""Draggable edge between two views of a wipe."""
+"""Draggable edge between the two views of a wipe."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from PySide6.QtWidgets import QWidget
 from hexmend_app.theme.palette import ACCENT, BLUE, FIELD, LINE, TEXT
 from hexmend_app.theme.style import set_help
 
-#: Pixels: of the line, and of the knob on it.
+#: Sizes in pixels: width of the line, diameter of its knob.
 _LINE, _KNOB = 5, 22
 
 
 class WipeHandle(QWidget):
-    """Vertical line over the view with a knob in its middle; moved by mouse or arrow keys.
+    """Vertical line over the view with a knob in the middle, moved by mouse or arrow keys.
 
     Parameters
     ----------
@@ -24,9 +24,9 @@ class WipeHandle(QWidget):
     Signals
     -------
     moved(share)
-        The user moves the edge to this share of the view's width.
-    stepped(way)
-        The user moves the edge by a step to the left, -1, or to the right, 1.
+        The user moved the edge to a fraction of the width of the view.
+    stepped(step)
+        The user moved the edge by a step to the left, -1, or to the right, 1.
     """
 
     moved = Signal(float)
@@ -35,26 +35,26 @@ class WipeHandle(QWidget):
     def __init__(self, over: QWidget):
         super().__init__(over)
         self._share = 0.5
-        self._grip: int | None = None  # where on the handle the mouse holds it
+        self._grip: int | None = None  # distance of the mouse from the line during a drag
         self.setCursor(Qt.CursorShape.SplitHCursor)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self, "Wipe", "Drag to see more of one view and less of the other; arrow keys do the same.")
+        set_help(self, "Wipe", "Drag, or press the arrow keys, to move the edge between the two views.")
         self.hide()
         over.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keep the share of the width when the view is resized."""
+        """Preserve the relative position when the view is resized."""
         if event.type() == QEvent.Type.Resize:
-            self._fit()
+            self._place()
         return super().eventFilter(watched, event)
 
     def set_share(self, share: float) -> None:
-        """Move to a share of the view's width."""
+        """Move to a fraction of the width of the view."""
         self._share = share
-        self._fit()
+        self._place()
 
-    def _fit(self) -> None:
-        """Place the handle for the present size of the view."""
+    def _place(self) -> None:
+        """Place the handle for the current size of the view."""
         share = self._share
         over = self.parentWidget().size()
         self.setGeometry(round(share * over.width()) - _KNOB // 2, 0, _KNOB, over.height())
@@ -65,11 +65,11 @@ class WipeHandle(QWidget):
         return QRect((_KNOB - _LINE) // 2, 0, _LINE, self.height())
 
     def knob(self) -> QRect:
-        """The area of the knob."""
+        """Return the rectangle of the knob."""
         return QRect(0, (self.height() - _KNOB) // 2, _KNOB, _KNOB)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Paint the line and the knob; in the accent colour while it has the focus."""
+        """Paint the line and the knob, in the accent colour if focused or dragged."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(str(LINE)))
         inside = QColor(str(ACCENT if self.hasFocus() or self._grip is not None else TEXT))
@@ -81,31 +81,31 @@ class WipeHandle(QWidget):
         painter.setBrush(inside)
         painter.setPen(Qt.PenStyle.NoPen)
         middle = self.knob().center()
-        for path in (-1, 1):
-            tip, back = middle + QPoint(8 * path, 0), middle + QPoint(3 * path, 0)
+        for direction in (-1, 1):
+            tip, back = middle + QPoint(8 * direction, 0), middle + QPoint(3 * direction, 0)
             painter.drawPolygon([tip, back + QPoint(0, -4), back + QPoint(0, 4)])
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begin the drag."""
+        """Start to drag."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._grip = round(event.position().x()) - _KNOB // 2
             self.update()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Continue the drag."""
+        """Continue to drag."""
         if self._grip is not None:
             place = self.mapToParent(event.position().toPoint()).x() - self._grip
             self.moved.emit(place / max(self.parentWidget().width(), 1))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """End the drag."""
+        """Stop dragging."""
         self._grip = None
         self.update()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move by a step for an arrow key."""
-        course = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
-        if course is None:
+        step = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}.get(event.key())
+        if step is None:
             super().keyPressEvent(event)
         else:
-            self.stepped.emit(course)  # from where it is by now: strokes may come faster than it is drawn
+            self.stepped.emit(step)

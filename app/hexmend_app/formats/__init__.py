@@ -1,1 +1,1 @@
-"""Formats that need VTK; they join the core through the entry-point group `hexmend.formats`."""
+"""File formats that require VTK, registered through the entry-point group `hexmend.formats`."""

@@ -1,4 +1,4 @@
-"""Links in CGNS files of the ADF kind, which the CGNS library follows into whatever file they name."""
+"""Check for links to other files in CGNS files based on ADF, which the CGNS library would follow."""
 
 from __future__ import annotations
 
@@ -8,39 +8,41 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 
-#: Where a file of this kind says what it is, and what it says; the library takes any other for one on HDF5.
-_KIND = slice(4, 24), b"ADF Database Version"
-#: How the head of a node begins, and its bytes: the name at 4, the type at 96, which is "LK" of a link, the number of
-#: chunks of data at 226, and the block and the offset of these at 230.
-_NODE, _HEAD = b"NoDe", 246
-#: Bytes of a block; and of what stands before the text of a link that follows its head at once.
-_BLOCK, _BEFORE = 4096, 16
+#: Position and text of the file signature; the CGNS library treats all other files as HDF5.
+_SIGNATURE = slice(4, 24), b"ADF Database Version"
+#: Signature and length of a node header, in bytes: its name is at 4, its type at 96 ("LK" for a link), the number of data
+#: chunks at 226, and their block and offset at 230.
+_NODE, _HEADER = b"NoDe", 246
+#: Length of a block, and offset of the text in the data of a link, in bytes.
+_BLOCK, _TEXT_OFFSET = 4096, 16
 
 
 def check_links(path: Path) -> None:
-    """Raise a `FileError` where a node is a link to another file.
+    """Raise `FileError` if a node is a link to another file.
 
-    The text of a link is the name of a file, ">", and a path in it; inside the same file the name is empty.
+    The text of a link consists of a file name, ">", and a path in the file; the name is empty for links within a file.
     """
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-        if data[_KIND[0]] != _KIND[1]:
-            raise FileError(path, "has not the head of a CGNS file of the ADF kind", "Write it again, on HDF5.")
+        if data[_SIGNATURE[0]] != _SIGNATURE[1]:
+            raise FileError(
+                path, "is no CGNS file based on ADF: its signature is missing", "Write it again, based on HDF5."
+            )
         at = data.find(_NODE)
         while at >= 0:
-            head = data[at : at + _HEAD]
-            if head[96:98] == b"LK" and not _is_inside(data, head, at + _HEAD):
-                name = head[4:36].decode("ascii", "replace").strip()
+            header = data[at : at + _HEADER]
+            if header[96:98] == b"LK" and not _is_internal(data, header, at + _HEADER):
+                name = header[4:36].decode("ascii", "replace").strip()
                 raise FileError(
                     path,
-                    f"its {name!r} is a link to another file: no other file is opened",
+                    f"its node {name!r} is a link to another file, which is not followed",
                     "Write all data into one file with the program that made it.",
                 )
             at = data.find(_NODE, at + 1)
 
 
-def _is_inside(data: mmap.mmap, head: bytes, end: int) -> bool:
-    """Return True if the text of a link follows its head at once and names no file."""
+def _is_internal(data: mmap.mmap, header: bytes, end: int) -> bool:
+    """Return True if the text of a link immediately follows its header and has no file name."""
     block, offset = divmod(end, _BLOCK)
-    places = (struct.pack("<qi", block, offset), struct.pack(">qi", block, offset), b"%08X%04X" % (block, offset))
-    follows = head[226:230] == b"0001" and head[230:242].upper() in {place.upper() for place in places}
-    return follows and data[end : end + 4] == b"DaTa" and data[end + _BEFORE : end + _BEFORE + 1] == b">"
+    addresses = struct.pack("<qi", block, offset), struct.pack(">qi", block, offset), b"%08X%04X" % (block, offset)
+    follows = header[226:230] == b"0001" and header[230:242].upper() in {address.upper() for address in addresses}
+    return follows and data[end : end + 4] == b"DaTa" and data[end + _TEXT_OFFSET : end + _TEXT_OFFSET + 1] == b">"

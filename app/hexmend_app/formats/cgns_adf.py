@@ -1,4 +1,4 @@
-"""CGNS files of the ADF kind, read by VTK; the core itself reads those on HDF5, with more of their data."""
+"""Reader of CGNS files based on ADF, by VTK; the core reads files based on HDF5, with more of their data."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from hexmend_app.formats.adf_links import check_links
 
 
 def read(path: Path) -> Mesh:
-    """Read a CGNS file by VTK, in a subprocess, since the library may crash on a damaged one."""
+    """Read a CGNS file in a subprocess, because the CGNS library may crash on damaged files."""
     return to_mesh(path, subprocess_reader.run_reader("hexmend_app.formats.cgns_adf:content", path))
 
 
 def content(path: Path) -> Content:
-    """Read the content of a file by VTK: zones of three dimensions, with their solutions."""
+    """Return the content of a CGNS file: three-dimensional zones with their solutions."""
     from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
 
     check_links(path)
@@ -38,43 +38,41 @@ def content(path: Path) -> Content:
     zones = [zone for zone in _leaves(reader.GetOutput()) if zone[1].GetNumberOfCells()]
     if not zones:
         raise FileError(
-            path, "VTK finds no cells in it", "Write the file again with the program that made it, or on HDF5."
+            path, "contains no cells that VTK can read", "Write it again with the program that made it, based on HDF5."
         )
-    notes = ["Of a CGNS file of the ADF kind, boundary conditions are left out; adf2hdf makes a file that has them."]
+    notes = [
+        "Boundary conditions of CGNS files based on ADF are not read; adf2hdf converts the file to one with all data."
+    ]
     if len(zones) > 1:
-        notes.append(f"{len(zones)} zones are read as one mesh; VTK does not report where they meet. {JOIN_HINT}")
+        notes.append(f"{len(zones)} zones are read as one mesh; VTK does not report their connections. {JOIN_HINT}")
     points, blocks, data, first = [], [], [], 0
     for name, zone in zones:
-        here = _array(zone.GetPoints().GetData()).astype(np.float64)
-        for block in _blocks(zone, here):
+        zone_points = _array(zone.GetPoints().GetData()).astype(np.float64)
+        for block in _blocks(zone, zone_points):
             sets = {name: np.arange(len(block))} if len(zones) > 1 and name else {}
             blocks.append(Block(block.kind, block.nodes + first, block.data, sets))
-        points.append(here)
+        points.append(zone_points)
         data.append(_arrays(zone.GetPointData()))
-        first += len(here)
+        first += len(zone_points)
     node_data = concatenate_data(data, [len(part) for part in points])
     return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
 
 
-def recognised(head: bytes) -> bool:
-    """Return True if a file begins like CGNS of the ADF kind."""
-    return ADF_MARK in head[:64]
-
-
 def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:
-    """Names and grids of the leaves of a multi-block dataset."""
+    """Return names and grids of the leaves of a multi-block dataset."""
     if not data.IsA("vtkMultiBlockDataSet"):
         return [(name, data)]
-    found = []
+    leaves = []
     for k in range(data.GetNumberOfBlocks()):
-        block, more = data.GetBlock(k), data.GetMetaData(k) if data.HasMetaData(k) else None
+        block, metadata = data.GetBlock(k), data.GetMetaData(k) if data.HasMetaData(k) else None
         if block is not None:
-            found += _leaves(block, more.Get(data.NAME()) if more is not None and more.Has(data.NAME()) else name)
-    return found
+            named = metadata is not None and metadata.Has(data.NAME())
+            leaves += _leaves(block, metadata.Get(data.NAME()) if named else name)
+    return leaves
 
 
 def _blocks(zone: object, points: np.ndarray) -> list[Block]:
-    """Blocks of the cells of a grid, one for each kind."""
+    """Return the cells of a grid as one block for each cell type."""
     data = _arrays(zone.GetCellData())
     if zone.IsA("vtkStructuredGrid"):
         count = np.zeros(3, np.int32)
@@ -83,19 +81,19 @@ def _blocks(zone: object, points: np.ndarray) -> list[Block]:
     if not zone.IsA("vtkUnstructuredGrid"):
         return []
     types, start = _array(zone.GetCellTypes()), _array(zone.GetCells().GetOffsetsArray()).astype(np.int64)
-    nodes, answer = _array(zone.GetCells().GetConnectivityArray()).astype(np.int64), []
-    for number in dict.fromkeys(types.tolist()):
-        chosen = np.flatnonzero(types == number)
-        if number in KIND_BY_TYPE and (np.diff(start)[chosen] == WIDTH_BY_TYPE[number]).all():
-            rows = nodes[start[chosen][:, None] + np.arange(WIDTH_BY_TYPE[number])]
-            answer.append(Block(KIND_BY_TYPE[number], rows, {name: values[chosen] for name, values in data.items()}))
-    return answer
+    nodes, blocks = _array(zone.GetCells().GetConnectivityArray()).astype(np.int64), []
+    for cell_type in dict.fromkeys(types.tolist()):
+        cells = np.flatnonzero(types == cell_type)
+        if cell_type in KIND_BY_TYPE and (np.diff(start)[cells] == WIDTH_BY_TYPE[cell_type]).all():
+            rows = nodes[start[cells][:, None] + np.arange(WIDTH_BY_TYPE[cell_type])]
+            blocks.append(Block(KIND_BY_TYPE[cell_type], rows, {name: values[cells] for name, values in data.items()}))
+    return blocks
 
 
-def _arrays(of: object) -> dict[str, np.ndarray]:
-    """Numeric arrays of point or cell data, without those that VTK adds."""
-    arrays = [of.GetArray(k) for k in range(of.GetNumberOfArrays())]
-    return {one.GetName(): _array(one) for one in arrays if one is not None and not one.GetName().startswith("vtk")}
+def _arrays(data: object) -> dict[str, np.ndarray]:
+    """Return the numeric arrays of point or cell data by name, without those that VTK adds."""
+    arrays = [data.GetArray(k) for k in range(data.GetNumberOfArrays())]
+    return {a.GetName(): _array(a) for a in arrays if a is not None and not a.GetName().startswith("vtk")}
 
 
 def _array(values: object) -> np.ndarray:
@@ -105,7 +103,7 @@ def _array(values: object) -> np.ndarray:
 
 
 def matches(head: bytes) -> bool:
-    """Return True if a file begins as CGNS files of the ADF kind do."""
+    """Return True if a file begins like a CGNS file based on ADF."""
     return ADF_MARK in head[:64]
 
 

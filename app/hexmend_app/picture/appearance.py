@@ -1,4 +1,4 @@
-"""Appearance of a mesh: values without Qt and without VTK, shared by the window and by off-screen pictures."""
+"""Appearance of a mesh as values without Qt and VTK, shared by the window and off-screen pictures."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from hexmend_app.picture.layer_switch import LAYERS
 
 
 class RangeMode(StrEnum):
-    """Origin of the two ends of the colour range."""
+    """Definition of the colour range."""
 
     FULL = "full"
-    """The values that the metric can take."""
+    """All values that the metric can have."""
     FITTED = "fitted"
-    """The least and the greatest value at the moment."""
+    """From the smallest to the largest current value."""
     ACCEPTABLE = "acceptable"
-    """The values that solvers are usually content with."""
+    """Values that are usually acceptable for solvers."""
     PINNED = "pinned"
-    """Two values that the user has set."""
+    """Two values set by the user."""
 
 
 @dataclass(frozen=True)
 class ColourScale:
-    """Meaning of the colours; `hexmend_app.scene.colour.colouring.resolve` finds the ends of the range.
+    """Metric, map and range of the colours; `hexmend_app.scene.colour.colouring.resolve` computes the range.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ class ColourScale:
     map : str
         A name of `hexmend_app.picture.colour_map.COLOUR_MAPS`.
     mode : RangeMode
-        Where the ends of the range come from.
+        Definition of the range.
     pinned : (low, high)
-        The ends in the mode PINNED; the others leave it alone.
+        Range in the mode PINNED; ignored in other modes.
     reverse : bool
-        Run through the map from its other end. Without it, the map begins with the worst.
+        Reverse the map, which begins with the worst value by default.
     """
 
     metric: str = "q"
@@ -60,24 +60,24 @@ class ColourScale:
 
 
 class Since(StrEnum):
-    """The moment that the mesh is compared with."""
+    """Reference state of movements."""
 
     OPENED = "opened"
-    """As it was opened."""
+    """The mesh as opened."""
     RUN = "run"
-    """As the run began of which an iteration is shown."""
+    """The start of the run whose iteration is shown."""
     ITERATION = "iteration"
-    """As it was an iteration ago, or at the nearest one before that is kept."""
+    """The previous recorded iteration."""
 
 
 class Arrows(StrEnum):
-    """Nodes that have arrows from their earlier to their present positions."""
+    """Nodes with arrows from their previous to their current positions."""
 
     NONE = "none"
     SIGHT = "sight"
-    """Those of the faces that are seen."""
+    """Nodes of visible faces."""
     ALL = "all"
-    """Those of all hexes that are shown, through whatever is before them."""
+    """Nodes of all shown hexes; arrows are not hidden by the mesh."""
 
 
 @dataclass(frozen=True)
@@ -87,11 +87,11 @@ class Traces:
     Parameters
     ----------
     since : Since
-        The moment that arrows, and colours of a movement, compare with.
+        Reference state of arrows and of colours of a movement.
     arrows : Arrows
-        Which nodes have them.
+        Nodes with arrows.
     factor : float
-        How many times as long as the way of their nodes arrows are.
+        Length of arrows as a multiple of the displacement.
     """
 
     since: Since = Since.OPENED
@@ -101,13 +101,13 @@ class Traces:
 
 @dataclass(frozen=True)
 class Isolation:
-    """Some elements that are shown with what is around them, and nothing else.
+    """Hexes that are shown with their surroundings only.
 
     Parameters
     ----------
     hexes : tuple of int
     rings : int
-        How often neighbours that share a node are taken in.
+        Number of rings of hexes around them; each ring adds the hexes that share a node.
     """
 
     hexes: tuple[int, ...]
@@ -116,28 +116,28 @@ class Isolation:
 
 @dataclass(frozen=True)
 class Structure:
-    """Layers over the elements that are switched on.
+    """Switches of the layers over the mesh.
 
     Parameters
     ----------
     irregular : bool
-        Interior edges that not four elements are around, through the mesh, and the nodes where they end or fork.
+        Interior edges that are not shared by exactly four hexes, drawn through the mesh, and nodes where they end.
     boundary : bool
-        Edges of a smooth boundary that not two elements are around.
+        Edges of a smooth boundary that are not shared by exactly two hexes.
     sharp : bool
         Sharp edges of the boundary.
     fixed, free : bool
-        Nodes that no method moves, and those that methods may move, of the elements in sight.
+        Visible nodes that no method moves, and visible nodes that methods may move.
     locked : bool
-        The nodes in sight of elements that fixed nodes alone keep inverted.
+        Visible nodes of hexes that are inverted because of fixed nodes alone.
     kinds : bool
-        What the nodes of the boundary in sight may do where it slides: corners, those of curves, those of patches.
+        Visible boundary nodes by their motion on a sliding boundary: corners, nodes on curves, nodes on patches.
     original : bool
-        The boundary as it was when the mesh was opened, see-through.
+        The boundary of the mesh as opened, translucent.
     others : bool
-        Cells beside the hexes that fill space, where the mesh has any: their outer skin, see-through.
+        Outer faces of tetrahedra, pyramids and wedges, translucent.
     extra : tuple of str
-        Names of further layers that are on.
+        Names of additional layers that are on.
     """
 
     irregular: bool = False
@@ -166,31 +166,31 @@ class Structure:
 
     @property
     def edges(self) -> bool:
-        """True if any edges are drawn that need the structure of the mesh."""
+        """True if edges are drawn that depend on the structure of the mesh."""
         return self.irregular or self.boundary or self.sharp
 
     def without_edges(self) -> Structure:
-        """The same but for edges."""
+        """Return a copy in which all layers of edges are off."""
         return dataclasses.replace(self, irregular=False, boundary=False, sharp=False)
 
 
-#: The layers that have a field of their own.
-_FIELDS = {one.name for one in dataclasses.fields(Structure)} - {"extra"}
+#: Layers with a field in `Structure`.
+_FIELDS = {field.name for field in dataclasses.fields(Structure)} - {"extra"}
 
 
 @dataclass(frozen=True)
 class ValueRange:
-    """Bounds of a metric, within which elements are shown: those that a histogram counts between them.
+    """Range of a metric in which hexes are shown; the histogram counts the same hexes between these bounds.
 
     Parameters
     ----------
     metric : str
         A name of `hexmend.quality.METRICS`.
     low, high : float
-        Infinite where there is no bound. An end of the metric's full range bounds nothing either: the best hex has
-        q = 1 but for rounding. Both bounds are within; of a range that ends at -inf, no value is.
+        Bounds, inclusive; infinite for no bound. An end of the full range of the metric is no bound either, because
+        rounding can make q slightly larger than 1. A range that ends at -inf contains no value.
     inverted : bool
-        Whether inverted elements are shown, whatever their value: the histogram has a bar of their own for them.
+        Show inverted hexes, independent of their value; the histogram has a separate bar for them.
     """
 
     metric: str
@@ -207,38 +207,38 @@ class ValueRange:
 
 @dataclass(frozen=True)
 class Look:
-    """Everything that decides what is drawn of a mesh and how.
+    """All settings of the drawing of a mesh.
 
     Parameters
     ----------
     clip : PlaneClip or BoxClip, optional
         None shows the mesh uncut.
     peel : int
-        Elements with fewer than so many others between them and the boundary are hidden.
+        Number of layers of hexes that are hidden, from the boundary inwards.
     isolation : Isolation, optional
-        None shows all.
+        None shows all hexes.
     dug : frozenset of int
-        Elements that are hidden one by one.
+        Hexes that are hidden individually.
     outline : bool
-        Draw sharp edges, and the outline of the whole where a part is hidden.
+        Draw sharp edges, and the outline of the whole mesh while part of it is hidden.
     shrink : float
-        The share of its size by which each element is drawn smaller, about its centre; not where a cut is smooth.
+        Fraction by which each hex is shrunk towards its centre; ignored by smooth cuts.
     quality_range : ValueRange, optional
-        Elements whose value lies outside are hidden; None shows all.
+        Hexes with a value outside the range are hidden; None shows all hexes.
     scale : ColourScale
-        What the colours show.
+        Metric, map and range of the colours.
     edges : bool
-        Draw the elements' edges.
+        Draw the edges of hexes.
     shading : bool
-        Draw what light from all around hardly reaches darker, in fine frames.
+        Apply ambient occlusion in fine frames.
     neutral : bool
-        Draw the outside white and what is opened in one colour, instead of the colours of the scale.
+        Draw the boundary white and exposed faces in one colour, instead of the colours of the scale.
     structure : Structure
-        What is drawn of the mesh's structure.
+        Switches of the layers over the mesh.
     traces : Traces
-        What is drawn of how the mesh has moved.
+        Arrows and reference state of movements.
     left : CutLeft, optional
-        What the cut by whole elements has left; without it, it is made where the nodes are.
+        Result of the cut by whole hexes; None cuts at the current positions of the nodes.
     """
 
     clip: Clip | None = None

@@ -1,4 +1,4 @@
-"""From where a picture of a scene sees the mesh, and which pictures stand on its page."""
+"""Cameras and panels of a scene."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from hexmend.errors import ParameterError
 from hexmend_app.codec.config_table import ConfigTable, option
 from hexmend_app.picture.camera_pose import CameraPose, Vector
 
-#: Names of directions to look from.
+#: Names of view directions.
 DIRECTIONS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 
-#: Meshes and panels of a scene.
+#: Maximum number of meshes and of panels of a scene.
 MOST = 12
 
 
@@ -22,15 +22,15 @@ class Camera(ConfigTable):
     Parameters
     ----------
     from_ : str or Vector, optional
-        iso, +x, -x, +y, -y, +z, -z, or a direction [x, y, z]; iso, from a corner, where nothing is said.
+        View direction: iso, +x, -x, +y, -y, +z, -z, or a vector [x, y, z]; by default iso.
     up : str
-        The axis that points upwards: x, y or z.
+        Vertical axis: x, y or z.
     parallel : bool
         Parallel projection instead of perspective.
     position, focal, view_up : Vector, optional
-        Of an exact stand: where the camera is, what it looks at, and what is up in the picture.
+        Exact pose: position of the camera, its focal point, and the up vector of the picture.
     scale : float, optional
-        Of an exact stand: half the height of what is seen in parallel projection, in the mesh's unit.
+        Exact pose: half the height of the picture in parallel projection, in the unit of the mesh.
     """
 
     from_: str | Vector | None = option()
@@ -42,24 +42,24 @@ class Camera(ConfigTable):
     scale: float | None = option()
 
     def check(self) -> None:
-        """A direction, or all of a stand."""
+        """Raise `ParameterError` unless there is a valid direction or a complete pose."""
         if isinstance(self.from_, str):
             if self.from_ not in DIRECTIONS:
                 known = ", ".join(DIRECTIONS)
                 raise ParameterError(f"from = {self.from_!r} is unknown: expected {known}, or a direction [x, y, z]")
         elif self.from_ is not None and not any(self.from_):
-            raise ParameterError("from = [0, 0, 0] is no direction: expected one that is not zero")
+            raise ParameterError("from = [0, 0, 0] is no direction: expected a nonzero vector")
         if self.up not in ("x", "y", "z"):
             raise ParameterError(f"up = {self.up!r} is unknown: expected x, y or z")
-        given = [one is not None for one in (self.position, self.focal, self.view_up, self.scale)]
+        given = [value is not None for value in (self.position, self.focal, self.view_up, self.scale)]
         if any(given):
             if self.from_ is not None:
-                raise ParameterError("the camera has a direction and a stand: expected one of them")
+                raise ParameterError("the camera has a direction and an exact pose: expected one of them")
             if not all(given):
-                raise ParameterError("an exact stand lacks a part: expected position, focal, view_up and scale")
-            self._stand()
+                raise ParameterError("the exact pose is incomplete: expected position, focal, view_up and scale")
+            self._exact_pose()
 
-    def _stand(self) -> CameraPose:
+    def _exact_pose(self) -> CameraPose:
         try:
             return CameraPose(self.position, self.focal, self.view_up, self.parallel, self.scale, self.up)
         except ValueError as error:
@@ -67,39 +67,39 @@ class Camera(ConfigTable):
 
     @property
     def direction(self) -> str | Vector:
-        """From where all is seen, where there is no exact stand."""
+        """View direction if there is no exact pose."""
         return DIRECTIONS[0] if self.from_ is None else self.from_
 
     @property
-    def stand(self) -> CameraPose | None:
-        """The exact stand; None where a direction is named."""
-        return None if self.position is None else self._stand()
+    def pose(self) -> CameraPose | None:
+        """Exact pose; None if a direction is given."""
+        return None if self.position is None else self._exact_pose()
 
     @classmethod
-    def at(cls, stand: CameraPose) -> Camera:
-        """The camera that stands so."""
+    def at(cls, pose: CameraPose) -> Camera:
+        """Return the camera with a pose."""
         return cls(
-            up=stand.axis,
-            parallel=stand.parallel,
-            position=stand.position,
-            focal=stand.focal,
-            view_up=stand.up,
-            scale=stand.scale,
+            up=pose.axis,
+            parallel=pose.parallel,
+            position=pose.position,
+            focal=pose.focal,
+            view_up=pose.up,
+            scale=pose.scale,
         )
 
 
 @dataclass(frozen=True)
 class WipeLayout(ConfigTable):
-    """A mesh that is wiped over that of a panel.
+    """Second mesh of a panel, shown on the right side of an edge.
 
     Parameters
     ----------
     mesh : int
-        Its number on the command line.
+        Number of the mesh on the command line, from 1.
     at : float
-        Where the edge is, as a share of the width: on its right the other mesh is seen.
+        Position of the edge as a fraction of the width.
     caption : str
-        What is written above that; without it, the name of the mesh's file.
+        Caption of the second mesh; by default the name of its file.
     """
 
     mesh: int = option(2, low=1, high=MOST)
@@ -109,18 +109,18 @@ class WipeLayout(ConfigTable):
 
 @dataclass(frozen=True)
 class PicturePanel(ConfigTable):
-    """One of several pictures on a page.
+    """Picture on a page.
 
     Parameters
     ----------
     camera : str
-        The name of one of [cameras]; without it, [camera].
+        Name of a camera of [cameras]; by default [camera].
     mesh : int
-        The number of the mesh on the command line, from 1.
+        Number of the mesh on the command line, from 1.
     caption : str
-        What is written above it; without it, the name of the mesh's file.
-    wipe : Wiped, optional
-        Another mesh, seen on the right of an edge.
+        Caption; by default the name of the file of the mesh.
+    wipe : WipeLayout, optional
+        Second mesh, shown on the right side of an edge.
     """
 
     camera: str = option("")

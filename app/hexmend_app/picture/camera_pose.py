@@ -1,4 +1,4 @@
-"""The pose of a camera, as a value."""
+"""Pose of a camera."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 Vector = tuple[float, float, float]
 
-#: Largest difference, in distances from the focal point, between poses that give the same picture.
+#: Maximum difference of poses that give the same picture, relative to the distance from the focal point.
 _TOLERANCE = 1e-6
 
 
@@ -19,13 +19,13 @@ class CameraPose:
     Parameters
     ----------
     position, focal, up : (x, y, z)
-        Position, the point that the camera looks at and turns about, and the upward direction of the picture.
+        Position, focal point, which is also the centre of rotation, and up vector.
     parallel : bool
         Parallel projection instead of perspective.
     scale : float
-        Half the height of the picture in parallel projection, in the mesh's unit.
+        Half the height of the picture in parallel projection, in the unit of the mesh.
     axis : str
-        The axis that points up in standard views: x, y or z. It does not affect the picture.
+        Vertical axis of standard views: x, y or z. It does not affect the picture.
     """
 
     position: Vector
@@ -38,9 +38,12 @@ class CameraPose:
     def __post_init__(self) -> None:
         position, focal, up, _, scale, axis = astuple(self)
         if not np.isfinite([*position, *focal, *up, scale]).all() or position == focal or not any(up) or scale <= 0:
-            raise ValueError("the camera stands nowhere")
+            raise ValueError(
+                "the camera pose is invalid: expected finite numbers, a position other than the focal point, a nonzero up "
+                "vector and a positive scale"
+            )
         if axis not in ("x", "y", "z"):
-            raise ValueError(f"the axis {axis!r} is up: expected x, y or z")
+            raise ValueError(f"the vertical axis is {axis!r}: expected x, y or z")
 
     @property
     def distance(self) -> float:

@@ -1,4 +1,4 @@
-"""Colour maps by name: every module of `hexmend_app.picture.colour_maps` registers its own."""
+"""Colour maps by name, registered by the modules of `hexmend_app.picture.colour_maps`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from hexmend.registry import Registry
 
-#: The map that is used until another one is chosen, and the map of changes.
+#: Default map, and map of changes.
 DEFAULT_MAP, CHANGE_MAP = "viridis", "BrBG"
 
 
@@ -27,11 +27,11 @@ class ColourMap:
     help : str
         One sentence for users.
     colours : callable
-        Returns the colours as (256, 3) uint8, from the dark end to the light one; called when they are first drawn.
+        Returns the colours as (256, 3) uint8, from dark to light; called when they are first needed.
     title : str
-        Name in the window, if it is not `name`.
+        Name in the window; by default `name`.
     diverging : bool
-        The map has a neutral colour in its middle: it suits changes, not values.
+        The map has a neutral colour in the middle, which suits changes but not values.
     """
 
     name: str
@@ -42,14 +42,14 @@ class ColourMap:
 
     @cached_property
     def table(self) -> np.ndarray:
-        """The colours, (256, 3) uint8, read-only."""
+        """Colours, (256, 3) uint8, read-only."""
         colours = self.colours()
         colours.flags.writeable = False
         return colours
 
 
 def load_colour_maps() -> None:
-    """Import every module of the folder of colour maps."""
+    """Import all modules of `hexmend_app.picture.colour_maps`, which registers their maps."""
     package = import_module("hexmend_app.picture.colour_maps")
     for module in pkgutil.iter_modules(package.__path__):
         import_module(f"{package.__name__}.{module.name}")
@@ -59,17 +59,17 @@ COLOUR_MAPS: Registry[ColourMap] = Registry("colour map", load_colour_maps)
 
 
 def value_maps() -> tuple[str, ...]:
-    """Return the names of the maps for values: all but diverging ones."""
-    return tuple(name for name, one in COLOUR_MAPS.items() if not one.diverging)
+    """Return the names of the maps for values, which are all maps except diverging maps."""
+    return tuple(name for name, colour_map in COLOUR_MAPS.items() if not colour_map.diverging)
 
 
 def between(*stops: Sequence[int]) -> np.ndarray:
-    """Interpolate colours linearly.
+    """Return a colour table that interpolates colours linearly.
 
     Parameters
     ----------
     *stops : (red, green, blue)
-        At least two colours, 0 to 255, evenly spaced over the map.
+        At least two colours, 0 to 255, at equal distances in the map.
 
     Returns
     -------
@@ -78,5 +78,6 @@ def between(*stops: Sequence[int]) -> np.ndarray:
     >>> between((0, 0, 0), (255, 255, 255))[[0, 100, 255]].tolist()
     [[0, 0, 0], [100, 100, 100], [255, 255, 255]]
     """
-    colours, at = np.array(stops, float), np.linspace(0, len(stops) - 1, 256)
-    return np.stack([np.interp(at, np.arange(len(stops)), one) for one in colours.T], axis=1).round().astype(np.uint8)
+    channels, x = np.array(stops, float).T, np.linspace(0, len(stops) - 1, 256)
+    table = np.stack([np.interp(x, np.arange(len(stops)), channel) for channel in channels], axis=1)
+    return table.round().astype(np.uint8)

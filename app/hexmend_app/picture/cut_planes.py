@@ -1,4 +1,4 @@
-"""Cutting planes and boxes: values without Qt and without VTK."""
+"""Cutting planes and boxes as values without Qt and VTK."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-#: Degrees within which a plane that is turned by hand is set straight.
+#: Angle in degrees within which a plane that is rotated by hand snaps to an axis.
 SNAP = 8.0
 
 _AXES = np.eye(3)
 _ROUNDING = 1e-15
-_HAIR = 1e-9  # of a box's diagonal
+_MARGIN = 1e-9  # of the diagonal of a box
 
 
 @dataclass(frozen=True)
 class ClipPlane:
-    """A plane; the half-space that `normal` points to lies beyond it.
+    """Cutting plane; the half-space that `normal` points to lies beyond it.
 
     Parameters
     ----------
     normal : tuple of 3 floats
-        Of unit length.
+        Normal, which is normalised to unit length.
     origin : tuple of 3 floats
-        A point of the plane, in the mesh's unit of length.
+        Point of the plane, in the unit of the mesh.
     """
 
     normal: tuple[float, float, float] = (1.0, 0.0, 0.0)
@@ -34,28 +34,28 @@ class ClipPlane:
     def __post_init__(self) -> None:
         length = math.hypot(*self.normal)
         if not length > 0 or not math.isfinite(length):
-            raise ValueError(f"the plane's normal is {self.normal}: expected a direction")
+            raise ValueError(f"the normal of the plane is {self.normal}: expected a nonzero vector")
         if abs(length - 1) < _ROUNDING:
-            length = 1.0  # a plane that is copied is the same to the bit
+            length = 1.0  # copies of a plane are identical
         object.__setattr__(self, "normal", tuple(float(c) / length for c in self.normal))
         object.__setattr__(self, "origin", tuple(float(c) for c in self.origin))
 
     @property
     def equation(self) -> tuple[np.ndarray, float]:
-        """Normal (3,) and offset: points of the plane have x . normal = offset."""
+        """Normal, (3,), and offset; points x of the plane satisfy x . normal = offset."""
         return np.array(self.normal), float(np.dot(self.normal, self.origin))
 
     def signed_distance(self, points: np.ndarray) -> np.ndarray:
-        """Distance of (k, 3) points from the plane, positive beyond it."""
+        """Return the distances of points, (k, 3), from the plane, positive beyond it."""
         normal, offset = self.equation
         return np.asarray(points) @ normal - offset
 
     def flipped(self) -> ClipPlane:
-        """The same plane with its sides exchanged."""
+        """Return the plane with the opposite normal."""
         return dataclasses.replace(self, normal=tuple(-c for c in self.normal))
 
     def snapped(self, degrees: float = SNAP) -> ClipPlane:
-        """The plane set straight, through the same point, where its normal is so near to an axis; else itself."""
+        """Return the plane with its normal along an axis if they differ by at most `degrees`; else the plane itself."""
         size = np.abs(self.normal)
         axis = int(size.argmax())
         if size[axis] < np.cos(np.radians(degrees)):
@@ -65,16 +65,16 @@ class ClipPlane:
 
 @dataclass(frozen=True)
 class PlaneClip:
-    """A cut by planes.
+    """Cut by planes.
 
     Parameters
     ----------
     planes : tuple of ClipPlane
-        At least one.
+        At least one plane.
     crinkle : bool
-        Whole elements (True: an element is hidden when its centre is) or a smooth cut through them.
+        Cut by whole hexes, which are hidden if their centres are cut away, instead of a smooth cut.
     notch : bool
-        Hide only what lies beyond all planes, which cuts a corner out; else all that lies beyond one of them.
+        Hide only what lies beyond all planes, which removes a corner, instead of what lies beyond any plane.
     """
 
     planes: tuple[ClipPlane, ...] = (ClipPlane(),)
@@ -83,31 +83,31 @@ class PlaneClip:
 
     def __post_init__(self) -> None:
         if not self.planes:
-            raise ValueError("a cut has no plane: expected one or more")
+            raise ValueError("the cut has no plane: expected at least one")
         object.__setattr__(self, "planes", tuple(self.planes))
 
     @classmethod
     def at(cls, normal: tuple, origin: tuple, crinkle: bool = True) -> PlaneClip:
-        """The cut by one plane."""
+        """Return the cut by a single plane."""
         return cls((ClipPlane(normal, origin),), crinkle)
 
     def with_plane(self, at: int, plane: ClipPlane) -> PlaneClip:
-        """The same cut with another plane at one place."""
+        """Return a copy in which the plane with the index `at` is replaced."""
         return dataclasses.replace(self, planes=(*self.planes[:at], plane, *self.planes[at + 1 :]))
 
 
 @dataclass(frozen=True)
 class BoxClip:
-    """A cut by a box along the axes.
+    """Cut by an axis-aligned box.
 
     Parameters
     ----------
     low, high : tuple of 3 floats
-        Its corners, in the mesh's unit of length.
+        Lowest and highest corner, in the unit of the mesh.
     crinkle : bool
         As in `PlaneClip`.
     notch : bool
-        Hide what lies inside; else what lies outside.
+        Hide the inside of the box instead of its outside.
     """
 
     low: tuple[float, float, float]
@@ -124,17 +124,17 @@ class BoxClip:
 
     @property
     def planes(self) -> tuple[ClipPlane, ...]:
-        """Its sides, x low, x high, y low ...; what is to be hidden lies beyond one of them, or with `notch` all.
+        """Planes of the sides: x low, x high, y low, ...; beyond any of them, or with `notch` all, hexes are hidden.
 
-        They stand a hair farther out than the box, so that a face of the mesh in which one of them lies is inside.
+        They lie slightly outside the box, so that faces of the mesh on its sides are inside.
         """
-        sense = -1.0 if self.notch else 1.0
+        orientation = -1.0 if self.notch else 1.0
         low, high = np.array(self.low), np.array(self.high)
-        hair = _HAIR * float(np.linalg.norm(high - low))
+        margin = _MARGIN * float(np.linalg.norm(high - low))
         return tuple(
-            ClipPlane(tuple(sign * sense * _AXES[axis]), tuple(corner))
+            ClipPlane(tuple(sign * orientation * _AXES[axis]), tuple(corner))
             for axis in range(3)
-            for sign, corner in ((-1.0, low - hair), (1.0, high + hair))
+            for sign, corner in ((-1.0, low - margin), (1.0, high + margin))
         )
 
 
@@ -143,40 +143,40 @@ Clip = PlaneClip | BoxClip
 
 @dataclass(frozen=True)
 class CutLeft:
-    """Hexes that a cut leaves: computed from the positions of the nodes at that time, valid while they move.
+    """Hexes that a cut by whole hexes has left, which remain the same while nodes move.
 
     Parameters
     ----------
     clip : PlaneClip or BoxClip
-        To another cut it says nothing.
+        The cut.
     hexes : tuple of (first, last)
-        Ascending ranges of their numbers, both ends within.
+        Ascending ranges of hex numbers, both ends inclusive.
     """
 
     clip: Clip
     hexes: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
-        before = -1
+        previous = -1
         for first, last in self.hexes:
-            if not before < first <= last:
-                raise ValueError(f"hexes {first} to {last} come after {before}: expected ascending ranges")
-            before = last
+            if not previous < first <= last:
+                raise ValueError(f"hexes {first} to {last} follow {previous}: expected ascending ranges")
+            previous = last
 
     @classmethod
     def of(cls, clip: Clip, left: np.ndarray) -> CutLeft:
-        """The elements that are True, (m,) bool."""
+        """Return the hexes that a mask, (m,) bool, marks as remaining."""
         ends = np.flatnonzero(np.diff(left, prepend=False, append=False))
         return cls(clip, tuple((int(first), int(end) - 1) for first, end in ends.reshape(-1, 2)))
 
     @property
     def most(self) -> int:
-        """The greatest number; -1 where nothing is left."""
+        """Largest hex number; -1 if no hex remains."""
         return self.hexes[-1][1] if self.hexes else -1
 
     def mask(self, hexes: int) -> np.ndarray:
-        """Mark the hexes that are left, (m,) bool."""
-        answer = np.zeros(hexes, dtype=bool)
+        """Return True for the remaining hexes of a mesh with `hexes` hexes, (m,) bool."""
+        mask = np.zeros(hexes, dtype=bool)
         for first, last in self.hexes:
-            answer[first : last + 1] = True
-        return answer
+            mask[first : last + 1] = True
+        return mask

@@ -1,4 +1,4 @@
-"""Cameras that are kept by name: as a window has them, a session's file keeps them, and scenes name them."""
+"""Named cameras of windows, session files and scenes."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from hexmend.errors import FileError, ParameterError
 from hexmend_app.codec.config_table import ConfigTable, decode, option
 from hexmend_app.picture.camera import Camera
 
-#: Cameras of a scene, and of a window.
+#: Maximum number of named cameras of a scene or a window.
 MOST = 100
 
-#: What a session's file calls them.
-_FIELD = "cameras"
+#: Key in session files.
+_KEY = "cameras"
 
 
 @dataclass(frozen=True)
 class NamedCameras(ConfigTable):
-    """Cameras by name.
+    """Table of cameras by name.
 
     Parameters
     ----------
@@ -30,42 +30,44 @@ class NamedCameras(ConfigTable):
     named: dict[str, Camera] = option(dict, most=MOST)
 
     def check(self) -> None:
-        """Names that can be read."""
+        """Raise `ParameterError` for empty names and names with surrounding spaces."""
         for name in self.named:
             if not name or name != name.strip():
-                raise ParameterError(f"{name!r} is no name of a camera: expected one without space around it")
+                raise ParameterError(
+                    f"{name!r} is no valid name of a camera: expected a text without surrounding spaces"
+                )
 
 
 def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str, Camera]:
-    """Cameras with those of others, as far as there is room; what is another under one name gets a number.
+    """Return cameras with others added, at most `MOST`; a different camera with the same name gets a number.
 
     >>> list(merged({"a": Camera("+x")}, {"a": Camera("+y"), "b": Camera("+x")}))
     ['a', 'a (2)', 'b']
     >>> list(merged({"a": Camera("+x")}, {"a": Camera("+x")}))
     ['a']
     """
-    answer = dict(mine)
+    cameras = dict(mine)
     for name, camera in others.items():
-        names = (name, *(f"{name} ({k})" for k in range(2, MOST + 2)))
-        free = next((one for one in names if answer.get(one, camera) == camera), None)
-        if free is not None and (free in answer or len(answer) < MOST):
-            answer[free] = camera
-    return answer
+        candidates = (name, *(f"{name} ({k})" for k in range(2, MOST + 2)))
+        free = next((candidate for candidate in candidates if cameras.get(candidate, camera) == camera), None)
+        if free is not None and (free in cameras or len(cameras) < MOST):
+            cameras[free] = camera
+    return cameras
 
 
 def cameras_of(path: str | os.PathLike[str]) -> dict[str, Camera]:
-    """The cameras that a session's file keeps; none of one that is older than they.
+    """Return the named cameras of a session file; files of older versions have none.
 
     Raises
     ------
     FileError
-        Where the file cannot be read, or its cameras cannot be used.
+        If the file cannot be read, or its cameras are invalid.
     """
     from hexmend.io.formats.session.session_file import read_session
 
     window = read_session(path).window
-    data = window.get(_FIELD, {}) if isinstance(window, dict) else {}
+    data = window.get(_KEY, {}) if isinstance(window, dict) else {}
     try:
-        return decode(NamedCameras, data, (_FIELD,)).named
+        return decode(NamedCameras, data, (_KEY,)).named
     except ParameterError as error:
-        raise FileError(Path(path), f"does not hold together: {error}", "Use an earlier copy.") from None
+        raise FileError(Path(path), f"has invalid cameras: {error}", "Use an earlier copy.") from None

@@ -1,4 +1,4 @@
-"""The page that a scene is drawn on, and what is drawn around the mesh."""
+"""Page of a scene, and styles of lines, colour bar and axes."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from hexmend_app.codec.config_table import ConfigTable, option
 
 MM_PER_INCH, PT_PER_INCH = 25.4, 72.0
 
-#: Width by height of a page of which one is named.
+#: Default aspect ratio, width by height.
 _ASPECT = 8 / 5
 
-#: Width in mm of the page that so many pixels stand for where no dpi is named, and dpi where millimetres are.
-_USUAL_WIDTH, _USUAL_DPI = 170.0, 300.0
+#: Assumed width in mm of pages in pixels without dpi, and default dpi of pages in mm.
+_DEFAULT_WIDTH, _DEFAULT_DPI = 170.0, 300.0
 
-#: Letters in pt: of a page in mm where nothing is named, and the least pixels that can be read.
-_LETTERS, _LEAST_PIXELS = 8.0, 8.0
+#: Default font size in pt, and minimum font size in pixels.
+_FONT_SIZE, _MIN_FONT_PIXELS = 8.0, 8.0
 
-#: Width in mm, on the page of `_USUAL_WIDTH`, of a thin line, which is a pixel wide at least.
-_THIN = _USUAL_WIDTH / _ASPECT / 900
+#: Width of a thin line in mm on a page of `_DEFAULT_WIDTH`; at least one pixel.
+_THIN = _DEFAULT_WIDTH / _ASPECT / 900
 
-#: Pixels of a side, and of a page.
-_LEAST_SIDE, _MOST_SIDE, _MOST_PIXELS = 16, 16384, 2**26
+#: Minimum and maximum side of a page, and maximum number of pixels.
+_MIN_SIDE, _MAX_SIDE, _MAX_PIXELS = 16, 16384, 2**26
 
 
 class TextPlace(StrEnum):
@@ -49,7 +49,7 @@ class Captions(StrEnum):
 
     NAMES = "names"
     LETTERS = "letters"
-    """(a), (b), ... before the names."""
+    """Names preceded by (a), (b), ..."""
     NONE = "none"
 
 
@@ -60,8 +60,8 @@ class LineStyle(ConfigTable):
     Parameters
     ----------
     edges : float, optional
-        The elements' edges, to which all other lines stay in proportion; 0 leaves edges out. Without it, as the size of
-        the page suits.
+        Width of the edges of hexes, to which all other widths are proportional; 0 omits edges. By default the width
+        depends on the size of the page.
     """
 
     edges: float | None = option(low=0, high=20, unit="pt")
@@ -69,16 +69,16 @@ class LineStyle(ConfigTable):
 
 @dataclass(frozen=True)
 class ColourBarStyle(ConfigTable):
-    """The colour bar.
+    """Style of the colour bar.
 
     Parameters
     ----------
-    place : Place
+    place : TextPlace
         below, right or none.
     ticks : int or tuple of float
-        How many values stand at it at most, or which.
+        Maximum number of values at the bar, or the values.
     title : str
-        Instead of the metric's.
+        Title; by default that of the metric.
     """
 
     place: TextPlace = option(TextPlace.BELOW)
@@ -86,21 +86,21 @@ class ColourBarStyle(ConfigTable):
     title: str = option("")
 
     def check(self) -> None:
-        """A number of ticks that has room."""
+        """Raise `ParameterError` for an empty list or too many ticks."""
         if self.ticks == ():
-            raise ParameterError("ticks = [] lists no value: expected some, or 0 for none")
+            raise ParameterError("ticks = [] lists no values: expected at least one, or 0 for no ticks")
         if isinstance(self.ticks, int) and not 0 <= self.ticks <= 30:
             raise ParameterError(f"ticks = {self.ticks} is out of range: expected 0 to 30, or a list of values")
 
 
 @dataclass(frozen=True)
 class AxesStyle(ConfigTable):
-    """The axes in a corner.
+    """Style of the orientation axes.
 
     Parameters
     ----------
     show : bool
-        Draw them.
+        Draw the axes.
     place : Corner
         lower left, lower right, upper left or upper right.
     """
@@ -111,39 +111,39 @@ class AxesStyle(ConfigTable):
 
 @dataclass(frozen=True)
 class Page(ConfigTable):
-    """The page: its size in millimetres, or in pixels.
+    """Page: size in millimetres or in pixels, background, margin and captions.
 
     Parameters
     ----------
     width, height : float, optional
-        Of one alone, the other follows as 8 : 5.
+        Size of the page; if only one is given, the aspect ratio is 8 : 5.
     pixels : tuple of 2 int, optional
-        Width and height in pixels instead.
+        Width and height in pixels, instead of millimetres.
     dpi : float, optional
-        Pixels per inch. Of a page in mm 300 where nothing is said; so many pixels stand for a page 170 mm wide.
+        Pixels per inch; by default 300 for pages in mm, and the value for a width of 170 mm for pages in pixels.
     background : str
         white, transparent or #rrggbb.
     margin : float
-        What stays free on all sides.
+        Margin on all sides.
     columns : int, optional
-        Panels in a row; without it, as suits their number.
+        Number of panels in a row; by default it depends on the number of panels.
     crop : bool
-        Cut away empty paper around the mesh: the page becomes smaller.
+        Crop empty margins around the mesh, which makes the page smaller.
     captions : Captions
-        names, letters or none; of one panel, what is named for it alone.
+        names, letters or none; a single panel has a caption only if it is specified.
     figures : bool
-        Write least q and number of inverted hexes beside captions where meshes are compared.
+        Add the smallest q and the number of inverted hexes to captions if several meshes are shown.
     font_size : float, optional
-        Of all that is written; without it, 8 pt.
+        Size of all texts; by default 8 pt.
     shading : bool
-        Draw what light from all around hardly reaches darker.
+        Apply ambient occlusion, which darkens cavities.
     supersampling : int
-        Pixels along each side of which one of the mesh's picture is made.
+        Rendered pixels along each side of a pixel.
     """
 
     width: float | None = option(low=5, high=3000, unit="mm")
     height: float | None = option(low=5, high=3000, unit="mm")
-    pixels: tuple[int, int] | None = option(low=_LEAST_SIDE, high=_MOST_SIDE)
+    pixels: tuple[int, int] | None = option(low=_MIN_SIDE, high=_MAX_SIDE)
     dpi: float | None = option(low=5, high=4800)
     background: str = option("white", offered=("white", "transparent", "#f2f2f2"))
     margin: float = option(0.0, low=0, high=500, unit="mm")
@@ -156,20 +156,22 @@ class Page(ConfigTable):
     supersampling: int = option(2, low=1, high=4)
 
     def check(self) -> None:
-        """One size, of not too many pixels, and a colour."""
+        """Raise `ParameterError` for an invalid size, background or margin."""
         if self.pixels is not None and (self.width is not None or self.height is not None):
             raise ParameterError("the page has pixels and a width or height in mm: expected one of them")
         width, height = self.size
-        if not (min(width, height) >= _LEAST_SIDE and max(width, height) <= _MOST_SIDE):
+        if not (min(width, height) >= _MIN_SIDE and max(width, height) <= _MAX_SIDE):
             raise ParameterError(
-                f"the page has {width:,} × {height:,} pixels: expected sides of {_LEAST_SIDE} to {_MOST_SIDE:,}"
+                f"the page has {width:,} × {height:,} pixels: expected sides of {_MIN_SIDE} to {_MAX_SIDE:,}"
             )
-        if width * height > _MOST_PIXELS:
-            raise ParameterError(f"the page has {width:,} × {height:,} pixels: expected {_MOST_PIXELS:,} at most")
+        if width * height > _MAX_PIXELS:
+            raise ParameterError(f"the page has {width:,} × {height:,} pixels: expected at most {_MAX_PIXELS:,}")
         if self.background not in ("white", "transparent") and not re.fullmatch("#[0-9a-fA-F]{6}", self.background):
             raise ParameterError(f"background = {self.background!r} is unknown: expected white, transparent or #rrggbb")
-        if 2 * self.pixels_of(self.margin) > min(width, height) - _LEAST_SIDE:
-            raise ParameterError(f"margin = {self.margin:g} leaves no room: expected less than half a side of the page")
+        if 2 * self.pixels_of(self.margin) > min(width, height) - _MIN_SIDE:
+            raise ParameterError(
+                f"margin = {self.margin:g} leaves no space: expected less than half a side of the page"
+            )
 
     @property
     def size(self) -> tuple[int, int]:
@@ -188,34 +190,34 @@ class Page(ConfigTable):
         if self.dpi is not None:
             return self.dpi
         if self.pixels is None and not (self.width is None and self.height is None):
-            return _USUAL_DPI
+            return _DEFAULT_DPI
         width, height = self.size
-        return min(width, height * _ASPECT) / _USUAL_WIDTH * MM_PER_INCH
+        return min(width, height * _ASPECT) / _DEFAULT_WIDTH * MM_PER_INCH
 
     def pixels_of(self, mm: float) -> int:
-        """A length in pixels."""
+        """Convert a length in mm to pixels."""
         return round(mm / MM_PER_INCH * self.resolution)
 
     @property
     def letters(self) -> float:
-        """The size of what is written, in pt."""
-        return self.font_size or max(_LETTERS, _LEAST_PIXELS * PT_PER_INCH / self.resolution)
+        """Font size in pt."""
+        return self.font_size or max(_FONT_SIZE, _MIN_FONT_PIXELS * PT_PER_INCH / self.resolution)
 
-    def pen(self, lines: LineStyle) -> float:
-        """Width of a thin line in pixels."""
+    def line_width(self, lines: LineStyle) -> float:
+        """Return the width of a thin line in pixels."""
         if lines.edges:
             return lines.edges / PT_PER_INCH * self.resolution
         width, height = self.size
-        return max(1.0, min(width, height * _ASPECT) / _USUAL_WIDTH * _THIN)
+        return max(1.0, min(width, height * _ASPECT) / _DEFAULT_WIDTH * _THIN)
 
     @property
     def ground(self) -> str | None:
-        """The colour of the paper, #rrggbb; None where it is transparent."""
+        """Background colour, #rrggbb; None if transparent."""
         return {"white": "#ffffff", "transparent": None}.get(self.background, self.background)
 
     @property
     def dark(self) -> bool:
-        """True if the paper is so dark that text has to be bright."""
+        """True if the background is dark and texts must be bright."""
         if self.ground is None:
             return False
         red, green, blue = bytes.fromhex(self.ground[1:])

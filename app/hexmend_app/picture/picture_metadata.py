@@ -1,4 +1,4 @@
-"""Metadata in a picture: the scene, its meshes, the runs on them, and the program."""
+"""Metadata of pictures: the scene, its meshes, the recipe that was run, and the version of the program."""
 
 from __future__ import annotations
 
@@ -22,50 +22,52 @@ from hexmend_app.picture.camera import MOST, PicturePanel
 from hexmend_app.picture.scene import Scene
 from hexmend_app.picture.scene_files import from_toml, table_text, to_toml
 
-#: Keywords of the texts in a PNG.
+#: Keywords of the PNG texts.
 _SCENE, _ABOUT, _RECIPE = "hexmend scene", "hexmend meshes", "hexmend recipe"
 
-#: Letters of a path.
-_LONGEST = 1000
+#: Maximum length of a path.
+_MAX_PATH = 1000
 
 
 @dataclass(frozen=True)
 class PicturedMesh(ConfigTable):
-    """A mesh that a picture shows.
+    """Mesh that a picture shows.
 
     Parameters
     ----------
     file : str
-        The mesh's file, as seen from the picture's folder.
+        Path of the file of the mesh, relative to the folder of the picture.
     opened : str
-        The digest of the mesh as it was opened.
+        Digest of the mesh as opened.
     shown : str
-        That of the mesh as it is shown.
+        Digest of the mesh as shown.
     """
 
-    file: str = option("", most=_LONGEST)
+    file: str = option("", most=_MAX_PATH)
     opened: str = option("")
     shown: str = option("")
 
     def check(self) -> None:
-        """A path that stays in the file system, and digests."""
+        """Raise `ParameterError` for an invalid path or digest."""
         if "\\" in self.file or ":" in self.file or PurePosixPath(self.file).is_absolute():
-            raise ParameterError(f"file = {self.file!r} is no path from the picture: expected one such as ../mesh.vtu")
-        for one in (self.opened, self.shown):
-            if not re.fullmatch("[0-9a-f]{64}", one):
-                raise ParameterError(f"{one!r} is no digest: expected 64 digits")
+            raise ParameterError(
+                f"file = {self.file!r} is no path relative to the picture: expected, for example, ../mesh.vtu"
+            )
+        for value in (self.opened, self.shown):
+            if not re.fullmatch("[0-9a-f]{64}", value):
+                raise ParameterError(f"{value!r} is no digest: expected 64 hexadecimal digits")
 
     @classmethod
     def of(cls, opened: Mesh, shown: Mesh, file: Path | None, picture: Path) -> PicturedMesh:
-        """A mesh as it was opened from a file, and as it is shown."""
-        return cls(_from(file, picture), digest(opened), digest(shown))
+        """Return the entry of a mesh that was opened from a file."""
+        return cls(_relative_path(file, picture), digest(opened), digest(shown))
 
     def candidates(self, picture: Path) -> list[Path]:
-        """List the paths at which its file may be: the original one, then the picture's folder."""
+        """List existing paths of the file of the mesh: the original path, then the folder of the picture."""
         if not self.file:
             return []
-        found = (picture.parent / self.file, picture.parent / PurePosixPath(self.file).name)
-        return [path for path in found if path.is_file()]
+        paths = (picture.parent / self.file, picture.parent / PurePosixPath(self.file).name)
+        return [path for path in paths if path.is_file()]
 
 
 @dataclass(frozen=True)
@@ -75,9 +77,9 @@ class _About(ConfigTable):
     Parameters
     ----------
     version : str
-        Of Hexmend.
-    meshes : tuple of Pictured
-        By their numbers in the scene.
+        Version of Hexmend.
+    meshes : tuple of PicturedMesh
+        Meshes in the order of their numbers in the scene.
     """
 
     version: str = option("")
@@ -86,15 +88,15 @@ class _About(ConfigTable):
 
 @dataclass(frozen=True)
 class PictureMetadata:
-    """Metadata in a picture.
+    """Metadata of a picture.
 
     Parameters
     ----------
     scene : Scene
-    meshes : tuple of Pictured
-        At least one.
+    meshes : tuple of PicturedMesh
+        At least one mesh.
     recipe : Recipe, optional
-        What ran on the mesh since it was opened.
+        Methods that were run on the mesh since it was opened.
     """
 
     scene: Scene
@@ -103,17 +105,17 @@ class PictureMetadata:
 
     @property
     def panels(self) -> tuple[PicturePanel, ...]:
-        """The pictures on its page."""
+        """Panels of the page."""
         return self.scene.panels_of(len(self.meshes))
 
     @property
     def first(self) -> PicturedMesh:
-        """The mesh of the first panel."""
+        """Mesh of the first panel."""
         return self.meshes[self.panels[0].mesh - 1]
 
 
 def with_metadata(scene: Scene, meshes: Sequence[PicturedMesh], recipe: Recipe | None = None) -> dict[str, str]:
-    """The texts that a picture of a scene carries, by keyword."""
+    """Return the metadata of a picture of a scene, as texts by keyword."""
     from hexmend import __version__
 
     texts = {_SCENE: to_toml(scene), _ABOUT: table_text(_About(__version__, tuple(meshes)))}
@@ -121,43 +123,45 @@ def with_metadata(scene: Scene, meshes: Sequence[PicturedMesh], recipe: Recipe |
 
 
 def read_metadata(path: str | os.PathLike[str]) -> PictureMetadata:
-    """Read the metadata in a picture.
+    """Read the metadata of a picture.
 
     Raises
     ------
     FileError
-        Where it carries no scene, or one that cannot be used: it names the key.
+        If the picture contains no scene, or an invalid one; the message names the key.
     """
     found = png_text.texts(path, (_SCENE, _ABOUT, _RECIPE))
     if _SCENE not in found or _ABOUT not in found:
-        raise FileError(Path(path), "this picture carries no scene", "Open the mesh that it shows.")
+        raise FileError(Path(path), "this picture contains no scene", "Open the mesh that it shows.")
     try:
         scene, about = from_toml(found[_SCENE]), decode(_About, parse_toml(found[_ABOUT], "its meshes"))
         recipe = recipes.from_toml(found[_RECIPE]) if _RECIPE in found else None
         if not about.meshes:
-            raise ParameterError("there is no mesh")
+            raise ParameterError("no mesh is listed")
         scene.panels_of(len(about.meshes))
     except ParameterError as error:
-        raise FileError(Path(path), f"the scene that it carries cannot be used: {error}", "Open the mesh.") from None
+        raise FileError(
+            Path(path), f"the scene in this picture is invalid: {error}", "Open the mesh that it shows."
+        ) from None
     return PictureMetadata(scene, about.meshes, recipe)
 
 
 def digest(mesh: Mesh) -> str:
-    """Compute a digest of 64 digits that is equal only for meshes with the same hexes and node positions."""
-    answer = hashlib.sha256(f"{mesh.n_nodes} {mesh.n_hexes}".encode())
-    answer.update(np.ascontiguousarray(mesh.points, dtype="<f8"))
-    answer.update(np.ascontiguousarray(mesh.hexes, dtype="<i8"))
-    return answer.hexdigest()
+    """Return a digest of 64 hexadecimal digits, equal only for meshes with the same hexes and node positions."""
+    sha = hashlib.sha256(f"{mesh.n_nodes} {mesh.n_hexes}".encode())
+    sha.update(np.ascontiguousarray(mesh.points, dtype="<f8"))
+    sha.update(np.ascontiguousarray(mesh.hexes, dtype="<i8"))
+    return sha.hexdigest()
 
 
-def _from(file: Path | None, picture: Path) -> str:
-    """A file as seen from the folder of a picture, "" where that cannot be said."""
+def _relative_path(file: Path | None, picture: Path) -> str:
+    """Return the path of a file relative to the folder of a picture, "" if there is none that can be stored."""
     if file is None:
         return ""
     try:
         text = Path(os.path.relpath(file.resolve(), picture.resolve().parent)).as_posix()
     except ValueError:  # on another drive
         text = file.name
-    if len(text) > _LONGEST or not text.isprintable() or "\\" in text or ":" in text:
+    if len(text) > _MAX_PATH or not text.isprintable() or "\\" in text or ":" in text:
         return ""
     return text

@@ -1,4 +1,4 @@
-"""All that decides what a still picture shows, and on what page: values without Qt and without VTK."""
+"""Scenes: complete descriptions of still pictures and their pages, as values without Qt and VTK."""
 
 from __future__ import annotations
 
@@ -16,42 +16,42 @@ from hexmend_app.picture.named_cameras import MOST as MOST_CAMERAS
 from hexmend_app.picture.page import AxesStyle, ColourBarStyle, LineStyle, Page
 from hexmend_app.picture.visibility import Colours, Show
 
-#: The number of the format that is written; lower ones can be read.
+#: Number of the current format; lower numbers can be read.
 FORMAT = 1
 
 
 @dataclass(frozen=True)
 class Scene(ConfigTable):
-    """A scene; each key is a table of a file.
+    """Description of a picture; each field is a table of a scene file.
 
     Parameters
     ----------
     format : int
-        Of the file.
+        Number of the file format.
     camera : Camera
-        From where the mesh is looked at.
+        Camera of the picture.
     cameras : dict of Camera
-        Others, by name.
-    panels : tuple of Panel
-        The pictures on the page, row by row; without them, one of each mesh.
+        Named cameras.
+    panels : tuple of PicturePanel
+        Panels of the page, row by row; by default one panel for each mesh.
     cut : Cut
-        Where the mesh is cut open.
+        Cut of the mesh by planes or by a box.
     show : Show
-        Which elements are shown.
+        Filters of the shown hexes.
     structure : Structure
-        What is drawn of the mesh's structure.
+        Layers over the mesh.
     movement : Traces
-        What is drawn of how the mesh has moved.
+        Arrows and reference state of movements.
     colours : Colours
-        What the colours show.
-    lines : Lines
-        How thick lines are.
-    bar : Bar
-        The colour bar.
-    axes : Axes
-        The axes in a corner.
+        Colours of the hexes.
+    lines : LineStyle
+        Widths of lines.
+    bar : ColourBarStyle
+        Colour bar.
+    axes : AxesStyle
+        Orientation axes in a corner.
     page : Page
-        Size, paper and what is written.
+        Size, background, margin and texts of the page.
     """
 
     format: int = option(FORMAT, low=1)
@@ -69,7 +69,7 @@ class Scene(ConfigTable):
     page: Page = option(Page)
 
     def check(self) -> None:
-        """A format that can be read, and cameras that there are."""
+        """Raise `ParameterError` for a newer format, and for panels with unknown cameras."""
         if self.format > FORMAT:
             raise ParameterError(f"format = {self.format} is newer than this version of Hexmend, which reads {FORMAT}")
         for number, panel in enumerate(self.panels, 1):
@@ -78,16 +78,16 @@ class Scene(ConfigTable):
                 raise ParameterError(f"panel {number}: there is no camera {panel.camera!r}: [cameras] has {known}")
 
     @classmethod
-    def of(cls, look: Look, stand: CameraPose | None = None, **tables: Any) -> Scene:
-        """The scene that shows what a look shows.
+    def of(cls, look: Look, pose: CameraPose | None = None, **tables: Any) -> Scene:
+        """Return the scene with a look.
 
         Parameters
         ----------
         look : Look
-        stand : Stand, optional
-            Where the camera stands; without it, the mesh is seen from a corner.
+        pose : CameraPose, optional
+            Pose of the camera; by default the isometric view.
         tables
-            Others: `page`, `bar`, `axes`, `lines`, `panels`, `cameras`. The look says if there are edges and shading.
+            Other tables: `page`, `bar`, `axes`, `lines`, `panels`, `cameras`. The look determines edges and shading.
         """
         page = replace(tables.pop("page", Page()), shading=look.shading)
         lines = tables.pop("lines", LineStyle())
@@ -95,26 +95,26 @@ class Scene(ConfigTable):
             lines = replace(lines, edges=0.0)
         elif lines.edges == 0:
             lines = replace(lines, edges=None)
-        if stand is not None:
-            tables["camera"] = Camera.at(stand)
+        if pose is not None:
+            tables["camera"] = Camera.at(pose)
         return cls(
-            cut=Cut.as_in(look.clip, look.left),
-            show=Show.as_in(look),
+            cut=Cut.from_clip(look.clip, look.left),
+            show=Show.from_look(look),
             structure=look.structure,
             movement=look.traces,
-            colours=Colours.as_in(look),
+            colours=Colours.from_look(look),
             lines=lines,
             page=page,
             **tables,
         )
 
     def look(self, mesh: Mesh) -> Look:
-        """The look that shows the same of a mesh.
+        """Return the look of the scene for a mesh.
 
         Raises
         ------
         ParameterError
-            Where hexes are named that the mesh has not.
+            If the scene refers to a hex that does not exist in the mesh.
         """
         self.show.check_numbers(mesh.n_hexes)
         return Look(
@@ -130,22 +130,22 @@ class Scene(ConfigTable):
         )
 
     def camera_of(self, panel: PicturePanel) -> Camera:
-        """The camera of one of its panels."""
+        """Return the camera of a panel."""
         return self.cameras[panel.camera] if panel.camera else self.camera
 
     def panels_of(self, meshes: int) -> tuple[PicturePanel, ...]:
-        """The pictures on the page of so many meshes.
+        """Return the panels of the page for a number of meshes.
 
         Raises
         ------
         ParameterError
-            Where a panel shows a mesh that there is not, or there are more meshes than panels.
+            If a panel refers to a mesh that does not exist, or there are too many meshes.
         """
         if not self.panels and meshes > MOST:
-            raise ParameterError(f"there are {meshes} meshes: expected {MOST} at most")
+            raise ParameterError(f"there are {meshes} meshes: expected at most {MOST}")
         panels = self.panels or tuple(PicturePanel(mesh=number) for number in range(1, meshes + 1))
         for number, panel in enumerate(panels, 1):
             for mesh in (panel.mesh, panel.mesh if panel.wipe is None else panel.wipe.mesh):
                 if mesh > meshes:
-                    raise ParameterError(f"panel {number} shows mesh {mesh}, and there are {meshes}: name more meshes")
+                    raise ParameterError(f"panel {number} shows mesh {mesh}, but there are {meshes}: name more meshes")
         return panels

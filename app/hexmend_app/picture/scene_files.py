@@ -1,4 +1,4 @@
-"""Scenes, and cameras alone, as TOML that people read and write. Only data is read."""
+"""Scenes and cameras as TOML text."""
 
 from __future__ import annotations
 
@@ -15,64 +15,69 @@ from hexmend_app.codec.config_table import ConfigTable, decode, encode, options_
 from hexmend_app.picture.camera import Camera
 from hexmend_app.picture.scene import Scene
 
-#: Letters of a scene, which may name hexes one by one.
+#: Maximum length of the text of a scene, which may list hexes.
 LARGEST = 4_000_000
 
-_HEAD = "# hexmend scene\n"
+_HEADER = "# hexmend scene\n"
 
 
 def to_toml(scene: Scene, whole: bool = True) -> str:
-    """The scene as TOML text that names every value, so that it means the same when defaults change.
+    """Return a scene as TOML text.
 
-    Without `whole`, what is as in any scene is left out, for people to read.
+    Parameters
+    ----------
+    scene : Scene
+    whole : bool
+        Write all values, so that the file does not depend on defaults; otherwise omit default values.
     """
-    lines, usual = [_HEAD + f"format = {scene.format}"], Scene()
-    for one in options_of(Scene):
-        value = getattr(scene, one.field)
-        if one.name == "format":
+    lines, defaults = [_HEADER + f"format = {scene.format}"], Scene()
+    for option in options_of(Scene):
+        value = getattr(scene, option.field)
+        if option.name == "format":
             continue
-        if one.name == "cameras":
+        if option.name == "cameras":
             for name, camera in value.items():
                 lines += ["", f"[cameras.{_key(name)}]", *_rows(camera)]
-        elif one.name == "panels":
+        elif option.name == "panels":
             for panel in value:
                 lines += ["", "[[panels]]", *_rows(panel)]
-        elif rows := _rows(value, None if whole else getattr(usual, one.field)):
-            lines += ["", f"[{one.name}]", *rows]
+        elif rows := _rows(value, None if whole else getattr(defaults, option.field)):
+            lines += ["", f"[{option.name}]", *rows]
     return "\n".join(lines) + "\n"
 
 
 def table_text(table: ConfigTable) -> str:
-    """A table alone as TOML text."""
+    """Return a single table as TOML text."""
     return "\n".join(_rows(table)) + "\n"
 
 
 def from_toml(text: str) -> Scene:
-    """The scene that TOML text describes.
+    """Parse a scene from TOML text.
 
     Raises
     ------
     ParameterError
-        Naming line and column where it is no TOML, else the table, the key and what was expected there.
+        If the text is no valid scene; the message names line and column, or table, key and expected value.
     """
     return decode(Scene, parse_toml(text, "a scene", LARGEST))
 
 
 def camera_text(camera: Camera) -> str:
-    """A camera in one line, as `hexmend render --camera` takes it."""
+    """Return a camera as one line of text, as accepted by `hexmend render --camera`."""
     return _value(encode(camera))
 
 
 def camera_from(text: str) -> Camera:
-    """The camera that one line describes.
+    """Parse a camera from one line of text.
 
     Raises
     ------
     ParameterError
+        If the text is no valid camera.
     """
     text = text.strip().removeprefix("camera").lstrip(" =")
     if not text.startswith("{") or "\n" in text:
-        raise ParameterError('a camera is no line of braces: expected one such as { from = "iso", up = "z" }')
+        raise ParameterError('the text is no camera: expected one line, for example { from = "iso", up = "z" }')
     return decode(Camera, parse_toml(f"camera = {text}", "a camera").get("camera"), ("camera",))
 
 
@@ -82,26 +87,26 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     Raises
     ------
     FileError
-        Where the file cannot be read or is no scene: it names the line, or the table and the key.
+        If the file cannot be read or is no scene; the message names the line, or the table and the key.
     """
     return read_toml(path, "a scene", from_toml, LARGEST)
 
 
 def write_scene(path: str | os.PathLike[str], scene: Scene) -> None:
-    """Write a scene as a whole or, where that fails, leave what was there.
+    """Write a scene to a TOML file atomically; if writing fails, an existing file is left unchanged.
 
     Raises
     ------
     FileError
-        For a suffix other than .toml, or where the place cannot be written to.
+        For a suffix other than .toml, or if the file cannot be written.
     """
     write_toml(path, "a scene", to_toml(scene))
 
 
-def _rows(table: Any, usual: Any = None) -> list[str]:
-    """A line a key, but for those that are as usual."""
-    known = {} if usual is None else encode(usual)
-    return [f"{_key(k)} = {_value(v)}" for k, v in encode(table).items() if k not in known or known[k] != v]
+def _rows(table: Any, defaults: Any = None) -> list[str]:
+    """Return a line for each key, except keys with the same value as in another table."""
+    omitted = {} if defaults is None else encode(defaults)
+    return [f"{_key(k)} = {_value(v)}" for k, v in encode(table).items() if k not in omitted or omitted[k] != v]
 
 
 def _key(name: str) -> str:
@@ -109,7 +114,7 @@ def _key(name: str) -> str:
 
 
 def _value(value: Any) -> str:
-    """A value in one line."""
+    """Return a value as one line of TOML."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -119,5 +124,5 @@ def _value(value: Any) -> str:
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(name)} = {_value(one)}" for name, one in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(name)} = {_value(item)}" for name, item in value.items()) + " }"
     return repr(value)

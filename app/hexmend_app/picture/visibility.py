@@ -1,4 +1,4 @@
-"""Visible hexes of a scene, and their colours."""
+"""Tables of a scene for the shown hexes and their colours."""
 
 from __future__ import annotations
 
@@ -12,48 +12,48 @@ from hexmend_app.codec.config_table import ConfigTable, option
 from hexmend_app.picture.appearance import ColourScale, Isolation, Look, RangeMode, ValueRange
 from hexmend_app.picture.colour_map import COLOUR_MAPS, DEFAULT_MAP
 
-#: Hexes that are named one by one.
-_MOST = 300_000
+#: Maximum number of hexes that are listed individually.
+_MAX_HEXES = 300_000
 
 
 @dataclass(frozen=True)
 class Isolate(ConfigTable):
-    """Elements that are shown with what is around them, and nothing else.
+    """Hexes that are shown with their surroundings only.
 
     Parameters
     ----------
     hexes : tuple of int
-        Their numbers, from 0.
+        Hex numbers, from 0.
     rings : int
-        How often neighbours that share a node are taken in.
+        Number of rings of hexes around them; each ring adds the hexes that share a node.
     """
 
-    hexes: tuple[int, ...] = option((), low=0, high=2**31 - 1, most=_MOST)
+    hexes: tuple[int, ...] = option((), low=0, high=2**31 - 1, most=_MAX_HEXES)
     rings: int = option(1, low=0, high=1000)
 
 
 @dataclass(frozen=True)
 class Show(ConfigTable):
-    """Visible hexes; all without keys.
+    """Filters of the shown hexes; by default all are shown.
 
     Parameters
     ----------
     quality : tuple of 2 floats, optional
-        The least and the greatest value of what is shown; -inf and inf bound nothing.
+        Smallest and largest value of the metric of shown hexes; -inf and inf for no bound.
     metric : str
-        The metric that these are values of.
+        Metric of the range.
     inverted : bool
-        Show inverted elements too, whatever their value.
+        Show inverted hexes too, independent of their value.
     peel : int
-        Hide elements with fewer than so many others between them and the boundary.
+        Number of layers of hexes to hide, from the boundary inwards.
     isolate : Isolate, optional
-        Such as { hexes = [12, 15], rings = 1 }: show these with their neighbours alone.
+        Show only these hexes and their neighbours, for example { hexes = [12, 15], rings = 1 }.
     hidden : tuple of int
-        Elements that are hidden one by one, by number from 0.
+        Hexes that are hidden individually, by number from 0.
     shrink : float
-        The share of its size by which each element is drawn smaller.
+        Fraction by which each hex is shrunk.
     outline : bool
-        Draw sharp edges, and the outline of the whole where a part is hidden.
+        Draw sharp edges, and the outline of the whole mesh while part of it is hidden.
     """
 
     quality: tuple[float, float] | None = option(open_ended=True)
@@ -61,77 +61,77 @@ class Show(ConfigTable):
     inverted: bool = option(False)
     peel: int = option(0, low=0, high=100_000)
     isolate: Isolate | None = option()
-    hidden: tuple[int, ...] = option((), low=0, high=2**31 - 1, most=_MOST)
+    hidden: tuple[int, ...] = option((), low=0, high=2**31 - 1, most=_MAX_HEXES)
     shrink: float = option(0.0, low=0, high=0.95)
     outline: bool = option(True)
 
     def check(self) -> None:
-        """A metric that there is, and the lower value first."""
+        """Raise `ParameterError` for an unknown metric or an invalid range."""
         known_metric(self.metric, METRICS)
         if self.quality is not None and not self.quality[0] <= self.quality[1]:
             raise ParameterError(f"quality = {list(self.quality)} is no range: expected the lower number first")
 
     @classmethod
-    def as_in(cls, look: Look) -> Show:
-        """Make the table from an appearance."""
-        some, alone = look.quality_range, look.isolation
-        bounds = {} if some is None else {"quality": (some.low, some.high), "metric": some.metric}
+    def from_look(cls, look: Look) -> Show:
+        """Return the table of a look."""
+        bounds, isolation = look.quality_range, look.isolation
+        quality = {} if bounds is None else {"quality": (bounds.low, bounds.high), "metric": bounds.metric}
         return cls(
-            **bounds,
-            inverted=some is not None and some.inverted,
+            **quality,
+            inverted=bounds is not None and bounds.inverted,
             peel=look.peel,
-            isolate=None if alone is None else Isolate(alone.hexes, alone.rings),
+            isolate=None if isolation is None else Isolate(isolation.hexes, isolation.rings),
             hidden=tuple(sorted(look.dug)),
             shrink=look.shrink,
             outline=look.outline,
         )
 
     def fields(self) -> dict[str, object]:
-        """The same, as fields of a look."""
-        some, alone = self.quality, self.isolate
+        """Return the fields of a look that the table determines."""
+        bounds, isolate = self.quality, self.isolate
         return {
-            "quality_range": None if some is None else ValueRange(self.metric, *some, self.inverted),
+            "quality_range": None if bounds is None else ValueRange(self.metric, *bounds, self.inverted),
             "peel": self.peel,
-            "isolation": None if alone is None else Isolation(alone.hexes, alone.rings),
+            "isolation": None if isolate is None else Isolation(isolate.hexes, isolate.rings),
             "dug": frozenset(self.hidden),
             "shrink": self.shrink,
             "outline": self.outline,
         }
 
     def check_numbers(self, hexes: int) -> None:
-        """Raise `ParameterError` unless a mesh of so many hexes has those that are named one by one."""
-        named = (*self.hidden, *(self.isolate.hexes if self.isolate is not None else ()))
-        if named and max(named) >= hexes:
-            raise ParameterError(f"[show] names hex {max(named):,}: expected one of the mesh, below {hexes:,}")
+        """Raise `ParameterError` if a listed hex does not exist in a mesh with a number of hexes."""
+        listed = (*self.hidden, *(self.isolate.hexes if self.isolate is not None else ()))
+        if listed and max(listed) >= hexes:
+            raise ParameterError(f"[show] names hex {max(listed):,}: expected one of the mesh, below {hexes:,}")
 
 
 class Range(StrEnum):
-    """Origin of the two ends of the colour range, where they are not given as numbers."""
+    """Definition of a colour range that is not given by numbers."""
 
     FULL = "full"
-    """Those that the metric can take."""
+    """All values that the metric can have."""
     FITTED = "fitted"
-    """The least and the greatest of the mesh."""
+    """From the smallest to the largest value of the mesh."""
     ACCEPTABLE = "acceptable"
-    """Those that solvers are usually content with."""
+    """Values that are usually acceptable for solvers."""
 
 
 @dataclass(frozen=True)
 class Colours(ConfigTable):
-    """Meaning of the colours of the hexes.
+    """Colours of the hexes.
 
     Parameters
     ----------
     metric : str
-        A quality metric, as `hexmend info --metrics` names them, or a movement.
+        Quality metric, as listed by `hexmend info --metrics`, or movement.
     map : str
         viridis, cividis, plasma or inferno.
     range : Range or tuple of 2 floats
         full, fitted or acceptable, or the values at both ends.
     reverse : bool
-        Run through the map from its other end.
+        Reverse the map.
     neutral : bool
-        White outside and one colour inside, instead of values.
+        White boundary and one colour for exposed faces, instead of values.
     """
 
     metric: str = option("q")
@@ -141,7 +141,7 @@ class Colours(ConfigTable):
     neutral: bool = option(False)
 
     def check(self) -> None:
-        """A metric and a map that there are, and the lower value first."""
+        """Raise `ParameterError` for an unknown metric or map, or an invalid range."""
         known_metric(self.metric, {**METRICS, **DISPLACEMENT_QUANTITIES})
         if self.map not in COLOUR_MAPS:
             raise ParameterError(f"map = {self.map!r} is unknown: expected one of {', '.join(COLOUR_MAPS)}")
@@ -149,22 +149,21 @@ class Colours(ConfigTable):
             raise ParameterError(f"range = {list(self.range)} is no range: expected the lower number first")
 
     @classmethod
-    def as_in(cls, look: Look) -> Colours:
-        """The colours of a look."""
+    def from_look(cls, look: Look) -> Colours:
+        """Return the table of a look."""
         scale = look.scale
         ends = scale.pinned if scale.mode is RangeMode.PINNED else Range(scale.mode.value)
         return cls(scale.metric, scale.map, ends, scale.reverse, look.neutral)
 
     @property
     def scale(self) -> ColourScale:
-        """The same, as a look has it."""
-        pinned = isinstance(self.range, tuple)
-        ends = (RangeMode.PINNED, self.range) if pinned else (RangeMode(self.range.value),)
-        named = dict(zip(("mode", "pinned"), ends, strict=False))
-        return ColourScale(self.metric, self.map, **named, reverse=self.reverse)
+        """The scale of a look with these colours."""
+        if isinstance(self.range, tuple):
+            return ColourScale(self.metric, self.map, RangeMode.PINNED, self.range, self.reverse)
+        return ColourScale(self.metric, self.map, RangeMode(self.range.value), reverse=self.reverse)
 
 
 def known_metric(name: str, known: object) -> None:
-    """Raise `ParameterError` for a metric that there is not."""
+    """Raise `ParameterError` if a metric is unknown."""
     if name not in known:
         raise ParameterError(f"metric = {name!r} is unknown: expected one of {', '.join(known)}")

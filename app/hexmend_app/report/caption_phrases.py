@@ -30,7 +30,7 @@ def opposite(camera: Camera) -> Camera:
     >>> opposite(Camera(from_="+x")).from_
     (-1.0, -0.0, -0.0)
     """
-    if camera.stand is None:
+    if camera.pose is None:
         return replace(camera, from_=tuple(-part for part in direction_of(camera.direction, camera.up)))
     position = tuple(2 * focal - place for focal, place in zip(camera.focal, camera.position, strict=True))
     return replace(camera, position=position)
@@ -42,7 +42,7 @@ def seen_from(camera: Camera) -> str:
     >>> seen_from(Camera()), seen_from(Camera(from_="-y")), seen_from(Camera(from_=(1.0, 0.5, 0.0)))
     ('seen from a corner', 'seen from -y', 'seen from direction (1, 0.5, 0)')
     """
-    if camera.stand is not None:
+    if camera.pose is not None:
         return "seen as in the scene"
     if camera.direction == "iso":
         return "seen from a corner"

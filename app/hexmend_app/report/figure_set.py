@@ -118,7 +118,7 @@ def _paged(style: Style, scene: Scene, panels: Sequence[PicturePanel]) -> Scene:
     columns = count if count <= _IN_A_ROW else ceil(sqrt(count))
     caption, bar = _AROUND
     width, height = scene.page.size
-    aspect = _PANEL if scene.camera.stand is None else height / width
+    aspect = _PANEL if scene.camera.pose is None else height / width
     page_height = -(-count // columns) * (style.width / columns * aspect + caption) + bar
     page = replace(scene.page, width=style.width, height=page_height, pixels=None, columns=columns)
     bar_style = replace(scene.bar, place=TextPlace.BELOW) if scene.bar.place is TextPlace.RIGHT else scene.bar

@@ -1,4 +1,4 @@
-"""The viewer's dress: palette, fonts and icons in one place, so that all widgets look like one program."""
+"""Style of the program: palette, fonts and icons of all widgets."""
 
 from __future__ import annotations
 
@@ -34,139 +34,139 @@ from hexmend_app.theme.palette import (
     Role,
 )
 
-_ROLES = QPalette.ColorRole
+_ROLE = QPalette.ColorRole
 _PALETTE = (
-    (_ROLES.Window, PANEL),
-    (_ROLES.WindowText, TEXT),
-    (_ROLES.Base, FIELD),
-    (_ROLES.AlternateBase, STRIPE),
-    (_ROLES.Text, TEXT),
-    (_ROLES.Button, BUTTON),
-    (_ROLES.ButtonText, TEXT),
-    (_ROLES.BrightText, ON_ACCENT),
-    (_ROLES.Light, GLEAM),
-    (_ROLES.Midlight, SHEEN),
-    (_ROLES.Dark, SHADOW),
-    (_ROLES.ToolTipBase, FIELD),
-    (_ROLES.ToolTipText, TEXT),
-    (_ROLES.PlaceholderText, MUTED),
-    (_ROLES.Highlight, ACCENT),
-    (_ROLES.HighlightedText, ON_ACCENT),
-    (_ROLES.Accent, BLUE),
-    (_ROLES.Link, BLUE),
-    (_ROLES.LinkVisited, BLUE),
+    (_ROLE.Window, PANEL),
+    (_ROLE.WindowText, TEXT),
+    (_ROLE.Base, FIELD),
+    (_ROLE.AlternateBase, STRIPE),
+    (_ROLE.Text, TEXT),
+    (_ROLE.Button, BUTTON),
+    (_ROLE.ButtonText, TEXT),
+    (_ROLE.BrightText, ON_ACCENT),
+    (_ROLE.Light, GLEAM),
+    (_ROLE.Midlight, SHEEN),
+    (_ROLE.Dark, SHADOW),
+    (_ROLE.ToolTipBase, FIELD),
+    (_ROLE.ToolTipText, TEXT),
+    (_ROLE.PlaceholderText, MUTED),
+    (_ROLE.Highlight, ACCENT),
+    (_ROLE.HighlightedText, ON_ACCENT),
+    (_ROLE.Accent, BLUE),
+    (_ROLE.Link, BLUE),
+    (_ROLE.LinkVisited, BLUE),
 )
 
-#: Controls in whose palette the window's colour is nothing but that of their frames.
+#: Controls that use the window colour of their palette for frames only.
 _FRAMED = ("QCheckBox", "QPushButton", "QComboBox", "QAbstractSpinBox", "QLineEdit", "QSlider", "QMenu")
 
 
-class _Mirror(QObject):
-    """Tells what is dressed that the theme is another."""
+class _ThemeNotifier(QObject):
+    """Emits `changed` when the theme changes."""
 
     changed = Signal()
 
 
-_MIRROR = _Mirror()
+_NOTIFIER = _ThemeNotifier()
 
 
 def apply_style(app: QApplication, dark: bool) -> None:
-    """Give the program the Fusion look in the light theme or the dark one, and have all widgets change with it."""
+    """Set the Fusion style with the light or the dark theme, and update all widgets."""
     if app.property("dark") is dark:
         return
-    if app.property("dark") is None:  # once: it has every widget polished anew, which takes longer than all colours
+    if app.property("dark") is None:  # only once, as it polishes all widgets, which is slow
         app.setStyle("Fusion")
     app.setProperty("dark", dark)
     palette = QPalette(QColor(BUTTON.of(dark)), QColor(PANEL.of(dark)))
     for role, colour in _PALETTE:
         palette.setColor(role, QColor(colour.of(dark)))
-    for role in (_ROLES.WindowText, _ROLES.Text, _ROLES.ButtonText):
+    for role in (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText):
         palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(FAINT.of(dark)))
     app.setPalette(palette)
     QToolTip.setPalette(palette)
-    palette.setColor(_ROLES.Window, QColor(FRAME.of(dark)))
+    palette.setColor(_ROLE.Window, QColor(FRAME.of(dark)))
     for control in _FRAMED:
         app.setPalette(palette, control)
     THEME.dark = dark
-    _MIRROR.changed.emit()
+    _NOTIFIER.changed.emit()
 
 
-class _Dress(QObject):
-    """Part of a widget: what puts it into the theme's colours."""
+class _ThemeListener(QObject):
+    """Child of a widget that calls a function when the theme changes, until the widget is deleted."""
 
-    def __init__(self, widget: QWidget, put_on: Callable[[], object]):
+    def __init__(self, widget: QWidget, apply_colours: Callable[[], object]):
         super().__init__(widget)
-        self._put_on = put_on
-        _MIRROR.changed.connect(self.put_on)
-        self.put_on()
+        self._apply_colours = apply_colours
+        _NOTIFIER.changed.connect(self.update_colours)
+        self.update_colours()
 
-    def put_on(self) -> None:
-        """Take the colours of the theme that is worn."""
-        self._put_on()
+    def update_colours(self) -> None:
+        """Apply the colours of the current theme."""
+        self._apply_colours()
 
 
-def on_theme_change(widget: QWidget, put_on: Callable[[], object]) -> None:
-    """Call what gives `widget` its colours, now and whenever the theme changes, as long as the widget lives."""
-    _Dress(widget, put_on)
+def on_theme_change(widget: QWidget, apply_colours: Callable[[], object]) -> None:
+    """Call a function that sets the colours of `widget` now, and on theme changes while the widget exists."""
+    _ThemeListener(widget, apply_colours)
 
 
 def tabular(font: QFont) -> QFont:
-    """A copy of `font` whose digits are all of one width, so that columns line up and changing numbers hold still."""
+    """Return a copy of `font` with tabular digits, so that columns are aligned and changing numbers do not move."""
     font = QFont(font)
     font.setFeature(QFont.Tag("tnum"), 1)
     return font
 
 
 def smaller(font: QFont) -> QFont:
-    """A copy of `font` for what explains rather than says."""
+    """Return a smaller copy of `font`, for explanations."""
     font = QFont(font)
     font.setPointSizeF(max(font.pointSizeF() * 0.88, 7.0))
     return font
 
 
 class _IconEngine(QIconEngine):
-    """Paints a glyph in the colour that its role has at that moment."""
+    """Paints a glyph in the current colour of a role."""
 
     def __init__(self, name: str, role: Role):
         super().__init__()
         self._name, self._role = name, role
 
     def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
-        """Paint the glyph, as large as the rectangle."""
-        import qtawesome  # its fonts are not there before something is painted with them
+        """Paint the glyph in the size of the rectangle."""
+        import qtawesome  # imported late, as it loads fonts
 
         glyph = qtawesome.icon(self._name, color=str(self._role), color_disabled=str(FAINT))
         glyph.paint(painter, rect, Qt.AlignmentFlag.AlignCenter, mode, state)
 
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
-        """The glyph on nothing; `size` is in pixels of the screen."""
-        drawn = QPixmap(size)
-        drawn.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(drawn)
+        """Return the glyph on a transparent background; `size` is in device pixels."""
+        pixmap = QPixmap(size)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(pixmap)
         self.paint(painter, QRect(QPoint(0, 0), size), mode, state)
         painter.end()
-        return drawn
+        return pixmap
 
     def clone(self) -> QIconEngine:
-        """Another of the same."""
+        """Return a copy."""
         return _IconEngine(self._name, self._role)
 
 
 def icon(name: str, role: Role = TEXT) -> QIcon:
-    """A Material Design icon by name, sharp at every scale and right in either theme."""
+    """Return a Material Design icon by name, which is sharp at all scales and follows the theme."""
     return QIcon(_IconEngine(f"mdi6.{name}", role))
 
 
 def set_help(widget: QWidget, name: str, help: str) -> None:
-    """Give `widget` its accessible name, and one sentence of help as tooltip and for Shift+F1.
+    """Set the accessible name of `widget`, and its help, which is its tooltip and its text for Shift+F1.
 
-    What it has already is left alone: Qt tells everybody of a text that is set, even of the same.
+    Unchanged texts are not set again, because Qt would notify assistive software each time.
     """
     if widget.accessibleName() != name:
         widget.setAccessibleName(name)
     if widget.accessibleDescription() != help:
         widget.setAccessibleDescription(help)
-    # The tag makes Qt wrap long plain tooltips.
+    # Qt wraps long tooltips only if they are rich text.
     tip = f"<qt>{help}</qt>" if help else ""
     if widget.toolTip() != tip:
         widget.setToolTip(tip)
@@ -175,7 +175,7 @@ def set_help(widget: QWidget, name: str, help: str) -> None:
 
 
 def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) -> QLabel:
-    """A small wrapped label that can be selected with the mouse."""
+    """Return a small label that wraps and whose text can be selected."""
     label = QLabel(text, parent)
     label.setFont(smaller(label.font()))
     label.setWordWrap(True)
@@ -189,10 +189,10 @@ def note(text: str = "", colour: Role = MUTED, parent: QWidget | None = None) ->
 
 
 def tint(widget: QWidget, colour: Role) -> None:
-    """Colour the text of `widget`, until it is tinted again."""
-    dressed = widget.property("tint") is not None
+    """Set the text colour of `widget`."""
+    listening = widget.property("tint") is not None
     widget.setProperty("tint", colour)
-    if dressed:
+    if listening:
         _tint(widget)
     else:
         on_theme_change(widget, lambda: _tint(widget))
@@ -200,7 +200,7 @@ def tint(widget: QWidget, colour: Role) -> None:
 
 def _tint(widget: QWidget) -> None:
     palette = QPalette()
-    palette.setColor(_ROLES.WindowText, QColor(str(widget.property("tint"))))
+    palette.setColor(_ROLE.WindowText, QColor(str(widget.property("tint"))))
     widget.setPalette(palette)
 
 

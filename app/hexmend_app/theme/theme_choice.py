@@ -1,4 +1,4 @@
-"""Choice of the theme: the user's, kept in the settings, or the desktop's."""
+"""Choice of the theme: light, dark, or that of the desktop."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend_app.theme.style import apply_style
 
 
 class ThemeChoice(Enum):
-    """Theme that the user wants."""
+    """Theme selected by the user."""
 
     LIGHT = "light"
     DARK = "dark"
@@ -27,19 +27,19 @@ _SCHEMES = {
 
 
 def chosen() -> ThemeChoice:
-    """Return the user's choice; by default that of the desktop."""
-    kept = THEME.get()
-    return ThemeChoice(kept) if kept in [choice.value for choice in ThemeChoice] else ThemeChoice.DESKTOP
+    """Return the stored choice; by default DESKTOP."""
+    stored = THEME.get()
+    return ThemeChoice(stored) if stored in [choice.value for choice in ThemeChoice] else ThemeChoice.DESKTOP
 
 
 def choose(choice: ThemeChoice) -> None:
-    """Wear another theme, at once and at the next start."""
+    """Store a choice and apply it."""
     THEME.set(choice.value)
     apply_theme()
 
 
 def apply_theme() -> None:
-    """Dress the program as was chosen; the frames of its windows, which are the desktop's, follow where they can."""
+    """Apply the stored choice; window frames, which the desktop draws, follow if the platform supports it."""
     app, choice = QApplication.instance(), chosen()
     app.styleHints().setColorScheme(_SCHEMES[choice])
     scheme = app.styleHints().colorScheme() if choice is ThemeChoice.DESKTOP else _SCHEMES[choice]

@@ -43,9 +43,9 @@ def test_what_it_adds_is_on_the_screen_and_in_pictures(canvas):
     assert isinstance(canvas.plotter, pv.Plotter)
     assert canvas.plotter is canvas.plotter
     assert _magenta(_saved(canvas)) == 0
-    pose = canvas.stand
+    pose = canvas.pose
     actor = _add(canvas)
-    assert canvas.stand == pose  # adding a mesh moves no camera
+    assert canvas.pose == pose  # adding a mesh moves no camera
     assert _magenta(canvas.plotter.screenshot()) > 1000
     assert _magenta(_saved(canvas)) > 1000
     canvas.plotter.remove_actor(actor)

@@ -167,7 +167,7 @@ def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
     write_scene(tmp_path / "scene.toml", Scene(colours=Colours("moved-most", range=Range.FITTED)))
     render("--size", "200x120", meshes=2)
     assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2
-    assert "name the mesh before that, and then the mesh" in capsys.readouterr().err
+    assert "name the mesh before the movement first, then the mesh" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -64,14 +64,14 @@ def test_the_mesh_is_found_where_it_was_or_beside_the_picture(picture, tmp_path)
 
 @pytest.mark.parametrize("file", ["/etc/passwd", "\\\\host\\share\\a.vtu", "c:/mesh.vtu", "http://host/a"])
 def test_a_path_leads_from_the_picture_alone(file):
-    with pytest.raises(ParameterError, match="no path from the picture"):
+    with pytest.raises(ParameterError, match="no path relative to the picture"):
         PicturedMesh(file, "0" * 64, "0" * 64)
 
 
 def test_a_picture_without_a_scene_is_said(tmp_path):
     Image.new("RGB", (4, 4)).save(tmp_path / "p.png")
     assert is_png(tmp_path / "p.png")
-    with pytest.raises(FileError, match=r"p\.png: this picture carries no scene\. Open the mesh that it shows\."):
+    with pytest.raises(FileError, match=r"p\.png: this picture contains no scene\. Open the mesh that it shows\."):
         read_metadata(tmp_path / "p.png")
     assert not is_png(tmp_path / "none.png")
 
@@ -80,7 +80,7 @@ def test_compressed_texts_of_any_size_are_passed_over(tmp_path):
     carried = {"hexmend scene": "# " + "a" * 40_000_000, "hexmend meshes": "x = 1"}
     path = written(tmp_path / "bomb.png", carried, compressed=True)
     assert path.stat().st_size < 200_000
-    with pytest.raises(FileError, match="carries no scene"):
+    with pytest.raises(FileError, match="contains no scene"):
         read_metadata(path)
 
 
@@ -110,7 +110,7 @@ def test_texts_that_are_too_large_or_damaged_are_said(picture, tmp_path):
         ("hexmend scene", "[bar]\ntick = 1", r"\[bar\] has an unknown key 'tick'"),
         ("hexmend scene", "[[panels]]\nmesh = 2", "panel 1 shows mesh 2, and there are 1"),
         ("hexmend meshes", "version = 1", "version = 1 is no text"),
-        ("hexmend meshes", "", "there is no mesh"),
+        ("hexmend meshes", "", "no mesh is listed"),
         ("hexmend meshes", "meshes = [{ file = 'a', opened = 'b', shown = 'c' }]", "is no digest"),
         ("hexmend recipe", "format = 1\n[[stage]]\nmethod = 'rm'", "there is no method 'rm'"),
     ],

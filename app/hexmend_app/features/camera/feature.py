@@ -191,7 +191,7 @@ class FeatureCamera(Feature):
 
     def copy(self) -> None:
         """Copy the camera to the clipboard in the format of `hexmend render --camera`."""
-        QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.stand)))
+        QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.pose)))
         self.host.messages.show_info("Camera copied. Paste it in another window or after hexmend render --camera.")
 
     def paste(self) -> None:
@@ -211,7 +211,7 @@ class FeatureCamera(Feature):
 
     def keep(self, name: str) -> None:
         """Save the camera under a name, or show an error."""
-        camera = Camera.at(self.canvas.stand)
+        camera = Camera.at(self.canvas.pose)
         success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
         self.host.try_and_report("Camera not saved", lambda: self._cameras.keep(name, camera), success)
 
@@ -233,8 +233,8 @@ class FeatureCamera(Feature):
         return dialog
 
     def _apply(self, camera: Camera, history: PoseHistoryData | None = None) -> None:
-        if camera.stand is not None:
-            self.canvas.stand_at(camera.stand, history)
+        if camera.pose is not None:
+            self.canvas.set_pose(camera.pose, history)
         else:
             self.canvas.set_up(camera.up)
             self.canvas.set_parallel(camera.parallel)
@@ -249,9 +249,9 @@ class FeatureCamera(Feature):
     def _to_data(self) -> CameraData:
         """Return the pose and its history: those of the view, or those that it is to take."""
         request = self.session.camera_request
-        if request.wanted is not None and request.wanted.stand is not None:
-            return CameraData(request.wanted.stand, request.journey)
-        return CameraData(self.canvas.stand, self.canvas.journey) if self._draws else CameraData()
+        if request.wanted is not None and request.wanted.pose is not None:
+            return CameraData(request.wanted.pose, request.journey)
+        return CameraData(self.canvas.pose, self.canvas.journey) if self._draws else CameraData()
 
     def _restore(self, data: CameraData) -> None:
         camera = None if data.pose is None else Camera.at(data.pose)

@@ -108,7 +108,7 @@ def preview_scene(scene: Scene, width: float, height: float) -> Scene:
     dpi = page.resolution * scale
     size = tuple(max(16, round(side * scale)) for side in page.size)
     edges = scene.lines.edges
-    pen = edges if edges == 0 else page.pen(scene.lines) / page.resolution * PT_PER_INCH
+    pen = edges if edges == 0 else page.line_width(scene.lines) / page.resolution * PT_PER_INCH
     fast = {"shading": False, "supersampling": 1, "font_size": page.letters}
     small = replace(page, width=None, height=None, pixels=size, dpi=max(dpi, 5.0), **fast)
     return replace(scene, page=small, lines=replace(scene.lines, edges=pen))

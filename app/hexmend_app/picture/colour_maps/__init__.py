@@ -1,1 +1,1 @@
-"""Colour maps; every module here is imported, and registers what it defines in `COLOUR_MAPS`."""
+"""Colour maps; all modules are imported, and register their maps in `COLOUR_MAPS`."""

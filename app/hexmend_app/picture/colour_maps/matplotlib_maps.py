@@ -1,4 +1,4 @@
-"""Matplotlib's maps, stored with the program: they are needed before matplotlib is loaded, or without it."""
+"""Colour maps of matplotlib, stored in a file so that matplotlib need not be imported."""
 
 from functools import partial
 
@@ -15,7 +15,7 @@ def _stored(name: str) -> np.ndarray:
 
 for _name, _title, _help in (
     ("viridis", "", "From violet over green to yellow."),
-    ("cividis", "", "From blue to yellow; looks nearly the same to all kinds of colour vision."),
+    ("cividis", "", "From blue to yellow; looks nearly the same with all kinds of colour vision."),
     ("plasma", "", "From blue over red to yellow."),
     ("inferno", "", "From black over red to pale yellow."),
     (CHANGE_MAP, "brown – teal", "For changes: from brown for worse over white for none to teal for better."),

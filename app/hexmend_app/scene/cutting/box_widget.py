@@ -11,7 +11,7 @@ from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 from hexmend_app.picture.cut_planes import BoxClip
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import PLANE_EDGE, PLANE_HELD, rgb
+from hexmend_app.theme.palette import PLANE_EDGE, PLANE_ACTIVE, rgb
 
 
 class BoxWidget(Handles):
@@ -45,7 +45,7 @@ class BoxWidget(Handles):
         """Use the colours of the dark or of the light theme."""
         self._shape.GetOutlineProperty().SetColor(rgb(PLANE_EDGE.of(dark)))
         for part in ("SelectedFace", "SelectedOutline", "Handle"):
-            getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_HELD.of(dark)))
+            getattr(self._shape, f"Get{part}Property")().SetColor(rgb(PLANE_ACTIVE.of(dark)))
 
     def set_bounds(self, bounds: tuple[float, float, float, float, float, float]) -> None:
         """Set the bounds of the mesh, which limit the box."""

@@ -9,7 +9,7 @@ from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtk
 from hexmend_app.picture.cut_planes import ClipPlane
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import PLANE, PLANE_EDGE, PLANE_HELD, rgb
+from hexmend_app.theme.palette import PLANE, PLANE_EDGE, PLANE_ACTIVE, rgb
 
 
 class PlaneWidget(Handles):
@@ -44,7 +44,7 @@ class PlaneWidget(Handles):
 
     def set_dark(self, dark: bool) -> None:
         """Use the colours of the dark or of the light theme."""
-        edge, plane, selected = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_HELD))
+        edge, plane, selected = (rgb(role.of(dark)) for role in (PLANE_EDGE, PLANE, PLANE_ACTIVE))
         self._shape.SetEdgeColor(edge)
         self._shape.GetPlaneProperty().SetColor(plane)
         self._shape.GetSelectedPlaneProperty().SetColor(selected)

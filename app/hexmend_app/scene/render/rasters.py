@@ -77,7 +77,7 @@ def rasters(
     scene = layout.scene
     look = scene.look(layout.meshes[0].mesh)
     supersampling = scene.page.supersampling
-    pixel_ratio = scene.page.pen(scene.lines) * supersampling
+    pixel_ratio = scene.page.line_width(scene.lines) * supersampling
     tiles = Tiles.of(layout.panel, supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
         views = _Views(stage, layout, look, pixel_ratio, filters)
@@ -205,7 +205,7 @@ def aim(camera: vtkCamera, described: Camera, places: np.ndarray, aspect: float)
     aspect : float
         Width of the picture by its height.
     """
-    pose = described.stand
+    pose = described.pose
     if pose is not None:
         apply_pose(camera, pose)
         return

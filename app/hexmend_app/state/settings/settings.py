@@ -93,7 +93,7 @@ def _paths(value: Any) -> tuple[Path, ...]:
 #: The window's place and size, and how its panels stand.
 GEOMETRY = Setting("geometry", QByteArray(), _bytes)
 PANELS: Setting[dict[str, Any]] = Setting("panels", {}, _map)
-#: One of `hexmend_app.theme.theme_choice.Choice`.
+#: One of `hexmend_app.theme.theme_choice.ThemeChoice`.
 THEME = Setting("theme", "desktop", str)
 #: Files that were opened, the newest first.
 RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), _paths, lambda paths: json.dumps([str(one) for one in paths]))

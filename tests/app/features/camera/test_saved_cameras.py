@@ -23,10 +23,10 @@ def saved(window):
     for name, direction in (("front & side", "-y"), ("top", "+z")):
         window.canvas.look_along(direction)
         window.features["camera"].keep(name)
-        stands[name] = window.canvas.stand
+        poses[name] = window.canvas.pose
     window.canvas.look_along("iso")
     window.refresh()
-    return stands
+    return poses
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
     cameras, proposed = window.session.saved_cameras, []
     monkeypatch.setattr(QInputDialog, "getText", lambda *arguments: proposed.append(arguments[4]) or (" front ", True))
     window.action("keep_camera").trigger()
-    first = Camera.at(window.canvas.stand)
+    first = Camera.at(window.canvas.pose)
     assert cameras.all == {"front": first}
     window.canvas.look_along("+x")
     for answer in (QMessageBox.StandardButton.No, QMessageBox.StandardButton.Yes):
@@ -62,7 +62,7 @@ def test_a_camera_is_saved_under_a_name_and_replaced_after_a_question(window, mo
         before = cameras.all
         window.action("keep_camera").trigger()
         assert (cameras.all == before) == (answer == QMessageBox.StandardButton.No)
-    assert cameras.all == {"front": Camera.at(window.canvas.stand)}
+    assert cameras.all == {"front": Camera.at(window.canvas.pose)}
     assert proposed[0] == "camera 1"
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("never", False))
     window.action("keep_camera").trigger()
@@ -78,9 +78,9 @@ def test_the_menu_applies_a_camera(window, saved):
     menu.aboutToShow.emit()
     first, second = menu.actions()
     second.trigger()
-    assert window.canvas.stand == saved["top"]
+    assert window.canvas.pose == saved["top"]
     first.trigger()
-    assert window.canvas.stand == saved["front & side"]
+    assert window.canvas.pose == saved["front & side"]
 
 
 def test_the_menu_is_disabled_without_cameras(window):
@@ -93,7 +93,7 @@ def test_the_dialog_applies_and_deletes_cameras(window, saved, dialog, qtbot):
     assert names(dialog) == list(saved)
     dialog.list.setCurrentRow(1)
     button(dialog, "&Go to").click()
-    assert window.canvas.stand == saved["top"]
+    assert window.canvas.pose == saved["top"]
     button(dialog, "&Delete").click()
     qtbot.waitUntil(lambda: names(dialog) == ["front & side"], timeout=PATIENCE)
     button(dialog, "&Delete").click()
@@ -128,7 +128,7 @@ def test_scenes_and_pictures_contain_the_cameras(window, saved, tmp_path, qtbot,
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
     dialog.camera.setCurrentText("top")
-    assert dialog.scene().camera.stand == saved["top"]
+    assert dialog.scene().camera.pose == saved["top"]
     write_scene(tmp_path / "more.toml", Scene(cameras={"top": Camera("-x"), "left": Camera("-y")}))
     dialog.load(str(tmp_path / "more.toml"))
     assert list(dialog.scene().cameras) == [*saved, "top (2)", "left"]
@@ -149,7 +149,7 @@ def test_render_uses_a_camera_of_a_session(window, saved, tmp_path, capsys):
     scene = tmp_path / "scene.toml"
     arguments = ["render", str(path), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--save-scene", str(scene)]
     assert main([*arguments, "--camera", "front & side"]) == 0
-    assert read_scene(scene).camera.stand == saved["front & side"]
+    assert read_scene(scene).camera.pose == saved["front & side"]
     with Image.open(tmp_path / "p.png") as image:
         assert image.size == (200, 150)
     assert main([*arguments, "--camera", "camera 9"]) == 2

@@ -52,7 +52,7 @@ def test_the_command_line_draws_the_same_hexes_as_the_window(window, moved, tmp_
     seen = np.asarray(Image.open(tmp_path / "p.png")).astype(int)
     drawn = rendered(tmp_path, scene, tmp_path / "mesh.vtu")
     assert np.abs(drawn - seen).mean() < 0.2
-    anew = rendered(tmp_path, replace(scene, cut=Cut.as_in(CLIP)), tmp_path / "mesh.vtu")
+    anew = rendered(tmp_path, replace(scene, cut=Cut.from_clip(CLIP)), tmp_path / "mesh.vtu")
     assert np.abs(anew - seen).mean() > 1
 
 
@@ -75,7 +75,7 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
 
 def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
     scene = window.canvas.scene(Page(pixels=(100, 80)))
-    window.canvas.sheet(replace(scene, cut=Cut.as_in(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
+    window.canvas.sheet(replace(scene, cut=Cut.from_clip(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
     window.session.view.change(shrink=0.1)
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)

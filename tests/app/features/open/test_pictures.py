@@ -35,7 +35,7 @@ def change_appearance(window, qtbot):
     window.refresh()
     qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == session.view.look, timeout=PATIENCE)
     window.canvas.roll(15)
-    return session.view.look, window.canvas.stand
+    return session.view.look, window.canvas.pose
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_a_picture_restores_mesh_appearance_and_camera(window, qtbot, mesh, tmp_
     window.refresh()
     assert window.session.document.path == mesh
     assert window.session.view.look == look
-    assert window.canvas.stand == pose
+    assert window.canvas.pose == pose
     assert "mesh.vtu is shown with the camera and appearance of p.png." in messages(window)[-1]
     assert window.features["save"].picture(tmp_path / "again.png", (300, 200))
     first, second = (np.asarray(Image.open(tmp_path / name)) for name in ("p.png", "again.png"))
@@ -80,7 +80,7 @@ def test_a_picture_of_the_command_line_is_opened(window, qtbot, mesh, tmp_path):
     assert main(["render", str(mesh), "-o", str(tmp_path / "p.png"), "--size", "200x150", "--view", "-y"]) == 0
     open_and_wait(qtbot, window, tmp_path / "p.png")
     window.refresh()
-    pose = window.canvas.stand
+    pose = window.canvas.pose
     assert pose.position[1] < pose.focal[1]
 
 
@@ -116,7 +116,7 @@ def test_a_picture_without_a_scene_is_rejected(window, qtbot, tmp_path):
     before = window.session.document.now
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
-    assert "p.png cannot be opened this picture carries no scene" in messages(window)[-1]
+    assert "p.png cannot be opened this picture contains no scene" in messages(window)[-1]
     assert window.session.document.now is before
 
 

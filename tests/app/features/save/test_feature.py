@@ -102,7 +102,7 @@ def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch)
     again = save.picture_dialog()
     qtbot.addWidget(again)
     assert (again.scene().page.width, again.scene().page.height) == (85, 60)
-    assert again.scene().camera.stand == window.canvas.stand
+    assert again.scene().camera.pose == window.canvas.pose
 
 
 def test_edges_that_are_off_in_the_view_are_off_in_the_picture(window):

@@ -28,7 +28,7 @@ _NOT_KEPT = (
     "session.run.phase", "action panel", "action drawer",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
-_UNSEEN = ("Explain", "View at the left", "View at the right")
+_UNSEEN = ("Explain", "Left view", "Right view")
 
 
 @pytest.fixture
@@ -94,39 +94,39 @@ def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window,
 
 
 def test_the_ways_back_and_forward_are_gone_again(window, qtbot, tmp_path):
-    stands = []
+    poses = []
     for direction in ("+x", "-y", "+z"):
         window.canvas.look_along(direction)
         at_rest(window, qtbot)
-        stands.append(window.canvas.stand)
+        poses.append(window.canvas.pose)
     key(window, Qt.Key.Key_Left, Qt.KeyboardModifier.AltModifier)
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
     window.canvas.look_along("iso")
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
-    assert window.canvas.stand == stands[1]
-    for action, stand in (("view_forward", stands[2]), ("view_back", stands[1]), ("view_back", stands[0])):
+    assert window.canvas.pose == poses[1]
+    for action, pose in (("view_forward", poses[2]), ("view_back", poses[1]), ("view_back", poses[0])):
         assert window.action(action).isEnabled()
         window.action(action).trigger()
         at_rest(window, qtbot)
-        assert window.canvas.stand.position == pytest.approx(stand.position)
+        assert window.canvas.pose.position == pytest.approx(pose.position)
     window.action("view_forward").trigger()
     assert window.action("view_forward").isEnabled()
 
 
 def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qtbot, tmp_path):
     at_rest(window, qtbot)
-    before = window.canvas.stand
+    before = window.canvas.pose
     key(window, Qt.Key.Key_N)  # isolates the worst, and flies there
     at_rest(window, qtbot)
     path = saved(window, tmp_path)
     open_and_wait(qtbot, window, path)
     at_rest(window, qtbot)
-    assert window.canvas.stand.position != pytest.approx(before.position)
+    assert window.canvas.pose.position != pytest.approx(before.position)
     key(window, Qt.Key.Key_Escape)
     at_rest(window, qtbot)
-    assert window.canvas.stand.position == pytest.approx(before.position)
+    assert window.canvas.pose.position == pytest.approx(before.position)
 
 
 def test_the_patch_of_a_node_stays_isolated_and_follows_the_node(window, qtbot, tmp_path):

@@ -58,7 +58,7 @@ def work(window, qtbot):
     )
     session.view.counted = "volume"
     session.saved_cameras.keep("from below", Camera("-z"))
-    session.saved_cameras.keep("as it is", Camera.at(window.canvas.stand))
+    session.saved_cameras.keep("as it is", Camera.at(window.canvas.pose))
     session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
     window.refresh()
     window.canvas.look_along("-x")
@@ -237,12 +237,12 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
     work(window, qtbot)
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     before = tables(window)
-    stand = window.canvas.stand
+    pose = window.canvas.pose
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
         Starting(bare_window, tmp_path / "work.hexmend")
     bare_window.refresh()
     assert tables(bare_window) == before
-    assert bare_window.canvas.stand == stand
+    assert bare_window.canvas.pose == pose
 
 
 def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):

@@ -45,7 +45,7 @@ def test_a_picture_in_tiles_is_the_one_drawn_at_once(tables, background, supersa
     assert np.ptp(whole[..., :3]) > 100
     off = np.abs(parts - whole).max(axis=2)
     assert off.mean() < 0.05  # an edge that stands upright is rounded to one pixel or the next
-    tiles = Tiles.of(whole.shape[1::-1], supersampling, supersampling * scene.page.pen(scene.lines), FEW)
+    tiles = Tiles.of(whole.shape[1::-1], supersampling, supersampling * scene.page.line_width(scene.lines), FEW)
     seams = [off[:, tile.left - 2 : tile.left + 2] for tile in tiles if tile.left]
     seams += [off[tile.top - 2 : tile.top + 2] for tile in tiles if tile.top]
     assert len(seams) > 1

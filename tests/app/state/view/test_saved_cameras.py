@@ -130,9 +130,7 @@ def test_a_file_names_its_cameras_and_says_what_is_wrong_with_them(session, tmp_
     _, data = read_archive(path, "Hexmend session", VERSION)
     data["window"]["cameras"]["named"]["front"]["from"] = "beneath"
     write_archive(path, "Hexmend session", VERSION, data)
-    with pytest.raises(
-        FileError, match=r"work\.hexmend: does not hold together: .*front.* from = 'beneath' is unknown"
-    ):
+    with pytest.raises(FileError, match=r"work\.hexmend: has invalid cameras: .*front.* from = 'beneath' is unknown"):
         cameras_of(path)
     del data["window"]["cameras"]
     write_archive(path, "Hexmend session", 2, data)
