@@ -19,7 +19,7 @@ from tests.patience import PATIENCE
 @pytest.fixture
 def saved(window):
     """Save two cameras; return their poses by name."""
-    stands = {}
+    poses = {}
     for name, direction in (("front & side", "-y"), ("top", "+z")):
         window.canvas.look_along(direction)
         window.features["camera"].keep(name)
