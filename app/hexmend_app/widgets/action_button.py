@@ -41,5 +41,6 @@ class ActionButton(QToolButton):
         action = self.defaultAction()
         self.setAccessibleName(action.property("name") or action.iconText())
         self.setAccessibleDescription(action.statusTip())
+        self.setStatusTip("")  # it has a tooltip, and the row of panels is in the status bar
         if self._icon_name or self._role is not TEXT:
             self.setIcon(icon(self._icon_name or action.property("icon_name"), self._role))
