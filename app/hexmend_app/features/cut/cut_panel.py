@@ -79,7 +79,7 @@ class CutPanel(QWidget):
             ],
         )
         self._hide_box = Segmented(
-            "Hide side of the box",
+            "Hidden side of the box",
             [
                 ("any", "Outside", "Hide everything outside the box."),
                 ("all", "Inside", "Hide everything inside the box."),
@@ -88,7 +88,7 @@ class CutPanel(QWidget):
         self._cut_mode = Segmented(
             "Cut",
             [
-                ("crinkle", "Whole hexes", "Show a whole hex if its centre is on the visible side."),
+                ("crinkle", "Whole hexes", "Show whole hexes whose centre is on the visible side."),
                 ("smooth", "Smooth cut", "Cut through hexes and cap the cut surface."),
             ],
         )
@@ -129,22 +129,22 @@ class CutPanel(QWidget):
 
     # Called by the feature
 
-    def set_bounds(self, bounds: tuple[float, float, float, float, float, float] | None) -> None:
+    def set_bounds(self, bounds: np.ndarray | None) -> None:
         """Set the bounds of the mesh; emits no signal.
 
         If the cut is off, the proposed plane and box are centred in the mesh.
 
         Parameters
         ----------
-        bounds : tuple of 6 floats, optional
-            (x low, x high, y low, y high, z low, z high); None without a mesh.
+        bounds : (2, 3) float64, optional
+            Lowest and highest corner; None without a mesh.
         """
-        self._bounds = None if bounds is None else np.asarray(bounds, dtype=float).reshape(3, 2).T
-        if self._bounds is not None:
-            self._plane_page.set_bounds(self._bounds)
-            self._box_page.set_bounds(self._bounds)
+        self._bounds = bounds
+        if bounds is not None:
+            self._plane_page.set_bounds(bounds)
+            self._box_page.set_bounds(bounds)
             if not self._switch.isChecked():
-                middle, half = self._bounds.mean(axis=0), np.ptp(self._bounds, axis=0) / 4
+                middle, half = bounds.mean(axis=0), np.ptp(bounds, axis=0) / 4
                 self._planes = PlaneClip((ClipPlane(self._planes.planes[0].normal, tuple(middle)),))
                 self._box = BoxClip(tuple(middle - half), tuple(middle + half))
                 self._selected = 0

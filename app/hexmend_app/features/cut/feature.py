@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
@@ -141,8 +143,7 @@ class FeatureCut(Feature):
             mesh = document.now.mesh
             self.inside.set_layers(int(mesh.topology.layers.max()))
             points = mesh.points[mesh.topology.used]
-            low, high = points.min(axis=0), points.max(axis=0)
-            self.panel.set_bounds(tuple(float(c) for pair in zip(low, high, strict=True) for c in pair))
+            self.panel.set_bounds(np.array([points.min(axis=0), points.max(axis=0)]))
         if self._proposed is not None:
             self.panel.restore(self._proposed)
             self._proposed = None

@@ -15,7 +15,7 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 from tests.app.driving import named
 
 _LEFT = Qt.MouseButton.LeftButton
-_BOUNDS = (-1.0, 3.0, 0.0, 30.0, 2.0, 4.0)
+_BOUNDS = np.array([[-1.0, 0.0, 2.0], [3.0, 30.0, 4.0]])
 _BOX = QPoint(8, 8)
 
 
@@ -228,7 +228,7 @@ def test_a_box_is_moved_by_its_sliders_and_inverted(panel, emitted):
     assert not slider(panel).isVisible()
     sides = named(panel, QRangeSlider, "Y extent of the box")
     QTest.mouseClick(sides, _LEFT, pos=QPoint(sides.width() - 3, sides.height() // 2))
-    QTest.mouseClick(named(panel, Segmented, "Hide side of the box").button("all"), _LEFT)
+    QTest.mouseClick(named(panel, Segmented, "Hidden side of the box").button("all"), _LEFT)
     box = emitted[-1]
     assert (box.low, box.notch) == ((0, 7.5, 2.5), True)
     assert box.high[1] > 22.5
