@@ -50,7 +50,7 @@ class FeatureInspect(Feature):
         selection.listing = lambda: self.worst_list.elements
         panel = self.panel = HexPanel()
         panel.chosen.connect(selection.visit)
-        panel.fly_requested.connect(lambda: selection.visit(selection.hex))
+        panel.zoom_requested.connect(lambda: selection.visit(selection.hex))
         panel.corners_toggled.connect(host.refresh_soon)
         panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         panel.pin_toggled.connect(session.commands.pin)

@@ -66,7 +66,7 @@ def _energy(step: NodeStep) -> Row:
     before, after = _energy_text(step.energy), _energy_text(step.energy_after)
     hexes = "the whole mesh" if step.is_global else f"its {counted(step.hexes.size, 'hex')} (the patch)"
     cube = short_number(step.norm.cube_value)
-    meaning = f"Sum of η(H){_power(step)} over {hexes}, with lengths in its mean edge length; a cube has {cube}."
+    meaning = f"Sum of η(H){_power(step)} over {hexes}, in units of the mean edge length; a cube has {cube}."
     rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
     if rises:
         reason = "other nodes move too" if METHODS[step.method].optimises else "this method does not evaluate it"
