@@ -33,7 +33,7 @@ _BOUNDARY_CLASSES = {
 _SELECTION_PANELS = ("node", "tags")
 
 
-class FeatureInspect(Feature):
+class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
 
     order = 42

@@ -18,7 +18,7 @@ from hexmend_app.picture.appearance import Isolation
 _COMPUTING_DELAY = 200
 
 
-class FeatureNode(Feature):
+class FeatureNodeStep(Feature):
     """Shows the step of the selected node, and runs sweeps node by node.
 
     A step is computed and drawn only while the panel is in front.
