@@ -171,15 +171,15 @@ class FeatureNodeStep(Feature):
     def _explain_node(self) -> None:
         """Show the panel with the selected node if it is free, else with the worst free node of the worst hex."""
         self.host.show_panel("node")
-        selection, free = self._selection, self._document.now.mesh.free
-        if selection.node is not None and free[selection.node]:
-            selection.visit(selection.hex)
+        chosen, free = self._selection, self._document.now.mesh.free
+        if chosen.node is not None and free[chosen.node]:
+            chosen.visit(chosen.hex)
             return
-        hexes = self._selection.listing() if selection.hex is None else np.array([selection.hex])
+        hexes = self._selection.listing() if chosen.hex is None else np.array([chosen.hex])
         hex_and_node = worst_free_node(self._document.now, hexes)
         if hex_and_node is not None:
-            selection.choose(*hex_and_node)
-            selection.visit(hex_and_node[0])
+            chosen.choose(*hex_and_node)
+            chosen.visit(hex_and_node[0])
 
     def _on_patch_toggled(self, on: bool) -> None:
         if not on:
