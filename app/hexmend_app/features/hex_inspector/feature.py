@@ -33,7 +33,7 @@ _BOUNDARY_CLASSES = {
 _SELECTION_PANELS = ("node", "tags")
 
 
-class FeatureInspect(Feature):
+class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
 
     order = 42
@@ -51,7 +51,7 @@ class FeatureInspect(Feature):
         selection.rank_by(self.worst_list.chosen_metric)
         panel = self.panel = HexPanel()
         panel.chosen.connect(selection.visit)
-        panel.fly_requested.connect(lambda: selection.visit(selection.hex))
+        panel.zoom_requested.connect(lambda: selection.visit(selection.hex))
         panel.corners_toggled.connect(host.refresh_soon)
         panel.node_chosen.connect(lambda node: selection.choose(selection.hex, node))
         panel.pin_toggled.connect(session.commands.pin)

@@ -49,7 +49,7 @@ class HexPanel(QWidget):
     -------
     chosen(int)
         The user selected this neighbour.
-    fly_requested
+    zoom_requested
         The user asked to zoom to the hex.
     corners_toggled(bool)
         The user showed or hid the corner qualities in the view.
@@ -60,7 +60,7 @@ class HexPanel(QWidget):
     """
 
     chosen = Signal(int)
-    fly_requested = Signal()
+    zoom_requested = Signal()
     corners_toggled = Signal(bool)
     node_chosen = Signal(int)
     pin_toggled = Signal(int, bool)
@@ -84,13 +84,13 @@ class HexPanel(QWidget):
         self._in_view = QCheckBox("Corner qualities in the view")
         set_help(self._in_view, "Corner qualities in the view", "Show q(T) at the corners of the hex in the view.")
         self._in_view.toggled.connect(self.corners_toggled)
-        self._fly = QPushButton(icon("target"), "Zoom to hex")
+        self._zoom = QPushButton(icon("target"), "Zoom to hex")
         set_help(
-            self._fly,
+            self._zoom,
             "Zoom to hex",
             "Move the camera to the hex; Enter or a double-click in the list of the worst does the same.",
         )
-        self._fly.clicked.connect(self.fly_requested)
+        self._zoom.clicked.connect(self.zoom_requested)
         self._values = {name: self._number() for name in METRICS}
         self._corners = [(LinkLabel(), self._number(), self._number()) for _ in range(8)]
         self._neighbours = LinkLabel()
@@ -106,12 +106,7 @@ class HexPanel(QWidget):
             "of steepest descent; the gradient is given per mean edge length.",
         )
         self._pin = QCheckBox("Pinned")
-        set_help(
-            self._pin,
-            "Pinned",
-            "Keep this node in place in every method. A pinned boundary node does not slide either; while the boundary "
-            "is fixed, all its nodes stay anyway.",
-        )
+        set_help(self._pin, "Pinned", "Keep this node in place in every method, also on a sliding boundary.")
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
         for corner, (node, _, _) in enumerate(self._corners):
             node.setAccessibleName(f"Node at corner {corner}")
@@ -128,7 +123,7 @@ class HexPanel(QWidget):
     def _lay_out(self, page: QWidget) -> None:
         head = QHBoxLayout()
         head.addWidget(self._title, 1)
-        head.addWidget(self._fly)
+        head.addWidget(self._zoom)
         values = QGridLayout()
         values.setVerticalSpacing(2)
         metrics = metrics_offered()

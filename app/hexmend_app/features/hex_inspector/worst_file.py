@@ -32,6 +32,6 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
     worst, out = Worst.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["hex", metric, "scaled-jacobian", "state"])
-    columns = worst.elements.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states
+    columns = worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states
     writer.writerows(zip(*columns, strict=True))
     write_text(Path(path), out.getvalue())

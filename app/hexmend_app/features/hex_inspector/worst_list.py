@@ -156,7 +156,7 @@ class WorstList(QWidget):
     def elements(self) -> np.ndarray:
         """Numbers of the listed hexes, worst first: (k,) int64."""
         self._refresh_if_stale()
-        return self._model.elements
+        return self._model.hexes
 
     def next(self) -> None:
         """Select the next hex of the list, or the first if the selected hex is not listed."""
@@ -177,7 +177,7 @@ class WorstList(QWidget):
             self._refresh()
 
     def _selected_row(self) -> int | None:
-        rows = np.flatnonzero(self._model.elements == self._selected) if self._selected is not None else ()
+        rows = np.flatnonzero(self._model.hexes == self._selected) if self._selected is not None else ()
         return int(rows[0]) if len(rows) else None
 
     def _step(self, by: int) -> None:
@@ -198,8 +198,8 @@ class WorstList(QWidget):
         worst = Worst.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(worst.elements, worst.values, worst.jacobians, worst.states)
-        listed = "" if worst.elements.size == mesh.n_hexes else f"The {worst.elements.size:,} worst of "
+        self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)
+        listed = "" if worst.hexes.size == mesh.n_hexes else f"The {worst.hexes.size:,} worst of "
         order = "" if metric.name == "scaled-jacobian" else "; ties sorted by scaled Jacobian"
         self._text.setText(f"{listed}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
         self._select_row()
@@ -222,4 +222,4 @@ class WorstList(QWidget):
             self._on_row(selected.indexes()[0])
 
     def _on_row(self, index: QModelIndex) -> None:
-        self.chosen.emit(int(self._model.elements[index.row()]))
+        self.chosen.emit(int(self._model.hexes[index.row()]))

@@ -23,7 +23,7 @@ class WorstModel(QAbstractTableModel):
 
     Attributes
     ----------
-    elements : (k,) int64
+    hexes : (k,) int64
         Numbers of the hexes.
     values, jacobians : (k,) float64
         Values of the metric that sorts the list, and scaled Jacobians.
@@ -35,24 +35,24 @@ class WorstModel(QAbstractTableModel):
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
-        self.elements = np.empty(0, np.int64)
+        self.hexes = np.empty(0, np.int64)
         self.values = self.jacobians = np.empty(0)
         self.states: list[str] = []
         self.title = ""
 
-    def fill(self, elements: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
+    def fill(self, hexes: np.ndarray, values: np.ndarray, jacobians: np.ndarray, states: list[str]) -> None:
         """Replace the rows."""
-        same = len(elements) == len(self.elements)
+        same = len(hexes) == len(self.hexes)
         if not same:
             self.beginResetModel()
-        self.elements, self.values, self.jacobians, self.states = elements, values, jacobians, states
+        self.hexes, self.values, self.jacobians, self.states = hexes, values, jacobians, states
         if same:  # no reset: the table keeps its scroll position
-            self.dataChanged.emit(self.index(0, 0), self.index(max(len(elements) - 1, 0), len(_TITLES) - 1))
+            self.dataChanged.emit(self.index(0, 0), self.index(max(len(hexes) - 1, 0), len(_TITLES) - 1))
         else:
             self.endResetModel()
 
     def rowCount(self, parent: QModelIndex | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.elements)
+        return 0 if parent is not None and parent.isValid() else len(self.hexes)
 
     def columnCount(self, parent: QModelIndex | None = None) -> int:
         return 0 if parent is not None and parent.isValid() else len(_TITLES)
@@ -61,7 +61,7 @@ class WorstModel(QAbstractTableModel):
         row, column = index.row(), index.column()
         if role == Qt.ItemDataRole.DisplayRole:
             if column == HEX:
-                return f"{self.elements[row]:,}"
+                return f"{self.hexes[row]:,}"
             if column == STATE:
                 return self.states[row]
             return figure(float((self.values if column == VALUE else self.jacobians)[row]))

@@ -19,7 +19,7 @@ from hexmend_app.features.histogram.head import HistogramHead
 from hexmend_app.features.histogram.histogram_plot import HistogramPlot
 from hexmend_app.features.histogram.legend import HistogramLegend
 from hexmend_app.features.histogram.outline import Series
-from hexmend_app.features.histogram.range import RangeRow
+from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint

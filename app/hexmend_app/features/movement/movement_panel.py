@@ -199,9 +199,9 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
 
 def _count_texts(counts: DisplacementCounts, name: str, free: int) -> tuple[str, str, str, str]:
     distance = f"mean {figure(counts.mean)}, max {figure(counts.largest)}" if counts.moved else "–"
-    slid = f"; {counts.slid:,} boundary nodes slid" if counts.slid else ""
+    slid = f" and {counts.slid:,} boundary" if counts.slid else ""
     return (
-        f"{counts.moved - counts.slid:,} of {free:,} free nodes moved since {name}{slid}",
+        f"{counts.moved - counts.slid:,} of {free:,} free{slid} nodes moved since {name}",
         distance,
         f"{counts.better:,} better, {counts.worse:,} worse",
         f"{counts.newly_inverted:,} newly inverted, {counts.mended:,} repaired",

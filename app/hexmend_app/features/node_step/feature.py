@@ -27,7 +27,7 @@ _SWEEP = (
 )
 
 
-class FeatureNode(Feature):
+class FeatureNodeStep(Feature):
     """Shows the step of the selected node, and runs sweeps node by node.
 
     A step is computed and drawn only while the panel is in front.
@@ -177,15 +177,15 @@ class FeatureNode(Feature):
     def _explain_node(self) -> None:
         """Show the panel with the selected node if it is free, else with the worst free node of the worst hex."""
         self.host.show_panel("node")
-        selection, free = self._selection, self._document.now.mesh.free
-        if selection.node is not None and free[selection.node]:
-            selection.visit(selection.hex)
+        chosen, free = self._selection, self._document.now.mesh.free
+        if chosen.node is not None and free[chosen.node]:
+            chosen.visit(chosen.hex)
             return
-        hexes = self._selection.worst_hexes() if selection.hex is None else np.array([selection.hex])
+        hexes = self._selection.worst_hexes() if chosen.hex is None else np.array([chosen.hex])
         hex_and_node = worst_free_node(self._document.now, hexes)
         if hex_and_node is not None:
-            selection.choose(*hex_and_node)
-            selection.visit(hex_and_node[0])
+            chosen.choose(*hex_and_node)
+            chosen.visit(hex_and_node[0])
 
     def _on_patch_toggled(self, on: bool) -> None:
         if not on:

@@ -66,7 +66,7 @@ def _energy(step: NodeStep) -> Row:
     before, after = _energy_text(step.energy), _energy_text(step.energy_after)
     hexes = "the whole mesh" if step.is_global else f"its {counted(step.hexes.size, 'hex')} (the patch)"
     cube = short_number(step.norm.cube_value)
-    meaning = f"Sum of η(H){_power(step)} over {hexes}, with lengths in its mean edge length; a cube has {cube}."
+    meaning = f"Sum of η(H){_power(step)} over {hexes}, in units of the mean edge length; a cube has {cube}."
     rises = step.move > 0 and step.energy_after > step.energy * (1 + _ROUNDING)
     if rises:
         reason = "other nodes move too" if METHODS[step.method].optimises else "this method does not evaluate it"
@@ -81,7 +81,7 @@ def _energy_text(value: float) -> str:
 def _delta(step: NodeStep, has_direction: bool) -> Row:
     if step.delta == 0:
         hexes = "hex" if has_direction else "hex of the patch"
-        meaning = f"No {hexes} is inverted: the barrier is infinite."
+        meaning = f"No {hexes} is inverted: inverting one would cost infinite energy."
     elif has_direction:
         meaning = "δ softens the barrier (3.2) while a hex is inverted; without it the energy would be infinite."
     else:
@@ -106,8 +106,8 @@ def _eigenvalues(step: NodeStep) -> Row:
         meaning = "The energy is infinite here and has no curvature."
     elif negative:
         meaning = (
-            f"Curvatures of the energy (of the 3 × 3 Hessian). {negative} negative: the energy has a saddle here, and "
-            "the Newton direction may lead uphill."
+            f"Curvatures of the energy (of the 3 × 3 Hessian). {negative} negative, as on a saddle: the Newton "
+            "direction may lead uphill."
         )
     else:
         meaning = (

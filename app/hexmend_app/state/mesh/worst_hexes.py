@@ -20,7 +20,7 @@ class Worst:
 
     Parameters
     ----------
-    elements : (k,) int64
+    hexes : (k,) int64
         Numbers of the hexes.
     values, jacobians : (k,) float64
         Values of the metric, and scaled Jacobians.
@@ -28,7 +28,7 @@ class Worst:
         "locked" if fixed nodes alone keep the hex inverted, "inverted" for other inverted hexes, else "".
     """
 
-    elements: np.ndarray
+    hexes: np.ndarray
     values: np.ndarray
     jacobians: np.ndarray
     states: list[str]

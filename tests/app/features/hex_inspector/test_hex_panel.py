@@ -83,7 +83,7 @@ def test_a_low_and_wide_panel_needs_no_scrolling(panel):
 
 def test_buttons_emit_signals(panel, qtbot):
     panel.show_hex(describe_hex(MESH, WORST))
-    with qtbot.waitSignal(panel.fly_requested):
+    with qtbot.waitSignal(panel.zoom_requested):
         QTest.mouseClick(panel.findChild(QPushButton), Qt.MouseButton.LeftButton)
     with qtbot.waitSignal(panel.corners_toggled):
         panel.findChild(QCheckBox).click()

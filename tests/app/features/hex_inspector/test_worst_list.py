@@ -44,20 +44,20 @@ def row_at(widget, row):
 def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData(name))
-    elements, better = worst_list.elements, METRICS[name].better or 1
-    assert len(elements) == min(MAX_LISTED, MESH.n_hexes) < MESH.n_hexes
+    hexes, better = worst_list.elements, METRICS[name].better or 1
+    assert len(hexes) == min(MAX_LISTED, MESH.n_hexes) < MESH.n_hexes
     keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
     keys[np.isnan(keys)] = -np.inf
-    listed = keys[elements]
+    listed = keys[hexes]
     assert (listed[1:] >= listed[:-1]).all()
-    assert np.sort(keys)[: len(elements)].tolist() == listed.tolist()
+    assert np.sort(keys)[: len(hexes)].tolist() == listed.tolist()
     equal = listed[1:] == listed[:-1]
-    assert (np.diff(FIGURES.scaled_jacobian[elements])[equal] >= 0).all()
+    assert (np.diff(FIGURES.scaled_jacobian[hexes])[equal] >= 0).all()
 
 
 def test_an_inverted_hex_with_good_q_is_listed_after_worse_hexes(worst_list):
-    elements = worst_list.elements
-    q, inverted = FIGURES.q[elements], FIGURES.inverted[elements]
+    hexes = worst_list.elements
+    q, inverted = FIGURES.q[hexes], FIGURES.inverted[hexes]
     assert inverted.any()
     assert q[inverted].max() > q[~inverted].min()
 
@@ -85,18 +85,18 @@ def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list
     worst_list.chosen.connect(worst_list.set_selected)
     for text in ("Next", "Next", "Previous", "Previous"):
         QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)
-    elements = worst_list.elements.tolist()
-    assert selected == [elements[0], elements[1], elements[0], elements[-1]]
+    hexes = worst_list.elements.tolist()
+    assert selected == [hexes[0], hexes[1], hexes[0], hexes[-1]]
 
 
 def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
-    element = int(worst_list.elements[5])
-    worst_list.set_selected(element)
+    hex = int(worst_list.elements[5])
+    worst_list.set_selected(hex)
     better = scrambled(grid(11), 0.5, 4)
     worst_list.set_figures(better, measure(better.points, better.hexes))
     row = worst_list.findChild(QTableView).currentIndex().row()
     listed = worst_list.elements.tolist()
-    assert (listed[row] == element) if element in listed else row == -1
+    assert (listed[row] == hex) if hex in listed else row == -1
 
 
 def test_a_hidden_list_is_filled_when_it_is_shown(qtbot):
@@ -132,11 +132,11 @@ def test_enter_and_a_double_click_select_the_row_again(worst_list):
     QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
     selected = []
     worst_list.chosen.connect(selected.append)
-    element = worst_list.elements[1]
+    hex = worst_list.elements[1]
     QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
-    assert selected == [element]
+    assert selected == [hex]
     QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    assert selected == [element, element]
+    assert selected == [hex, hex]
 
 
 def test_keyboard_focus_alone_selects_nothing(worst_list, qtbot):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hexmend_app.features.node_step.feature import FeatureNode
+from hexmend_app.features.node_step.feature import FeatureNodeStep
 from tests.app.hosting import PlainHost, action
 from tests.core.grids import grid, scrambled
 
@@ -25,7 +25,7 @@ def test_the_camera_moves_to_the_explained_node(host, chosen):
     around = int((mesh.hexes == free).any(axis=1).argmax())
     if chosen != "nothing":
         selection.choose(around, free if chosen == "a free node" else None)
-    action(FeatureNode(host), "explain_node").handle()
+    action(FeatureNodeStep(host), "explain_node").handle()
     assert host.fronted == ["node"]
     assert host.visited == [(selection.hex,)]
     assert mesh.free[selection.node]

@@ -41,7 +41,7 @@ def test_a_negative_eigenvalue_is_called_a_saddle():
     assert "bowl" in row(step, "Eigenvalues").meaning
     assert row(step, "Eigenvalues").colour is TEXT
     saddle = dataclasses.replace(step, hessian=np.diag([-2.0, 1.0, 3.0]), fallback=True)
-    assert "1 negative: the energy has a saddle" in row(saddle, "Eigenvalues").meaning
+    assert "1 negative, as on a saddle" in row(saddle, "Eigenvalues").meaning
     assert row(saddle, "Eigenvalues").value == "−2  1  3"
     assert row(saddle, "Eigenvalues").colour is WORSE
     assert "would lead uphill" in row(saddle, "Direction").meaning
