@@ -1,4 +1,4 @@
-"""The soak: real rounds, and a verdict that detects growing memory."""
+"""Soak test: rounds in a window, and the detection of growing memory."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def memory(mb):
     return found
 
 
-def test_memory_that_fills_its_caches_and_stays_is_level():
+def test_level_memory_after_warm_up_passes():
     mb = np.concatenate([np.linspace(300, 700, 20), 700 + 30 * np.random.default_rng(0).normal(size=100)])
     assert memory(mb).level
     assert "level" in memory(mb).verdict
     assert "median 7" in memory(mb).verdict
 
 
-def test_memory_that_a_round_keeps_grows():
+def test_growing_memory_fails():
     leaking = memory(600 + np.arange(120) + 30 * np.random.default_rng(0).normal(size=120))
     assert not leaking.level
     assert "GROWS" in leaking.verdict
@@ -38,7 +38,7 @@ def test_memory_that_a_round_keeps_grows():
 
 
 @pytest.mark.slow
-def test_a_mesh_that_cannot_be_opened_ends_it(qapp, tmp_path):
+def test_an_unreadable_mesh_ends_the_test(qapp, tmp_path):
     with pytest.raises(FileError, match=r"none\.vtu"):
         list(soak([tmp_path / "none.vtu"], 0))
 

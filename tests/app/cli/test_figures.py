@@ -1,4 +1,4 @@
-"""The figures of the study that show meshes, drawn in a process without a display."""
+"""Mesh figures of the study, drawn without a display."""
 
 import os
 import subprocess
@@ -36,7 +36,7 @@ def drawn(tmp_path_factory):
     return {figure.number: folder / f"{figure.number}.png" for figure in MESH_FIGURES}
 
 
-def test_the_project_joins_with_it():
+def test_the_entry_point_is_registered():
     data = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     (value,) = data["project"]["entry-points"]["hexmend.figures"].values()
     from hexmend_app.cli.figures import draw

@@ -46,7 +46,7 @@ FILE = Scene(
 
 @dataclass(frozen=True)
 class Frame(ConfigTable):
-    """A frame.
+    """Table with one frame.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def test_a_cut_that_names_hexes_shows_these(render, tmp_path, capsys):
     assert "[cut] names hex 27: expected one of the mesh, below 27" in capsys.readouterr().err
 
 
-def test_a_movement_is_that_from_the_first_mesh_on(render, tmp_path, capsys):
+def test_displacements_start_at_the_first_mesh(render, tmp_path, capsys):
     write_scene(tmp_path / "scene.toml", Scene(colours=Colours("moved-most", range=Range.FITTED)))
     render("--size", "200x120", meshes=2)
     assert main(["render", str(tmp_path / "mesh.vtu"), "--scene", str(tmp_path / "scene.toml"), "-o", "p.png"]) == 2

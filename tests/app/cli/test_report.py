@@ -32,13 +32,13 @@ def hexmend(monkeypatch):
     return lambda *words: program.main([*map(str, words)])
 
 
-def test_the_project_joins_with_them():
+def test_the_entry_points_are_registered():
     points = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["entry-points"]
     for name, command in (("report", report.command), ("figures", figure_set.command)):
         assert EntryPoint(name, points["hexmend.commands"][name], "hexmend.commands").load() is command
 
 
-def test_a_report_names_its_mesh_its_methods_and_how_to_repeat_it(hexmend, mesh_file, tmp_path):
+def test_a_report_contains_mesh_methods_and_commands(hexmend, mesh_file, tmp_path):
     path = tmp_path / "report.html"
     assert hexmend("report", mesh_file, *METHODS, "--title", "a < b", "-o", path) == 0
     text = path.read_text(encoding="utf-8")
@@ -51,7 +51,7 @@ def test_a_report_names_its_mesh_its_methods_and_how_to_repeat_it(hexmend, mesh_
 
 
 @pytest.mark.parametrize("name", ["two words & <b>$x_{.vtu", "odd\udcff.vtu", "-- 'quoted'.vtu"])
-def test_any_name_of_a_file_will_do(hexmend, mesh_file, tmp_path, monkeypatch, name):
+def test_any_file_name_works(hexmend, mesh_file, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     Path(name).write_bytes(mesh_file.read_bytes())
     words = ["--methods", "none", "-o"]
@@ -120,7 +120,7 @@ def test_errors_are_reported_before_the_runs(hexmend, mesh_file, tmp_path, monke
 
 
 @pytest.mark.parametrize("words", [["report", "-o", "a.html"], ["figures", "-o", "set"]])
-def test_runs_for_which_memory_will_not_suffice_are_refused(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words):
+def test_runs_without_enough_memory_are_rejected(hexmend, mesh_file, tmp_path, monkeypatch, capsys, words):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(memory, "available", lambda: 1000)
     command, *others = words
@@ -152,7 +152,7 @@ def test_meshes_of_one_name_get_folders_of_their_own(hexmend, mesh_file, tmp_pat
         assert f"-o {folder}-results" in page
 
 
-def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
+def test_a_file_with_an_undecodable_name_is_reported(hexmend, mesh_file, tmp_path):
     odd = Path(os.fsdecode(os.fsencode(tmp_path / "bad") + b"\xff.vtk"))
     try:
         odd.write_bytes(mesh_file.read_bytes())
@@ -165,7 +165,7 @@ def test_a_file_whose_name_is_no_text_is_reported(hexmend, mesh_file, tmp_path):
     assert os.fsencode(odd) in (folder / "commands.sh").read_bytes()
 
 
-def test_commands_of_a_report_take_no_name_for_an_option(hexmend, mesh_file, tmp_path, monkeypatch):
+def test_names_are_not_taken_for_options(hexmend, mesh_file, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("-x.vtk").write_bytes(mesh_file.read_bytes())
     assert hexmend("report", "./-x.vtk", "--methods", "laplacian", "-o", "report.html") == 0

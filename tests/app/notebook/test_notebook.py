@@ -1,4 +1,4 @@
-"""Meshes and results in a notebook that is run."""
+"""Meshes and results in an executed notebook."""
 
 import asyncio
 import base64
@@ -66,13 +66,13 @@ def test_a_mesh_shows_its_picture_and_its_figures(outputs):
     assert "scaled Jacobian min" in shown["text/html"]
 
 
-def test_a_result_shows_how_it_came_about(outputs):
+def test_a_result_shows_its_run(outputs):
     (shown,) = outputs[1]
     assert "<polyline" in shown["text/html"]
     assert "<th>before</th><th>after</th>" in shown["text/html"]
 
 
-def test_a_view_is_there_to_be_turned(outputs):
+def test_a_view_is_interactive(outputs):
     (shown,) = outputs[2]
     assert {"text/html", "application/vnd.jupyter.widget-view+json"} & set(shown)
 

@@ -1,4 +1,4 @@
-"""A report on a small tangled mesh, and Debian's browser to open it in."""
+"""Report on a small inverted mesh, and the browser of Debian to open it."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ _FRAMES = (
 
 @pytest.fixture(scope="session")
 def case() -> Case:
-    """A mesh with inverted hexes, and the results of two methods."""
+    """A case with inverted hexes and the results of two methods."""
     mesh = gallery.make("bridge-sharp", size=864, scramble=0.4, seed=1)
     return run_methods(mesh, None, [METHODS["laplacian"](), METHODS["mend"]()], StoppingCriteria(max_iterations=20))
 
 
 class Opened:
-    """A page in the browser, with its errors and requests."""
+    """Page in the browser, with its errors and requests."""
 
     def __init__(self, page):
         self.page = page
@@ -52,17 +52,17 @@ class Opened:
         self.page.evaluate(_FRAMES)
 
     def canvas(self) -> bytes:
-        """The picture of the mesh: red, green and blue of each pixel."""
+        """Return the pixels of the mesh, as RGB."""
         self.drawn()
         with Image.open(BytesIO(self.page.locator("canvas").first.screenshot())) as picture:
             return picture.convert("RGB").tobytes()
 
     def control(self, name: str):
-        """A control of the first mesh."""
+        """Return a control of the first mesh."""
         return self.page.locator(f"[data-is={name}]").first
 
     def text(self, name: str) -> str:
-        """The text of a control."""
+        """Return the text of a control."""
         self.drawn()
         return self.control(name).inner_text()
 

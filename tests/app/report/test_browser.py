@@ -43,19 +43,19 @@ def report(browser, written):
 
 @pytest.fixture
 def fresh(report):
-    """The page as it was opened."""
+    """The opened page."""
     report.control("reset").click()
     report.drawn()
     return report
 
 
 def colours(picture):
-    """Number of colours, in steps that the eye distinguishes."""
+    """Return the number of distinguishable colours."""
     return len(count_colours(pixels(picture) // 16)[0])
 
 
 def share(picture, red, green, blue, near=40):
-    """Share of a picture with nearly this colour."""
+    """Return the share of a picture with nearly this colour."""
     return float((np.abs(pixels(picture).astype(int) - (red, green, blue)).max(axis=1) < near).mean())
 
 
@@ -64,7 +64,7 @@ def pixels(picture):
 
 
 @pytest.mark.slow
-def test_it_opens_without_complaint_and_asks_nothing_of_a_network(fresh, written):
+def test_it_opens_without_errors_or_requests(fresh, written):
     assert colours(fresh.canvas()) > 20
     assert fresh.complaints == []
     assert fresh.asked == [written.as_uri()]
@@ -73,7 +73,7 @@ def test_it_opens_without_complaint_and_asks_nothing_of_a_network(fresh, written
 @pytest.mark.parametrize(("control", "value"), [
     ("axis", "1"), ("metric", "Scaled Jacobian"), ("map", "inferno"), ("method", "mend"),
 ])  # fmt: skip
-def test_a_choice_changes_the_picture(fresh, control, value):
+def test_an_option_changes_the_picture(fresh, control, value):
     before = fresh.canvas()
     fresh.control(control).select_option(value)
     assert fresh.canvas() != before
@@ -87,7 +87,7 @@ def test_a_slider_changes_the_picture(fresh, control, value):
     assert fresh.canvas() != before
 
 
-def test_reset_brings_back_the_first_picture(fresh):
+def test_reset_restores_the_first_picture(fresh):
     first = fresh.canvas()
     fresh.control("axis").select_option("0")
     fresh.control("metric").select_option("Skew")
@@ -99,7 +99,7 @@ def test_reset_brings_back_the_first_picture(fresh):
 
 
 @pytest.mark.slow
-def test_mouse_and_keys_turn_it(fresh):
+def test_mouse_and_keys_rotate_the_mesh(fresh):
     seen = {fresh.canvas()}
     box = fresh.control("canvas").bounding_box()
     middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -122,8 +122,8 @@ def test_mouse_and_keys_turn_it(fresh):
     assert len(seen) == 4 + len(keys)
 
 
-def test_before_more_is_inverted_than_after(fresh):
-    """Inverted hexes are magenta: the mesh was tangled, and is mended."""
+def test_more_hexes_are_inverted_before_than_after(fresh):
+    """Inverted hexes are magenta: there are some before the run and none after."""
     magenta = 231, 25, 138
     fresh.control("method").select_option("mend")
     fresh.control("high").fill("0.5")  # what lies inside is seen
@@ -132,7 +132,7 @@ def test_before_more_is_inverted_than_after(fresh):
     assert share(fresh.canvas(), *magenta) > 0.02 > after
 
 
-def test_a_click_tells_the_hex_and_its_values(fresh, case):
+def test_a_click_shows_the_hex_and_its_values(fresh, case):
     fresh.control("method").select_option("mend")
     fresh.control("axis").select_option("1")
     fresh.drawn()
@@ -146,7 +146,7 @@ def test_a_click_tells_the_hex_and_its_values(fresh, case):
         assert float(said) == pytest.approx(measure(version.mesh.points, version.mesh.hexes).q[hex], abs=1e-4)
 
 
-def test_the_table_of_the_worst_leads_to_them(fresh, case):
+def test_the_table_links_to_the_worst_hexes(fresh, case):
     hex = int(rank_worst(case.initial.figures.q - case.initial.figures.inverted, case.initial.figures, 1)[0])
     before = fresh.canvas()
     fresh.page.locator('[data-version="0"] button').first.click()
@@ -158,7 +158,7 @@ def test_the_table_of_the_worst_leads_to_them(fresh, case):
     assert not fresh.text("count").startswith("1 of")
 
 
-def test_it_counts_what_is_shown(fresh, case):
+def test_it_counts_visible_hexes(fresh, case):
     first, mended = case.versions[0], case.versions[-1]
     fresh.control("method").select_option("mend")
     fresh.control("high").fill("0.7")
@@ -171,7 +171,7 @@ def test_it_counts_what_is_shown(fresh, case):
 
 
 @pytest.mark.slow
-def test_fingers_turn_and_zoom_it(browser, written):
+def test_touch_rotates_and_zooms(browser, written):
     with browser(has_touch=True) as opened:
         opened.open(written)
         seen = {opened.canvas()}
@@ -197,12 +197,12 @@ def test_without_webgl_the_picture_is_shown_instead(browser, written):
 
 
 @pytest.mark.slow
-def test_drawings_have_texts(fresh):
+def test_plots_contain_text(fresh):
     plots = fresh.page.locator(".pair svg")
     assert [plots.nth(k).locator("text", has_text="mend").count() > 0 for k in range(plots.count())] == [True, True]
 
 
-def test_every_picture_says_what_it_shows(fresh):
+def test_every_picture_has_a_caption(fresh):
     first, behind, cut, *_ = fresh.page.locator("figcaption").all_inner_texts()
     assert "initial, laplacian and mend: whole, seen from a corner. Coloured by q(H)" in first
     assert "opposite side" in behind
@@ -210,7 +210,7 @@ def test_every_picture_says_what_it_shows(fresh):
 
 
 @pytest.mark.slow
-def test_contents_lead_to_every_part_of_several_meshes(browser, case, tmp_path):
+def test_the_contents_link_to_all_sections(browser, case, tmp_path):
     path = tmp_path / "report.html"
     told = [chapter(case, STYLE, [], interactive=False, place=place) for place in ("mesh-1", "mesh-2")]
     write_page(path, page("Two", told, "hexmend report", interactive=False))
@@ -224,7 +224,7 @@ def test_contents_lead_to_every_part_of_several_meshes(browser, case, tmp_path):
         assert len(named) == len(set(named))
 
 
-def test_on_paper_there_are_pictures_and_no_controls(fresh):
+def test_print_shows_pictures_without_controls(fresh):
     fresh.page.emulate_media(media="print")
     try:
         assert fresh.page.locator(".viewer > figure img").is_visible()
@@ -246,7 +246,7 @@ def test_it_is_dark_in_a_dark_theme(fresh):
 
 
 @pytest.mark.slow
-def test_names_from_outside_are_text(browser, case, tmp_path):
+def test_names_are_escaped(browser, case, tmp_path):
     name = "</script><script>document.title='taken'</script><img src=x onerror=\"document.title='taken'\">$x_"
     versions = tuple(replace(one, name=f"{k}{name}") for k, one in enumerate(case.versions))
     hostile = replace(case, name=name, versions=versions)

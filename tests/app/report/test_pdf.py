@@ -1,4 +1,4 @@
-"""Reports on paper: what belongs together stays on one page."""
+"""PDF reports: page breaks and split tables."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_a_heading_is_on_the_page_of_the_table_that_follows():
     assert found == {0, 1}
 
 
-def test_many_columns_are_laid_across_several_tables():
+def test_wide_tables_are_split():
     names = [f"method {k}" for k in range(16)]
     whole = Table("All", ["figure", *names], [["q min", *map(str, range(16))]], ["A note."])
     text = html.tables(whole)

@@ -24,7 +24,7 @@ def array(blob, place, kind):
     return np.ascontiguousarray(planes.T).view(kind).ravel()
 
 
-def test_hexes_and_places_come_back(kept, case):
+def test_hexes_and_positions_are_decoded(kept, case):
     head, blob = kept
     mesh = case.initial.mesh
     assert (np.cumsum(array(blob, head["hexes"], "<i4").reshape(-1, 8), axis=0) == mesh.hexes).all()
@@ -37,7 +37,7 @@ def test_hexes_and_places_come_back(kept, case):
 
 
 @pytest.mark.parametrize("name", [*METRICS])
-def test_values_come_back(kept, case, name):
+def test_values_are_decoded(kept, case, name):
     head, blob = kept
     at = [*METRICS].index(name)
     kind = head["metrics"][at]
@@ -54,7 +54,7 @@ def test_the_same_mesh_makes_the_same_page(kept, case):
     assert packed(case.initial.mesh, [ViewerState(one.name, one.mesh.points) for one in case.versions]) == kept
 
 
-def test_no_name_ends_a_script():
+def test_no_name_can_end_a_script():
     assert "<" not in in_script({"name": "</script><!--"})
 
 

@@ -32,7 +32,7 @@ def test_a_locked_hex_is_first_and_its_node_is_named():
     assert table.rows[0][1:3] == [f"{figures.q[hex]:.4f}", f"{figures.scaled_jacobian[hex]:.4f}"]
 
 
-def test_a_sound_mesh_has_nothing_locked():
+def test_a_valid_mesh_has_no_locked_hexes():
     mesh = gallery.make("cube", size=27)
     figures = measure(mesh.points, mesh.hexes)
     locked = Locked.of(mesh, figures)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hexmend.errors import HexmendError
 from hexmend.parameters import Parametrised, declared
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.recipe_files import read_recipe, write_recipe
@@ -129,13 +128,8 @@ class FeatureRecipe(Feature):
 
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
-        try:
-            recipe = read_recipe(path)
-        except HexmendError as error:
-            self.host.messages.show_error("The recipe was not loaded", str(error))
-            return
-        self._draft.take(recipe)
-        self._select(0)
+        if self.host.try_and_report("The recipe was not loaded", lambda: self._draft.take(read_recipe(path))):
+            self._select(0)
 
     def ask_save(self) -> None:
         """Ask for a file and save the recipe."""
@@ -145,12 +139,10 @@ class FeatureRecipe(Feature):
 
     def save(self, path: str | Path) -> None:
         """Save the recipe, or show the error."""
-        try:
-            self.session.commands.export(FileExported("recipe", write_recipe, (Path(path), self._draft.recipe)))
-        except HexmendError as error:
-            self.host.messages.show_error("The recipe was not saved", str(error))
-        else:
-            self.host.messages.show_info(f"Recipe saved to {path}")
+        event = FileExported("recipe", write_recipe, (Path(path), self._draft.recipe))
+        self.host.try_and_report(
+            "The recipe was not saved", lambda: self.session.commands.export(event), f"Recipe saved to {path}"
+        )
 
     def _add(self, stage: Stage) -> None:
         self._draft.add(stage)

@@ -58,25 +58,25 @@ class Names:
 
     # Events
 
-    def read(self, path: Path, state: State) -> None:
+    def register_file(self, path: Path, state: State) -> None:
         """Register a state that was read from a file."""
         self._paths[state] = path
 
-    def written(self, path: Path, state: State) -> None:
+    def register_written(self, path: Path, state: State) -> None:
         """Register a state that was written to a file, instead of the state that the file contained before."""
         for old in [old for old, other in self._paths.items() if other == path]:
             del self._paths[old]
         self._paths[state] = path
 
-    def session_saved(self, path: Path, data: SessionData) -> None:
+    def update_session(self, path: Path, data: SessionData) -> None:
         """Update the numbers of states and runs after a session file was written."""
-        self._contents.saved(path, data, self.known)
+        self._contents.update(path, data, self.name_of)
 
-    def restored(self, data: Any, path: Path) -> None:
+    def register_session(self, data: Any, path: Path) -> None:
         """Register the states and runs of an opened session file."""
-        self._contents.take(data, path)
+        self._contents.register(data, path)
 
-    def keep(self) -> None:
+    def remember_snapshots(self) -> None:
         """Remember the iterations of the snapshots, before the history drops them."""
         session, known = self._session, {id(points): moment for points, moment in self._snapshot_moments}
         now, snapshots = session.document.now, [snapshot.points for snapshot in session.snapshots.all]
@@ -84,15 +84,15 @@ class Names:
             known.setdefault(id(now.mesh.points), moment)
         self._snapshot_moments = [(points, known[id(points)]) for points in snapshots if id(points) in known]
 
-    def ended(self, record: RunRecord, run_lines: RunLines) -> None:
+    def register_run(self, record: RunRecord, run_lines: RunLines) -> None:
         """Register the data of a run that has ended."""
         self._run_lines[record] = run_lines
 
-    def add(self, title: str, state: State, source: str) -> None:
+    def add_state(self, title: str, state: State, source: str) -> None:
         """Add an entry that creates a state."""
-        self._lines.put(title, f"{self.new(state)} = {source}")
+        self._lines.put(title, f"{self.new_name(state)} = {source}")
 
-    def new(self, state: State) -> str:
+    def new_name(self, state: State) -> str:
         """Return a new name for a state."""
         self._states[state] = self._next("mesh")
         return self._states[state]
@@ -104,7 +104,7 @@ class Names:
 
     # Meshes
 
-    def known(self, state: State) -> str | None:
+    def name_of(self, state: State) -> str | None:
         """Return the existing name of a state in the script, or None."""
         return self._states.get(state)
 
@@ -115,16 +115,16 @@ class Names:
         moment = self._moment_of(state)
         document = self._session.document
         if (source := self._contents.mesh(state)) is not None:
-            self.add("From the session", state, source)
+            self.add_state("From the session", state, source)
         elif (row := self.comparisons.row_of(state)) is not None:
             self._states[state] = f"{self.comparisons.row(row)}.mesh"
         elif state in self._paths:
-            self.add("The mesh as read", state, read_from(self._paths[state]))
+            self.add_state("The mesh as read", state, read_from(self._paths[state]))
         elif moment is not None and self._can_create(state):
             self._add_iteration(state, moment)
         else:
             path = document.path or Path(f"{state.mesh.name or 'mesh'}.vtu")
-            self.add("The mesh in the window: save it under this name first", state, read_from(path))
+            self.add_state("The mesh in the window: save it under this name first", state, read_from(path))
         return self._states[state]
 
     def mesh_at(self, mesh: Mesh) -> str:
@@ -164,20 +164,20 @@ class Names:
         same = next((end for end in ends if end is not None and end.mesh.points is state.mesh.points), None)
         run_lines = self.run_lines(record)
         if same is state and run_lines is not None and run_lines.stages:
-            start, name = self.mesh(record.start), self.new(state)
+            start, name = self.mesh(record.start), self.new_name(state)
             self._lines.put(moment.name, run_lines.smoothed(start, name))
             return
         base = self.mesh(self._similar(state, record.start))
         if same is not None and same is not state:
-            self.add(moment.name, state, f"{base}.with_points({self.mesh(same)}.points)")
+            self.add_state(moment.name, state, f"{base}.with_points({self.mesh(same)}.points)")
             return
         if run_lines is None:
             points = f"{self.run(record)}.points({number})"
-            self.add(moment.name, state, f"{base}.with_points({points})")
+            self.add_state(moment.name, state, f"{base}.with_points({points})")
             return
         start = self.mesh(record.start)
         loop = run_lines.until(start, number)
-        name = self.new(state)
+        name = self.new_name(state)
         points, note = "it.points", ""
         if same is None and self._is_rounded(state, moment):
             points = f'{start}.points + (it.points - {start}.points).astype("f4")'

@@ -68,7 +68,7 @@ class Script(QObject):
         session.user_event.connect(self._on_done)
         session.node_sweep.recorded.connect(self._on_sweep_recorded)
         session.comparison.changed.connect(self._on_compared)
-        session.snapshots.changed.connect(self._names.keep)
+        session.snapshots.changed.connect(self._names.remember_snapshots)
         session.run.ended.connect(self._on_ended)
         session.run.failed.connect(self._on_failed)
 
@@ -88,7 +88,7 @@ class Script(QObject):
         if not self._document.is_open or (scene := self.scene()) is None:
             return None
         now = self._document.now
-        moment, known = self._session.history.moment_of(now), self._names.known(now)
+        moment, known = self._session.history.moment_of(now), self._names.name_of(now)
         name = self._document.name if moment is None else moment.name
         if (sweep := self._session.node_sweep.sweep) is not None:
             name = f"{sweep.done} of {sweep.nodes.size} nodes of a sweep"
@@ -109,19 +109,19 @@ class Script(QObject):
     def _on_opened(self, path: Path) -> None:
         state = self._document.now
         if state not in self._names:
-            self._names.read(path, state)
-            self._names.add(f"Open {path.name}", state, read_from(path))
+            self._names.register_file(path, state)
+            self._names.add_state(f"Open {path.name}", state, read_from(path))
 
     def _on_restored(self, restored: RestoredPicture) -> None:
         """Register the files of the other meshes in a restored picture."""
         for other in restored.others:
             if other.state is not None:
-                self._names.read(other.path, other.state)
+                self._names.register_file(other.path, other.state)
 
     def _on_session(self, data: SessionData, path: Path | None) -> None:
         """Register the contents of a session file; `path` is None for a recovered session, whose file is temporary."""
         if path is not None:
-            self._names.restored(data, path)
+            self._names.register_session(data, path)
         self._names.mesh(self._document.now)
 
     def _on_done(self, event: UserEvent) -> None:
@@ -130,21 +130,21 @@ class Script(QObject):
             case MeshEdited(after=after, before=before):
                 if after not in names:
                     self._lines.use(event.change)
-                    names.add(event.title, after, mesh_call(names.mesh(before), event.change, event.values))
+                    names.add_state(event.title, after, mesh_call(names.mesh(before), event.change, event.values))
             case NodesMoved(after=after, before=before):
                 if after not in names:
                     source, mesh = names.mesh(event.places), names.mesh(before)
-                    names.add(event.title, after, f"{mesh}.with_points({source}.points)")
+                    names.add_state(event.title, after, f"{mesh}.with_points({source}.points)")
             case UndoOrRedo():
                 put(f"{'undo' if event.undone else 'redo'} {event.title}: continue with {names.mesh(event.now)}")
             case MeshSaved(data=SessionData()):
-                names.session_saved(event.path, event.data)
+                names.update_session(event.path, event.data)
                 put(f"the session was saved as {event.path}")
             case MeshSaved():
                 source = f"hx.write({str(event.path.absolute())!r}, {names.mesh(event.now)})"
                 self._lines.mark_overwritten(event.path)
                 put("save", source)
-                names.written(event.path, event.now)
+                names.register_written(event.path, event.now)
             case TableExported():
                 arguments = [self._source_of(event.path), f"{names.comparisons.name()}.record()"]
                 if event.names or event.title is not None:
@@ -189,9 +189,9 @@ class Script(QObject):
         if record is None or record.work is None:
             return
         run_lines = RunLines.of(record.work, record.stop, record.changes, result)
-        self._names.ended(record, run_lines)
+        self._names.register_run(record, run_lines)
         if record.end is not None and record.end not in self._names:
-            base, name = self._names.mesh(record.start), self._names.new(record.end)
+            base, name = self._names.mesh(record.start), self._names.new_name(record.end)
             self._lines.put(f"{run_lines.work.title}: {result.outcome.value}", run_lines.smoothed(base, name))
 
     def _on_failed(self, error: Exception) -> None:
@@ -199,7 +199,7 @@ class Script(QObject):
         run_lines = self._names.run_lines(record)
         if run_lines is not None and record.end is not None:
             base = self._names.mesh(record.start)
-            loop, name = run_lines.until(base, record.result), self._names.new(record.end)
+            loop, name = run_lines.until(base, record.result), self._names.new_name(record.end)
             source = f"{loop}\n{name} = {base}.with_points(it.points)"
             self._lines.put(f"{record.title}, until it failed: {error}", source)
 
@@ -209,6 +209,6 @@ class Script(QObject):
         if sweep.steps:
             lines += [f"for _ in range({sweep.steps}):", "    next(sweep)"]
         lines += ["sweep.finish()"] * sweep.finished
-        name = self._names.new(sweep.after)
+        name = self._names.new_name(sweep.after)
         lines.append(f"{name} = {base}.with_points(sweep.points)")
         self._lines.put(f"{sweep.smoother.title}, node by node", "\n".join(lines))

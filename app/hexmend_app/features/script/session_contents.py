@@ -41,7 +41,7 @@ class SessionContents:
         """Forget the names of sessions; they are read again when needed."""
         self._names: dict[Path, str] = {}
 
-    def take(self, data: SessionData, path: Path) -> None:
+    def register(self, data: SessionData, path: Path) -> None:
         """Register the contents of an opened session."""
         self._data, self._path = data, path
         self._names.pop(path, None)
@@ -50,7 +50,7 @@ class SessionContents:
         for at, record in enumerate(self._session.history.records[: len(data.history.records)]):
             self._runs[record] = path, at
 
-    def saved(self, path: Path, session: SessionData, known: Callable[[State], str | None]) -> None:
+    def update(self, path: Path, session: SessionData, name_of: Callable[[State], str | None]) -> None:
         """Update the indices in the script after a session file was overwritten.
 
         Parameters
@@ -58,7 +58,7 @@ class SessionContents:
         path : Path
         session : SessionData
             Contents written to the file.
-        known : callable
+        name_of : callable
             Returns the existing name of a state in the script.
         """
         if self._data is None or path not in (at[0] for at in self._states.values()):
@@ -68,10 +68,10 @@ class SessionContents:
         for places in (self._states, self._runs):
             for item in [item for item, place in places.items() if place[0] == path]:
                 del places[item]
-        self.take(session, path)
+        self.register(session, path)
         valid = set()
         for state, old in before.items():
-            name, new = known(state), self._states.get(state)
+            name, new = name_of(state), self._states.get(state)
             if old[0] == path and name is not None and new is not None:
                 line = f"{name} = {self._mesh_source(*new)}"
                 if lines.change(f"{name} = {self._mesh_source(*old)}", line):

@@ -11,7 +11,7 @@ from tests.core.grids import grid, scrambled
 @pytest.fixture
 def host(qtbot):
     host = PlainHost(scrambled(grid(4), 0.3))
-    host.session.selection.listing = lambda: np.argsort(host.session.document.now.figures.q)
+    host.session.selection.rank_by("q")
     host.visited = []
     host.session.selection.visited.connect(host.visited.append)
     yield host

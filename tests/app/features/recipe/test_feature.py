@@ -69,7 +69,7 @@ def type_value(window, name, text):
     window.refresh()
 
 
-def test_a_chain_is_stages_in_order():
+def test_a_draft_is_a_sequence_of_stages():
     chain, (a, b, c) = RecipeDraft(), (Stage(METHODS[name]()) for name in ("getme", "mend", "local-sd"))
     assert chain.recipe is None
     for stage in (a, b, c):
@@ -85,7 +85,7 @@ def test_a_chain_is_stages_in_order():
     assert (chain.title, chain.stages) == ("", (b, c))
 
 
-def test_an_empty_recipe_offers_nothing_to_run(window, panel):
+def test_an_empty_recipe_cannot_run(window, panel):
     assert not any(button(panel, name).isEnabled() for name in ("Run recipe", "Save", "Move up", "Remove the stage"))
     assert not window.window_actions["recipe_run"].isEnabled()
     assert window.window_actions["recipe_load"].isEnabled()
@@ -123,7 +123,7 @@ def test_enter_shows_a_stage_above(window, panel):
     assert (shown.stage.parameters.values()["p"], shown.stage.stop.values()) == (4, SHORT.values())
 
 
-def test_a_wrong_value_becomes_no_stage(window, panel):
+def test_an_invalid_value_is_not_added(window, panel):
     choose(window, "local-sd")
     type_value(window, "p", "99")
     press(button(panel, "Add"))
@@ -152,7 +152,7 @@ def test_a_recipe_is_run_as_one_run(window, panel, qtbot):
 
 
 @pytest.mark.slow
-def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, qtbot):
+def test_a_paused_recipe_shows_its_stage_and_continues_with_the_next(window, panel, qtbot):
     add(window, panel, "getme", stop=StoppingCriteria(max_iterations=100_000, tolerance=0))
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     key(window, Qt.Key.Key_F5, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
@@ -172,7 +172,7 @@ def test_a_paused_recipe_says_its_stage_and_steps_into_the_next(window, panel, q
 
 
 @pytest.mark.slow
-def test_while_a_recipe_is_paused_the_stage_at_work_may_be_changed(window, panel, qtbot):
+def test_the_active_stage_of_a_paused_recipe_can_be_changed(window, panel, qtbot):
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=2, tolerance=0))
     add(window, panel, "local-sd", stop=StoppingCriteria(max_iterations=3, tolerance=0))
     choose(window, "laplacian")
@@ -230,7 +230,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     assert title.text() == "Mine"
 
 
-def test_a_file_that_is_no_recipe_is_said_and_the_recipe_stays(window, panel, tmp_path):
+def test_an_invalid_file_is_reported_and_the_recipe_stays(window, panel, tmp_path):
     add(window, panel, "getme")
     before = window.session.recipe_draft.recipe
     path = tmp_path / "wrong.toml"
@@ -244,14 +244,14 @@ def test_a_file_that_is_no_recipe_is_said_and_the_recipe_stays(window, panel, tm
     assert window.messages.messages()[-1][1] == "The recipe was not saved"
 
 
-def test_recipes_of_hexmend_are_offered_by_title(window, panel):
+def test_built_in_recipes_are_listed_by_title(window, panel):
     offered = {action.text(): action for action in button(panel, "Load").menu().actions() if action.text()}
     assert "GETMe, then mend" in offered
     offered["GETMe, then mend"].trigger()
     assert [stage.smoother.name for stage in window.session.recipe_draft.stages] == ["getme", "mend"]
 
 
-def test_the_recipe_outlives_the_mesh(window, panel, qtbot, mesh_file):
+def test_the_recipe_stays_when_another_mesh_is_opened(window, panel, qtbot, mesh_file):
     add(window, panel, "getme")
     open_and_wait(qtbot, window, mesh_file)
     assert len(stages(panel)) == 1

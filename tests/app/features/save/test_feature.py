@@ -21,7 +21,7 @@ from tests.app.driving import key, open_and_wait, phase
 from tests.patience import PATIENCE
 
 
-def test_saving_writes_the_mesh_as_it_is_now(window, qtbot, tmp_path):
+def test_saving_writes_the_displayed_mesh(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     window.session.run.stop()
@@ -50,7 +50,7 @@ def test_a_mesh_is_saved_in_any_format_after_a_session_was_opened(window, qtbot,
 
 @pytest.mark.slow
 @pytest.mark.parametrize("size", [(640, 480), (1500, 500)])
-def test_a_picture_has_the_size_asked_for_whatever_the_window(window, tmp_path, size):
+def test_a_picture_has_the_requested_size(window, tmp_path, size):
     window.action("cut").trigger()
     window.refresh()
     assert window.features["save"].picture(tmp_path / "view.png", size)
@@ -87,7 +87,7 @@ def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, v
 
 
 @pytest.mark.slow
-def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch):
+def test_the_dialog_remembers_the_last_picture(window, qtbot, tmp_path, monkeypatch):
     save = window.features["save"]
     dialog = save.picture_dialog()
     qtbot.addWidget(dialog)
@@ -105,7 +105,7 @@ def test_the_next_picture_is_like_the_last(window, qtbot, tmp_path, monkeypatch)
     assert again.scene().camera.pose == window.canvas.pose
 
 
-def test_edges_that_are_off_in_the_view_are_off_in_the_picture(window):
+def test_hidden_edges_are_not_in_the_picture(window):
     window.session.view.change(edges=False)
     window.refresh()
     assert window.canvas.scene(Page()).lines == LineStyle(0.0)

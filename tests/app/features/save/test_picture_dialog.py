@@ -24,7 +24,7 @@ def own_settings(tmp_path):
 
 
 class Nothing:
-    """A page that is empty."""
+    """Renderer of an empty page."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -70,7 +70,7 @@ def type_into(dialog, name, text):
 
 
 @pytest.mark.parametrize("name", ["p.gif", "p.jpg", "p.v2"])
-def test_a_suffix_that_cannot_be_written_is_refused_with_what_can(dialog, tmp_path, name):
+def test_an_unknown_suffix_is_rejected_with_the_known_ones(dialog, tmp_path, name):
     write(dialog, tmp_path / name)
     save(dialog)
     assert dialog.isVisible()
@@ -91,7 +91,7 @@ def test_a_name_without_a_suffix_gets_one(dialog, tmp_path):
     assert dialog.target.path() == tmp_path / "p.png"
 
 
-def test_no_name_is_no_file(dialog):
+def test_an_empty_name_is_rejected(dialog):
     write(dialog, " ")
     save(dialog)
     assert dialog.isVisible()
@@ -99,7 +99,7 @@ def test_no_name_is_no_file(dialog):
 
 
 @pytest.mark.parametrize("answer", [QMessageBox.StandardButton.Yes, QMessageBox.StandardButton.No])
-def test_a_file_is_replaced_only_when_that_is_meant(dialog, tmp_path, monkeypatch, answer):
+def test_a_file_is_replaced_only_after_confirmation(dialog, tmp_path, monkeypatch, answer):
     monkeypatch.setattr(QMessageBox, "exec", lambda self: answer)
     (tmp_path / "p.png").write_text("another")
     write(dialog, tmp_path / "p")
@@ -107,7 +107,7 @@ def test_a_file_is_replaced_only_when_that_is_meant(dialog, tmp_path, monkeypatc
     assert bool(dialog.result()) == (answer == QMessageBox.StandardButton.Yes)
 
 
-def test_it_begins_in_the_folder_of_the_other_dialogs_and_they_go_on_in_its(dialog, qtbot, tmp_path):
+def test_all_dialogs_share_the_last_folder(dialog, qtbot, tmp_path):
     (tmp_path / "pictures").mkdir()
     write(dialog, tmp_path / "pictures" / "p.png")
     save(dialog)
@@ -116,7 +116,7 @@ def test_it_begins_in_the_folder_of_the_other_dialogs_and_they_go_on_in_its(dial
     assert made(qtbot).target.path() == tmp_path / "bridge.png"
 
 
-def test_what_is_not_touched_stays_as_it_is(qtbot):
+def test_unchanged_settings_are_preserved(qtbot):
     scene = Scene(
         page=Page(170, 90, dpi=450, background="#102030", margin=2.5, crop=True, font_size=7.5),
         bar=ColourBarStyle(TextPlace.RIGHT, (0.0, 0.25), "title"),
@@ -141,7 +141,7 @@ def test_a_size_is_chosen_in_millimetres_or_pixels(dialog):
     assert size.preset.currentText().startswith("Full HD")
 
 
-def test_what_cannot_be_used_is_said_and_not_saved(dialog, tmp_path):
+def test_invalid_values_are_reported_and_not_saved(dialog, tmp_path):
     write(dialog, tmp_path / "p.png")
     type_into(dialog, "ticks", "0, half")
     assert "'0, half' is no number" in said(dialog)[0]
@@ -156,7 +156,7 @@ def test_what_cannot_be_used_is_said_and_not_saved(dialog, tmp_path):
     assert dialog.scene().page.background == "#ff00ff"
 
 
-def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
+def test_a_scene_is_saved_and_loaded(dialog, tmp_path):
     type_into(dialog, "edges", "0.4")
     dialog.save_scene(str(tmp_path / "scene.toml"))
     assert read_scene(tmp_path / "scene.toml") == dialog.scene()
@@ -172,7 +172,7 @@ def test_a_scene_is_kept_in_a_file_and_taken_from_one(dialog, tmp_path):
 
 
 @pytest.mark.slow
-def test_the_preview_is_the_picture_in_small(qtbot):
+def test_the_preview_is_a_small_picture(qtbot):
     subject = PageMesh.of(grid(3))
     dialog = made(qtbot, draw=lambda scene: draw_page(scene, [subject]))
     qtbot.waitUntil(lambda: not dialog.preview.picture.isNull(), timeout=PATIENCE)
@@ -187,7 +187,7 @@ def test_the_preview_is_the_picture_in_small(qtbot):
     qtbot.waitUntil(lambda: dialog.preview.picture.height() > dialog.preview.picture.width(), timeout=PATIENCE)
 
 
-def test_a_page_too_small_for_its_panels_is_said(qtbot):
+def test_a_page_too_small_for_its_panels_is_reported(qtbot):
     subject = PageMesh.of(grid(2))
     scene = Scene(panels=(PicturePanel(),) * 12, page=Page(pixels=(64, 30), columns=1))
     with pytest.raises(ParameterError, match="too few for 12 panels"):

@@ -47,7 +47,7 @@ def stop(qtbot, session):
 
 
 def same_again(session, tmp_path):
-    """Save the mesh, let the script do everything again, and compare what it has saved."""
+    """Save the mesh, run the script, and compare the files; return the script."""
     out, script = tmp_path / "out.vtu", tmp_path / "script.py"
     save_and_wait(session, out)
     before = io.read(out)

@@ -1,4 +1,4 @@
-"""No action that changes the mesh, writes a file or changes what is seen is missing from the script."""
+"""The script records all actions that change the mesh or the view, or write files."""
 
 from fnmatch import fnmatch
 
@@ -59,7 +59,7 @@ TOLD = {
 }  # fmt: skip
 
 
-def test_every_action_is_told_or_named_as_one_that_need_not_be(window):
+def test_every_action_is_recorded_or_listed_as_exempt(window):
     told = [id for ids in TOLD.values() for id in ids]
     untold = {id for id in window.window_actions if any(fnmatch(id, one) for one in UNTOLD)}
     assert set(told) & untold == set()
@@ -68,7 +68,7 @@ def test_every_action_is_told_or_named_as_one_that_need_not_be(window):
 
 @pytest.fixture
 def others(window, qtbot, tmp_path, monkeypatch):
-    """What has to be there before some of the actions, and after them; files go to a folder of the test's own."""
+    """Prepare the actions that need it; files are written to a temporary folder."""
     session = window.session
 
     def target(parent, title, proposed, kinds, *chosen):
@@ -125,7 +125,7 @@ def others(window, qtbot, tmp_path, monkeypatch):
 
 
 def write_turned(path):
-    """A mesh that the doctor can mend: two blocks, one of them turned inside out."""
+    """Return a mesh that the doctor can repair: two blocks, one of them inside out."""
     one = make("cube", size=27)
     places = np.vstack([one.points, one.points + [np.ptp(one.points[:, 0]), 0, 0]])
     turned = one.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]] + one.n_nodes
@@ -133,7 +133,7 @@ def write_turned(path):
 
 
 def rest(window, qtbot):
-    """Let what was begun come to its end, but for a run that goes on."""
+    """Wait for all tasks except an active run."""
     session, features = window.session, window.features
     qtbot.waitUntil(
         lambda: (
@@ -158,7 +158,7 @@ def can_be_done(window, action):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("group", TOLD)
-def test_what_an_action_does_is_seen_in_the_script(window, qtbot, others, group):
+def test_actions_appear_in_the_script(window, qtbot, others, group):
     script = window.features["script"].script
     for id in TOLD[group]:
         others.get(id, lambda: None)()

@@ -1,4 +1,4 @@
-"""The script in the window: seen as it grows, copied, saved, and run."""
+"""The script in the window: shown, copied, saved and run."""
 
 import subprocess
 import sys
@@ -15,7 +15,7 @@ from tests.patience import PATIENCE
 
 @pytest.fixture(autouse=True)
 def nothing_done_before(window):
-    """What other tests have done in the window they share is not in the script."""
+    """Clear the script, because tests share the window."""
     window.features["script"].script.restart()
 
 
@@ -31,7 +31,7 @@ def shown(window, panel):
     return panel.findChild(QPlainTextEdit).toPlainText()
 
 
-def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
+def test_actions_appear_as_they_happen(window, panel, qtbot):
     assert "import hexmend as hx" in shown(window, panel)
     before = shown(window, panel)
     choose(window, "local-sd", StoppingCriteria(max_iterations=2, tolerance=0))
@@ -42,7 +42,7 @@ def test_what_is_done_is_seen_as_it_is_done(window, panel, qtbot):
     assert "hx.smooth(" in shown(window, panel)[len(done) :]
 
 
-def test_it_begins_anew_with_the_mesh_as_it_is(window, panel, tmp_path):
+def test_it_restarts_with_the_current_mesh(window, panel, tmp_path):
     save_and_wait(window.session, tmp_path / "out.vtu")
     assert "out.vtu" in shown(window, panel)
     press(named(panel, QPushButton, "Restart the script"))
@@ -72,5 +72,5 @@ def test_it_is_saved_under_a_python_name_and_runs(window, panel, tmp_path, monke
     assert (tmp_path / "out.vtu").exists()
 
 
-def test_why_it_was_not_saved_is_said(window, tmp_path):
+def test_a_failed_save_returns_false(window, tmp_path):
     assert not window.features["script"].save(tmp_path / "nowhere" / "script.py")

@@ -1,4 +1,4 @@
-"""Every file that the window writes is written again by the script, the same."""
+"""The script writes the same files as the window."""
 
 import csv
 import os
@@ -31,7 +31,7 @@ CLOCKS = ("seconds", "setup_seconds", "message")
 
 @pytest.fixture(autouse=True)
 def script(window):
-    """What other tests have done in the window they share is not in the script."""
+    """Clear the script, because tests share the window."""
     script = window.features["script"].script
     script.restart()
     return script
@@ -59,7 +59,7 @@ def at(window, number):
 
 
 def again(script, folder, *paths):
-    """What some files hold, and what they hold once the script has written them anew."""
+    """Return the contents of files before and after the script has run."""
     before = [content(path) for path in paths]
     for path in paths:
         path.unlink()
@@ -73,7 +73,7 @@ def again(script, folder, *paths):
 
 
 def content(path: Path):
-    """The bytes of a file; rows of a table without times."""
+    """Return the bytes of a file, or the rows of a table without times."""
     if path.suffix != ".csv":
         return path.read_bytes()
     rows = list(csv.DictReader(path.read_text().splitlines()))
@@ -82,7 +82,7 @@ def content(path: Path):
 
 
 def frames(data, folder):
-    """The pictures that a file's bytes hold, (frames, h, w, 3)."""
+    """Return the pictures in the bytes of a file, (frames, h, w, 3)."""
     path = folder / "frames"
     path.write_bytes(data)
     with Image.open(path) as image:
@@ -96,7 +96,7 @@ def assert_same_pictures(both, folder):
     assert abs(before - after).mean() < 0.1
 
 
-def test_a_histogram_with_what_was_kept(window, qtbot, script, tmp_path):
+def test_a_histogram_with_snapshots(window, qtbot, script, tmp_path):
     run(window, qtbot)
     panel, feature = window.features["histogram"].panel, window.features["histogram"]
     at(window, 2)
@@ -136,13 +136,13 @@ def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
     assert window.features["hex_inspector"].save(paths[0])
     window.features["recipe"].save(paths[1])
     dialog = window.features["save"].picture_dialog()
-    dialog.keep(str(paths[2]))
+    dialog.save_scene(str(paths[2]))
     dialog.close()
     for before, after in again(script, tmp_path, *paths):
         assert before == after
 
 
-def test_a_table_of_methods_and_what_was_taken_of_it(window, qtbot, script, tmp_path):
+def test_a_comparison_table_and_an_adopted_result(window, qtbot, script, tmp_path):
     compared(window, qtbot, "laplacian", "getme")
     window.session.commands.take("GETMe", window.session.comparison.of("getme").state)
     save_and_wait(window.session, tmp_path / "out.vtu")
@@ -154,7 +154,7 @@ def test_a_table_of_methods_and_what_was_taken_of_it(window, qtbot, script, tmp_
     assert script.text.count("hx.compare(") == 1
 
 
-def test_a_comparison_that_was_ended_ends_where_it_did(window, qtbot, script, tmp_path):
+def test_a_cancelled_comparison_ends_at_the_same_iterations(window, qtbot, script, tmp_path):
     comparison = window.session.comparison
     comparison.start([METHODS["laplacian"](), METHODS["local-sd"](), METHODS["getme"]()], StoppingCriteria(10**6, 0.0))
     qtbot.waitUntil(lambda: comparison.progress.iteration > 2, timeout=PATIENCE)
@@ -167,7 +167,7 @@ def test_a_comparison_that_was_ended_ends_where_it_did(window, qtbot, script, tm
 
 
 @pytest.mark.parametrize("view", ["plain", "beside", "wipe", "movement", "cut"])
-def test_a_picture_of_all_that_is_shown(window, qtbot, script, tmp_path, view):
+def test_a_picture_of_the_view(window, qtbot, script, tmp_path, view):
     session = window.session
     if view == "cut":
         window.action("cut").trigger()
@@ -188,7 +188,7 @@ def test_a_picture_of_all_that_is_shown(window, qtbot, script, tmp_path, view):
     assert_same_pictures(both, tmp_path)
 
 
-def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path):
+def test_the_meshes_of_an_opened_picture(window, qtbot, script, tmp_path):
     session = window.session
     save_and_wait(session, tmp_path / "before.vtu")
     run(window, qtbot)
@@ -207,7 +207,7 @@ def test_the_meshes_of_a_picture_that_was_opened(window, qtbot, script, tmp_path
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".png"])
-def test_a_film_of_what_moves(window, qtbot, script, tmp_path, suffix):
+def test_a_film_with_displacements(window, qtbot, script, tmp_path, suffix):
     run(window, qtbot)
     window.session.view.colour_by("q-change")
     window.session.view.change(traces=Traces(Since.ITERATION, Arrows.ALL, 2.0))
@@ -235,7 +235,7 @@ def test_a_figure_set(window, qtbot, script, tmp_path):
         assert before == after
 
 
-def test_what_a_session_has_kept_is_read_from_it(window, qtbot, script, tmp_path):
+def test_runs_and_snapshots_are_read_from_the_session(window, qtbot, script, tmp_path):
     session = window.session
     run(window, qtbot)
     at(window, 2)

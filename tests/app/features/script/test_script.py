@@ -1,4 +1,4 @@
-"""What is done to a mesh is done again by the script, by Python alone and to the bit."""
+"""The script repeats changes of a mesh bit for bit."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ def test_a_run_is_one_line(session, qtbot, tmp_path):
     assert "hx.write(" in text
 
 
-def test_what_was_pinned_tagged_undone_and_reset_is_so_again(session, qtbot, tmp_path):
+def test_pins_tags_undo_and_reset_are_repeated(session, qtbot, tmp_path):
     commands = session.commands
     commands.pin(np.arange(40, 400), True)
     commands.pin(50, False)
@@ -49,13 +49,13 @@ def test_what_was_pinned_tagged_undone_and_reset_is_so_again(session, qtbot, tmp
     assert "np.r_[40:400]" in text
 
 
-def test_a_run_that_was_stopped_ends_where_it_did(session, qtbot, tmp_path):
+def test_a_stopped_run_ends_at_the_same_iteration(session, qtbot, tmp_path):
     paused(qtbot, session, stage("local-sd", ENDLESS), 4)
     stop(qtbot, session)
     assert "watch=lambda it: it.number < 4" in same_again(session, tmp_path)
 
 
-def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_path):
+def test_changes_during_a_run_are_repeated(session, qtbot, tmp_path):
     paused(qtbot, session, stage("local-sd", ENDLESS), 3)
     session.run.change(stage("laplacian", ENDLESS))
     paused(qtbot, session, None, 2)
@@ -67,20 +67,20 @@ def test_a_run_that_was_changed_on_the_way_is_changed_again(session, qtbot, tmp_
 
 
 @pytest.mark.slow
-def test_what_ended_by_the_clock_has_a_limit_of_iterations(session, qtbot, tmp_path):
+def test_time_limits_become_iteration_limits(session, qtbot, tmp_path):
     timed = StoppingCriteria(max_iterations=100_000, tolerance=0, max_seconds=0.05)
     run(qtbot, session, Recipe.of(stage("local-sd", timed), stage("laplacian")))
     run(qtbot, session, stage("local-sd", timed))
     assert "max_seconds" not in same_again(session, tmp_path)
 
 
-def test_a_mesh_that_is_saved_in_a_pause_is_that_of_the_iteration(session, qtbot, tmp_path):
+def test_a_mesh_saved_during_a_pause_is_the_iteration(session, qtbot, tmp_path):
     paused(qtbot, session, stage("local-sd", ENDLESS), 4)
     same_again(session, tmp_path)
 
 
 @pytest.mark.slow
-def test_an_iteration_that_was_gone_back_to_is_where_a_branch_begins(session, qtbot, tmp_path):
+def test_a_branch_starts_at_the_displayed_iteration(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     session.commands.pin(3, True)
     session.timeline.go(session.timeline.record, 2)
@@ -92,7 +92,7 @@ def test_an_iteration_that_was_gone_back_to_is_where_a_branch_begins(session, qt
 
 
 @pytest.mark.slow
-def test_a_sweep_node_by_node_is_made_again(session, tmp_path):
+def test_a_sweep_node_by_node_is_repeated(session, tmp_path):
     smoother = METHODS["local-sd"]()
     session.node_sweep.advance(smoother, 12)
     session.node_sweep.finish(smoother)
@@ -102,7 +102,7 @@ def test_a_sweep_node_by_node_is_made_again(session, tmp_path):
 
 
 @pytest.mark.slow
-def test_what_the_doctor_mends_is_mended_again(session, qtbot, tmp_path):
+def test_repairs_of_the_doctor_are_repeated(session, qtbot, tmp_path):
     one = make("cube", size=27)
     other = one.points + [np.ptp(one.points[:, 0]), 0, 0]
     turned = one.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]]
@@ -119,7 +119,7 @@ def test_what_the_doctor_mends_is_mended_again(session, qtbot, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_method_that_was_compared_and_taken_is_run_again(session, qtbot, tmp_path):
+def test_a_compared_method_is_run_again(session, qtbot, tmp_path):
     session.commands.pin(7, True)
     session.comparison.start([METHODS["laplacian"](), METHODS["getme"](relaxation=0.75)], SHORT)
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""A script reads from a session, and continues after a restart, what it cannot repeat."""
+"""Scripts read from a session what they cannot repeat, also after a restart."""
 
 import subprocess
 import sys
@@ -17,7 +17,7 @@ from tests.patience import PATIENCE
 
 
 @pytest.mark.slow
-def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtbot, tmp_path):
+def test_an_opened_session_continues_with_its_undo_history(session, qtbot, tmp_path):
     session.commands.pin(7, True)
     run(qtbot, session, stage("laplacian"))
     kept = tmp_path / "kept.hexmend"
@@ -33,7 +33,7 @@ def test_a_session_that_is_opened_is_gone_on_from_with_its_way_back(session, qtb
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["x\nraise SystemExit(3) #", "x\rraise SystemExit(3) #", "x\0"])
-def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, name):
+def test_the_name_of_a_run_cannot_end_a_comment(session, qtbot, tmp_path, name):
     session.script.scene = Scene
     run(qtbot, session, stage("laplacian"))
     session.history.records[0].name = name
@@ -45,7 +45,7 @@ def test_what_a_session_calls_a_run_ends_no_comment(session, qtbot, tmp_path, na
 
 
 @pytest.mark.slow
-def test_begun_anew_after_a_run_it_goes_on_from_what_the_run_made(session, qtbot, tmp_path):
+def test_restarted_after_a_run_it_continues_from_the_result(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     session.script.restart()
     run(qtbot, session, stage("laplacian"))
@@ -56,7 +56,7 @@ def test_begun_anew_after_a_run_it_goes_on_from_what_the_run_made(session, qtbot
     same_again(session, tmp_path)
 
 
-def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtbot, tmp_path):
+def test_restarted_after_runs_from_one_start_it_continues_from_there(session, qtbot, tmp_path):
     session.commands.pin(7, True)
     for method in ("local-sd", "laplacian"):
         run(qtbot, session, stage(method))
@@ -69,7 +69,7 @@ def test_begun_anew_after_runs_from_one_start_it_goes_on_from_there(session, qtb
 
 
 @pytest.mark.slow
-def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_path):
+def test_a_comparison_is_read_from_the_session(session, qtbot, tmp_path):
     session.comparison.start([METHODS["local-sd"](), METHODS["laplacian"]()], SHORT)
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
     run(qtbot, session, stage("mend"))
@@ -86,7 +86,7 @@ def test_a_comparison_that_a_session_holds_is_read_from_it(session, qtbot, tmp_p
 
 
 @pytest.mark.slow
-def test_a_session_that_is_saved_over_is_read_by_its_new_numbers(session, qtbot, tmp_path):
+def test_an_overwritten_session_is_read_by_its_new_numbers(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     run(qtbot, session, stage("laplacian"))
     kept = tmp_path / "kept.hexmend"
@@ -117,7 +117,7 @@ def test_a_snapshot_of_a_session_is_read_from_it(session, qtbot, tmp_path):
     assert ".snapshots[0].points" in same_again(session, tmp_path)
 
 
-def test_what_reads_a_file_that_was_saved_over_says_so(session, qtbot, path):
+def test_entries_that_read_an_overwritten_file_are_marked(session, qtbot, path):
     run(qtbot, session, stage("laplacian"))
     assert "overwritten" not in session.script.text
     save_and_wait(session, path)
@@ -126,7 +126,7 @@ def test_what_reads_a_file_that_was_saved_over_says_so(session, qtbot, path):
     assert "overwritten" in session.script.entries[0]
 
 
-def test_without_a_mesh_there_is_nothing_to_do(qtbot, tmp_path):
+def test_without_a_mesh_the_script_is_empty(qtbot, tmp_path):
     session = Session()
     script = tmp_path / "script.py"
     Script(session, session).write(script)

@@ -1,4 +1,4 @@
-"""What panels are set to, and the way of the camera, are in the session: another window that opens it is the same."""
+"""Sessions contain the settings of panels and the pose history: another window restores them."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def at_rest(window, qtbot):
 
 
 def seen(window, qtbot):
-    """All of a window that a session has to restore: its state, and what every widget is set to."""
+    """Return the state that a session must restore: the session and the settings of all widgets."""
     at_rest(window, qtbot)
     lines = [one for one in known(window, qtbot) if one.startswith(_KEPT) and not one.startswith(_NOT_KEPT)]
     for widget in window.findChildren(QWidget):
@@ -69,8 +69,8 @@ def saved(window, tmp_path):
     return path
 
 
-def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window, other_window, qtbot, tmp_path):
-    """Everything that a hand can set has been set to something else."""
+def test_a_session_restores_the_whole_window(fresh_window, other_window, qtbot, tmp_path):
+    """All settings differ from the defaults."""
     window, other = fresh_window, other_window
     live(window, qtbot)
     compare = window.features["compare"].panel
@@ -93,7 +93,7 @@ def test_a_window_that_opens_a_session_is_as_the_one_that_saved_it(fresh_window,
     assert seen(other, qtbot) == before
 
 
-def test_the_ways_back_and_forward_are_gone_again(window, qtbot, tmp_path):
+def test_the_pose_history_is_restored(window, qtbot, tmp_path):
     poses = []
     for direction in ("+x", "-y", "+z"):
         window.canvas.look_along(direction)
@@ -115,7 +115,7 @@ def test_the_ways_back_and_forward_are_gone_again(window, qtbot, tmp_path):
     assert window.action("view_forward").isEnabled()
 
 
-def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qtbot, tmp_path):
+def test_escape_restores_the_camera_before_an_isolation(window, qtbot, tmp_path):
     at_rest(window, qtbot)
     before = window.canvas.pose
     key(window, Qt.Key.Key_N)  # isolates the worst, and flies there
@@ -129,7 +129,7 @@ def test_esc_flies_back_to_where_it_was_before_something_was_isolated(window, qt
     assert window.canvas.pose.position == pytest.approx(before.position)
 
 
-def test_the_patch_of_a_node_stays_isolated_and_follows_the_node(window, qtbot, tmp_path):
+def test_an_isolated_patch_follows_the_node(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_D)
     panel = window.features["node_step"].panel
     box = named(panel, QCheckBox, "Isolate patch")
@@ -151,7 +151,7 @@ def test_the_patch_of_a_node_stays_isolated_and_follows_the_node(window, qtbot, 
     assert box.isChecked()
 
 
-def test_a_cut_that_is_off_is_proposed_as_it_was(window, qtbot, tmp_path, mesh_file):
+def test_a_disabled_cut_is_restored(window, qtbot, tmp_path, mesh_file):
     view = window.session.view
     box = BoxClip((0.1, 0.1, 0.1), (0.4, 0.4, 0.4), crinkle=False)
     for clip in (PlaneClip.at((1, 2, 3), (0.5, 0.5, 0.5)), box):
@@ -169,8 +169,8 @@ def test_a_cut_that_is_off_is_proposed_as_it_was(window, qtbot, tmp_path, mesh_f
     assert view.look.clip == box
 
 
-def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot, tmp_path):
-    """Such a file knows nothing of choices, of colours of runs, nor of the way of the camera."""
+def test_a_session_of_version_1_leaves_panels_unchanged(window, qtbot, tmp_path):
+    """The file has no panel settings, no colours of runs and no pose history."""
     run(window, qtbot, "laplacian")
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
@@ -195,7 +195,7 @@ def test_a_session_of_the_first_version_leaves_panels_as_they_are(window, qtbot,
         window.features["open"].open(path)
 
 
-def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_path):
+def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
     look = data["window"]["view"]["look"]
@@ -215,7 +215,7 @@ def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_pat
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
 ])  # fmt: skip
-def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, field, value, said):
+def test_unknown_settings_are_rejected(window, qtbot, tmp_path, part, field, value, said):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
     data["window"]["features"][part][field] = value
@@ -225,7 +225,7 @@ def test_choices_that_there_are_not_are_refused(window, qtbot, tmp_path, part, f
     assert said in window.messages.messages()[-1][2]
 
 
-def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
+def test_too_many_iterations_per_step_are_rejected(window, qtbot, tmp_path):
     path = saved(window, tmp_path)
     _, data = read_archive(path, "Hexmend session", VERSION)
     data["window"]["features"]["steps"] = 10**20
@@ -235,7 +235,7 @@ def test_a_step_of_too_many_iterations_is_refused(window, qtbot, tmp_path):
     assert "the number of steps is not from 1 to 1,000,000" in window.messages.messages()[-1][2]
 
 
-def test_the_charts_of_sessions_are_those_that_are_offered(window):
+def test_the_charts_of_sessions_match_the_panel(window):
     assert tuple(window.features["convergence"].panel.head.charts) == CHARTS
 
 

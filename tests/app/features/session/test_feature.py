@@ -1,4 +1,4 @@
-"""Sessions: saved from the window and opened again, the same picture, the same tables, the same moment."""
+"""Sessions saved from the window and restored: picture, tables and iteration."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def run(window, qtbot, method, iterations=4):
 
 
 def work(window, qtbot):
-    """Do some of everything that a session keeps."""
+    """Change all parts of a session."""
     session = window.session
     run(window, qtbot, "laplacian")
     session.commands.tag("bad corner", [3, 5, 8])
@@ -66,7 +66,7 @@ def work(window, qtbot):
 
 
 def seen(window, qtbot):
-    """The picture of the view when all that is looked for is found and nothing moves."""
+    """Return the pixels of the view when all tasks and animations have ended."""
     session = window.session
     window.refresh()
     qtbot.waitUntil(
@@ -82,7 +82,7 @@ def seen(window, qtbot):
 
 
 def tables(window):
-    """What tables and charts are made from."""
+    """Return the data of tables and charts."""
     session = window.session
     history = session.history
     moment = session.timeline.moment
@@ -115,7 +115,7 @@ def tables(window):
     }
 
 
-def test_a_session_is_as_it_was(window, qtbot, tmp_path, mesh_file):
+def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
     work(window, qtbot)
     path = tmp_path / "work.hexmend"
     session = window.session
@@ -135,8 +135,8 @@ def test_a_session_is_as_it_was(window, qtbot, tmp_path, mesh_file):
             np.testing.assert_array_equal(record.points(number), place)
 
 
-def test_what_is_restored_goes_on(window, qtbot, tmp_path):
-    """Undo, the timeline, branches, breakpoints and further runs work as if the session had never been closed."""
+def test_a_restored_session_can_be_continued(window, qtbot, tmp_path):
+    """Undo, timeline, branches, breakpoints and runs work after restoring."""
     work(window, qtbot)
     session = window.session
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -162,7 +162,7 @@ def test_what_is_restored_goes_on(window, qtbot, tmp_path):
     assert session.history.records[-1].parent.record is first
 
 
-def test_the_title_names_the_session_and_marks_what_is_not_saved(window, qtbot, tmp_path):
+def test_the_title_shows_the_session_and_unsaved_changes(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     assert window.isWindowModified()
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
@@ -178,7 +178,7 @@ def test_the_title_names_the_session_and_marks_what_is_not_saved(window, qtbot, 
     assert window.isWindowModified()
 
 
-def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path):
+def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian")
     session = window.session
     session.timeline.go(session.history.records[0], 1)
@@ -192,7 +192,7 @@ def test_an_iteration_that_was_gone_back_to_is_no_change(window, qtbot, tmp_path
     assert session.document.now.summary == session.history.records[0].end.summary
 
 
-def test_a_question_about_unsaved_work_saves_the_session_that_was_opened(window, qtbot, tmp_path, monkeypatch):
+def test_unsaved_work_is_saved_to_the_opened_session(window, qtbot, tmp_path, monkeypatch):
     window.features["session"].save_and_wait(tmp_path / "work.hexmend")
     run(window, qtbot, "laplacian")
     asked = []
@@ -208,7 +208,7 @@ def test_a_question_about_unsaved_work_saves_the_session_that_was_opened(window,
     assert [record.name for record in window.session.history.records] == ["Laplacian"]
 
 
-def test_a_paused_run_is_saved_as_far_as_it_is(window, qtbot, tmp_path):
+def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     key(window, Qt.Key.Key_F10)
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     window.refresh()
@@ -245,7 +245,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
     assert bare_window.canvas.pose == pose
 
 
-def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtbot, tmp_path):
+def test_a_damaged_session_is_rejected_and_the_open_mesh_stays(window, qtbot, tmp_path):
     path = tmp_path / "work.hexmend"
     window.features["session"].save_and_wait(path)
     _, description = read_archive(path, "Hexmend session", VERSION)
@@ -259,6 +259,6 @@ def test_a_session_that_is_damaged_is_refused_and_what_is_open_stays(window, qtb
     assert "the window.view.look has an unknown field 'colour'" in text
 
 
-def test_where_it_cannot_be_written_the_old_one_stays(window, tmp_path):
+def test_a_failed_save_is_reported(window, tmp_path):
     assert not window.features["session"].save_and_wait(tmp_path / "missing" / "work.hexmend")
     assert window.messages.messages()[-1][1] == "The session was not saved"

@@ -1,4 +1,4 @@
-"""A window that ends unexpectedly leaves its session, and the next offers it."""
+"""Recovery of the session of a window that ended unexpectedly."""
 
 from __future__ import annotations
 
@@ -58,14 +58,14 @@ app.exec()
 
 @pytest.fixture(autouse=True)
 def own_state(tmp_path, monkeypatch):
-    """A folder of the test's own for what windows leave."""
+    """Use a temporary folder for autosaved sessions; return it."""
     monkeypatch.setenv(VARIABLE, str(tmp_path / "state"))
     return tmp_path / "state" / "windows"
 
 
 @pytest.fixture
 def killed(tmp_path, mesh_file, qapp):
-    """What a window had come to before its process was killed."""
+    """Kill the process of a window during its work; return the points and rows that it had printed."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "XDG_CONFIG_HOME": str(tmp_path / "config")}
     command = [sys.executable, "-c", _PROGRAM, str(mesh_file)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
@@ -89,7 +89,7 @@ def run(window, qtbot):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
 
 
-def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
+def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, own_state):
     window, session = fresh_window, fresh_window.session
     window.features["session"].start_autosave()
     assert offered(window) == [f"{mesh_file.name} can be recovered"]
@@ -109,7 +109,7 @@ def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh
     assert not window.features["session"].recovery.left
 
 
-def test_what_was_left_is_offered_again_unless_it_is_discarded(killed, fresh_window, own_state):
+def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
     feature = fresh_window.features["session"]
     feature.start_autosave()
     assert offered(fresh_window)
@@ -125,7 +125,7 @@ def test_what_was_left_is_offered_again_unless_it_is_discarded(killed, fresh_win
     assert list(own_state.iterdir()) == []
 
 
-def test_a_window_that_ends_in_order_leaves_nothing(fresh_window, qtbot, own_state, mesh_file):
+def test_a_closed_window_leaves_no_files(fresh_window, qtbot, own_state, mesh_file):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
     recovery.write()
@@ -141,7 +141,7 @@ def test_a_window_that_ends_in_order_leaves_nothing(fresh_window, qtbot, own_sta
     assert list(own_state.iterdir()) == []
 
 
-def test_of_a_session_that_is_kept_again_only_what_is_new_is_written(fresh_window, qtbot, own_state):
+def test_autosave_writes_only_changes(fresh_window, qtbot, own_state):
     session, recovery = fresh_window.session, fresh_window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
@@ -159,8 +159,8 @@ def test_of_a_session_that_is_kept_again_only_what_is_new_is_written(fresh_windo
 
 
 @pytest.mark.parametrize("name", ["session.hexmend", "earlier.hexmend"])
-def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot, own_state, mesh_file, name):
-    """Be it that a window was killed while it wrote all that is in it anew."""
+def test_a_file_of_an_earlier_version_is_recovered(fresh_window, qtbot, own_state, mesh_file, name):
+    """Also if the window was killed while it converted the file."""
     run(fresh_window, qtbot)
     (own_state / "1-left").mkdir(parents=True)
     session_data.write(own_state / "1-left" / name, fresh_window.session.to_data())
@@ -181,7 +181,7 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
     assert session_data.read(own / "session.hexmend").view.look.peel == 1
 
 
-def test_of_another_mesh_nothing_is_left_that_was_being_written_anew(fresh_window, qtbot, own_state, mesh_file):
+def test_opening_another_mesh_removes_old_files(fresh_window, qtbot, own_state, mesh_file):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
     (own,) = own_state.iterdir()
@@ -191,7 +191,7 @@ def test_of_another_mesh_nothing_is_left_that_was_being_written_anew(fresh_windo
     recovery.end()
 
 
-def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
+def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
     recovery = fresh_window.features["session"].recovery
     recovery.begin()
     with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
@@ -213,7 +213,7 @@ def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
     recovery.end()
 
 
-def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
+def test_a_failed_autosave_is_reported_once(fresh_window, tmp_path):
     (tmp_path / "state").write_text("in the way")
     feature = fresh_window.features["session"]
     feature.start_autosave()
@@ -223,7 +223,7 @@ def test_where_nothing_can_be_written_it_is_said_once(fresh_window, tmp_path):
     assert not feature.recovery.watching
 
 
-def test_a_change_while_the_session_is_being_written_is_written_too(fresh_window, qtbot, own_state):
+def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
     run(fresh_window, qtbot)
     recovery = fresh_window.features["session"].recovery
     recovery.begin()

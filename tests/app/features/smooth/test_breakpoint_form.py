@@ -15,7 +15,7 @@ from hexmend_app.features.smooth.breakpoint_form import BreakpointForm
         Breakpoints(hex=7, change=0.5, backtracks=9),
     ],
 )
-def test_what_is_set_is_told_and_read_back(qtbot, breakpoints):
+def test_breakpoints_are_emitted_and_read_back(qtbot, breakpoints):
     form = BreakpointForm()
     qtbot.addWidget(form)
     form.set_mesh(10, 20)
@@ -25,7 +25,7 @@ def test_what_is_set_is_told_and_read_back(qtbot, breakpoints):
     assert form.breakpoints() == breakpoints
 
 
-def test_another_mesh_has_nothing_watched_but_what_is_meant_of_any(qtbot):
+def test_another_mesh_removes_breakpoints_on_single_hexes_and_nodes(qtbot):
     form = BreakpointForm()
     qtbot.addWidget(form)
     form.set_mesh(10, 20)

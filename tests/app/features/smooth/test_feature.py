@@ -63,7 +63,7 @@ def test_run_pause_step_stop_reset_by_mouse(endless, qtbot):
     assert document.undo_title == "reset"
 
 
-def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
+def test_a_complete_run_untangles_and_shows_it(window, qtbot):
     choose(window, "mend", StoppingCriteria(tolerance=1e-2))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         key(window, Qt.Key.Key_F5)
@@ -73,7 +73,7 @@ def test_a_run_to_the_end_untangles_and_says_so(window, qtbot):
 
 
 @pytest.mark.parametrize("back", [Qt.Key.Key_Z, Qt.Key.Key_R], ids=["undo", "reset"])
-def test_what_is_said_of_a_run_goes_as_its_result_does_and_comes_back_with_it(window, qtbot, back):
+def test_the_outcome_of_a_run_follows_undo_and_redo(window, qtbot, back):
     panel, before = window.features["smooth"].panel, counts(window)
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
@@ -101,14 +101,14 @@ def test_keys_step_and_stop(window, qtbot):
 
 
 @pytest.mark.slow
-def test_the_picture_follows_the_iterations(window, qtbot):
+def test_the_view_follows_the_iterations(window, qtbot):
     before = pixels(window)
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)
     qtbot.waitUntil(lambda: (np.abs(pixels(window) - before).sum(axis=2) > 60).mean() > 0.002, timeout=PATIENCE)
 
 
-def test_a_method_with_a_wrong_value_is_not_started(window):
+def test_a_method_with_an_invalid_value_is_not_started(window):
     choose(window, "mend")
     panel = window.features["smooth"].panel
     panel.findChild(Section).expand()

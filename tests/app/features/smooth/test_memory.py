@@ -36,7 +36,7 @@ def asked(window, monkeypatch):
 
 
 @pytest.mark.slow
-def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
+def test_a_run_starts_only_with_consent(window, qtbot, asked):
     session = window.session
     before = session.document.now
     choose(window, "mend", StoppingCriteria(max_iterations=2))
@@ -56,14 +56,14 @@ def test_a_run_begins_only_if_it_is_agreed(window, qtbot, asked):
 
 
 @pytest.mark.slow
-def test_nothing_is_asked_where_memory_suffices(window, qtbot, asked):
+def test_sufficient_memory_needs_no_consent(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(max_iterations=2))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
     assert not asked
 
 
-def test_a_recipe_and_a_comparison_ask_too(window, asked):
+def test_a_recipe_and_a_comparison_need_consent(window, asked):
     session = window.session
     session.recipe_draft.add(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2)))
     session.recipe_draft.add(Stage(METHODS["mend"](), StoppingCriteria(max_iterations=2)))
@@ -74,7 +74,7 @@ def test_a_recipe_and_a_comparison_ask_too(window, asked):
     assert len(asked) == 2
 
 
-def test_a_branch_that_is_not_agreed_leaves_the_run_under_way(window, qtbot, asked):
+def test_a_branch_without_consent_leaves_the_active_run(window, qtbot, asked):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0))
     click(window, "Step")
     qtbot.waitUntil(phase(window, Phase.PAUSED), timeout=PATIENCE)

@@ -54,7 +54,7 @@ def sections(panel):
     return panel.findChildren(Section)
 
 
-def test_run_asks_with_what_is_set(panel, heard):
+def test_run_and_step_request_the_stage_of_the_form(panel, heard):
     panel.run_or_pause()
     panel.step()
     assert heard == [("run_requested", _STAGE), ("step_requested", _STAGE, 1)]
@@ -87,7 +87,7 @@ def test_keys_choose_a_method_and_each_keeps_its_values(panel, setup):
     assert setup.stage == _STAGE
 
 
-def test_what_somebody_else_chooses_is_shown(panel, setup, heard):
+def test_a_stage_set_elsewhere_is_shown(panel, setup, heard):
     setup.choose(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3)))
     assert named(panel, QComboBox, "Method").currentText() == METHODS["laplacian"].title
     assert panel.stage.stop.values()["max_iterations"] == 3
@@ -96,7 +96,7 @@ def test_what_somebody_else_chooses_is_shown(panel, setup, heard):
     assert heard == [("run_requested", setup.stage)]
 
 
-def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, setup):
+def test_settings_changed_while_paused_change_the_run(panel, setup):
     changes = []
     panel.change_requested.connect(changes.append)
     setup.begun = setup.stage
@@ -110,7 +110,7 @@ def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, setup):
     assert setup.stage.smoother.scaling > 0.25
 
 
-def test_a_wrong_value_is_led_to_instead_of_run_with(panel, setup, heard):
+def test_run_shows_an_invalid_value(panel, setup, heard):
     parameters = sections(panel)[0]
     parameters.expand()
     editor = panel.stage.parameters.editor("scaling")
@@ -128,7 +128,7 @@ def test_a_wrong_value_is_led_to_instead_of_run_with(panel, setup, heard):
     assert editor.hasFocus()
 
 
-def test_status_says_how_far_it_is_and_wraps_the_outcome(panel, qtbot):
+def test_the_status_shows_progress_and_wraps_the_outcome(panel, qtbot):
     panel.set_status(12, 1.839, "Converged: no node moved further than the tolerance. " * 3)
     progress, sentence = named(panel, QLabel, "Progress"), named(panel, QLabel, "Outcome")
     assert progress.text().split("·")[0].strip() == "12 iterations"
@@ -158,7 +158,7 @@ def test_buttons_show_their_actions(window, qtbot):
 
 
 @pytest.mark.parametrize(("height", "opened"), [(1200, True), (220, False)])
-def test_parameters_are_unfolded_where_there_is_room(shown, setup, height, opened):
+def test_parameters_are_expanded_if_they_fit(shown, setup, height, opened):
     panel = SmoothingPanel(setup)
     area = QScrollArea()
     area.setWidget(panel)
@@ -168,7 +168,7 @@ def test_parameters_are_unfolded_where_there_is_room(shown, setup, height, opene
     assert panel.stage.parameters.editor("scaling").isVisible() is opened
 
 
-def test_a_folded_section_is_not_walked_through_and_opens_by_key(panel):
+def test_a_collapsed_section_is_hidden_and_opens_by_key(panel):
     section = sections(panel)[0]
     section.collapse()
     assert not panel.stage.parameters.isVisible()
@@ -178,7 +178,7 @@ def test_a_folded_section_is_not_walked_through_and_opens_by_key(panel):
     assert panel.stage.parameters.editor("scaling").height() > 15
 
 
-def test_nothing_moves_as_a_sentence_comes_and_goes(panel, qtbot):
+def test_widgets_do_not_move_when_the_sentence_changes(panel, qtbot):
     def places():
         panel.layout().activate()
         return [part.pos() for part in (panel.buttons, *sections(panel))]
@@ -193,7 +193,7 @@ def test_nothing_moves_as_a_sentence_comes_and_goes(panel, qtbot):
     assert places() == before
 
 
-def test_a_long_run_makes_the_panel_no_wider(panel):
+def test_the_panel_keeps_its_width_during_a_long_run(panel):
     panel.set_status()
     before = panel.minimumSizeHint().width()
     panel.set_status(123_456, 98_765.43, "Running.")

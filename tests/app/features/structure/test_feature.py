@@ -1,4 +1,4 @@
-"""The structure of a mesh in the window, shown by mouse and keys."""
+"""Layers of the structure in the window, by mouse and keys."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     np.testing.assert_array_equal(pixels(five), before)
 
 
-def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_angle(five, qtbot):
+def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
     panel = five.features["structure"].panel
@@ -59,7 +59,7 @@ def test_kinds_of_nodes_are_found_when_they_are_wanted_and_follow_the_feature_an
     assert count(pixels(five), KINDS[NodeClass.CURVE]) == 0
 
 
-def test_a_pin_makes_a_node_of_the_boundary_stay(five, qtbot):
+def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
     press_key(five, "kinds")
     qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
     node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
@@ -98,14 +98,14 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     assert not window.canvas.viewport.extras.optional["original"].shown
 
 
-def test_a_mesh_without_them_offers_no_irregular_edges(five):
+def test_empty_layers_are_disabled(five):
     assert not five.window_actions["show_boundary"].isEnabled()
     assert not five.window_actions["show_locked"].isEnabled()
     press_key(five, "boundary")
     assert five.session.view.look.structure == Structure()
 
 
-def test_irregular_edges_are_found_by_name_and_seen(five, qtbot):
+def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
     five.window_actions["commands"].trigger()
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
@@ -148,7 +148,7 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     assert len(texts(five.features["structure"].panel, "fixed")) == 1
 
 
-def test_another_mesh_with_as_many_free_nodes_has_its_own_boundary(window, qtbot, tmp_path):
+def test_boundary_counts_follow_the_mesh(window, qtbot, tmp_path):
     mesh, one = grid(2), grid(1)
     apart = Mesh(
         np.concatenate([mesh.points, one.points + 9]), np.concatenate([mesh.hexes, one.hexes + len(mesh.points)])
@@ -196,7 +196,7 @@ def test_nothing_is_cut_off(five, qtbot, size):
     assert panel.mapTo(five, panel.rect().bottomRight()).x() < size[0]
 
 
-def test_other_cells_are_shown_and_told_of(window, qtbot, tmp_path):
+def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     bare = grid(2, 2, 1)
     tip = bare.points[bare.hexes[0, 4:]].mean(axis=0) + [0, 0, 1]
     pyramid = Cells("pyramid", np.array([[*bare.hexes[0, 4:], bare.n_nodes]]))

@@ -1,4 +1,4 @@
-"""The structure is found beside the window, and belongs to the mesh that is open."""
+"""The structure of the open mesh is found in the background."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def begin_searching(window):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("searching", [False, True])
-def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
+def test_closing_during_the_search_leaves_no_thread(fresh_window, qtbot, mesh_file, searching):
     window = fresh_window
     if window.session.structure_finder.structure is None:
         qtbot.waitSignal(window.session.structure_finder.found, timeout=PATIENCE).wait()
@@ -36,7 +36,7 @@ def test_closing_before_it_is_found_leaves_no_thread(fresh_window, qtbot, mesh_f
     assert window.session.structure_finder.structure is None
 
 
-def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(window, qtbot):
+def test_the_structure_of_the_last_opened_mesh_is_found(window, qtbot):
     first, last = State.of(gallery.make("five-side", size=30_000)), State.of(grid(2))
     window.session.document.replace(first, None)
     begin_searching(window)
@@ -45,7 +45,7 @@ def test_of_meshes_opened_one_after_the_other_the_last_ones_structure_is_found(w
     assert len(window.session.structure_finder.structure.sharp) == 24
 
 
-def test_a_layer_stays_on_for_the_next_mesh_as_soon_as_its_edges_are_found(five, qtbot, tmp_path):
+def test_a_layer_stays_on_for_the_next_mesh(five, qtbot, tmp_path):
     press_key(five, "sharp")
     press_key(five, "irregular")
     io.write(tmp_path / "cube.vtu", grid(3))

@@ -1,4 +1,4 @@
-"""What of the structure the panel counts and offers."""
+"""Counts and check boxes of the structure panel."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def panel(qtbot):
     return panel
 
 
-def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
+def test_only_layers_of_nodes_are_enabled_before_the_edges_are_found(panel):
     assert texts(panel, "irregular") == []
     panel.set_found(None)
     panel.set_classes(None)
@@ -44,7 +44,7 @@ def test_before_the_edges_are_found_they_cannot_be_chosen_and_nodes_can(panel):
     assert texts(panel, "locked") == ["of 2 hexes"]
 
 
-def test_kinds_that_could_not_be_worked_out_are_not_said_to_be_counted(panel):
+def test_a_failed_classification_is_reported(panel):
     panel.set_classes(None, ValueError("no boundary"))
     assert texts(panel, "kinds") == ["failed"]
     assert not panel.offered()["kinds"]
@@ -76,7 +76,7 @@ def test_no_count_is_cut_off_in_a_narrow_column(panel, qtbot):
             assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
 
 
-def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off(panel):
+def test_an_empty_layer_is_disabled_but_can_be_switched_off(panel):
     panel.set_found(find_structure(grid(2)))
     panel.set_nodes(26, 0, 1, 0)
     panel.set_legend("original", OriginalSurface.legend(grid(2)))
@@ -96,7 +96,7 @@ def test_what_a_mesh_has_not_is_disabled_with_its_reason_but_can_be_switched_off
     assert not panel.offered()["irregular"]
 
 
-def test_a_click_chooses_one_layer_more(panel):
+def test_a_click_adds_a_layer(panel):
     panel.set_found(find_structure(grid(2)))
     heard = []
     panel.structure_changed.connect(heard.append)

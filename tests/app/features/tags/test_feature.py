@@ -40,7 +40,7 @@ def tags(window):
     return {name: members.tolist() for name, members in window.session.document.now.mesh.hex_sets.items()}
 
 
-def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(window, panel, tmp_path):
+def test_a_hex_is_tagged_and_untagged_by_key_undone_and_saved(window, panel, tmp_path):
     key(window, Qt.Key.Key_T)
     assert tags(window) == {}
     key(window, Qt.Key.Key_N)
@@ -65,7 +65,7 @@ def test_an_element_is_tagged_by_key_and_the_tag_taken_away_undone_and_saved(win
     assert kept.hex_sets["tagged"].tolist() == sorted([first, second])
 
 
-def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, panel):
+def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name = panel.findChild(QComboBox)
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "bad ones")
@@ -86,7 +86,7 @@ def test_what_is_shown_or_listed_is_tagged_under_a_name_and_isolated(window, pan
     assert list(tags(window)) == ["bad ones"]
 
 
-def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
+def test_a_typed_name_is_not_completed_or_added(window, panel):
     window.session.commands.tag("Tagged", [1])
     window.refresh()
     name = panel.findChild(QComboBox)
@@ -97,7 +97,7 @@ def test_a_name_that_is_typed_stays_as_it_is_and_is_no_tag_yet(window, panel):
     assert [name.itemText(at) for at in range(name.count())] == ["Tagged"]
 
 
-def test_a_tag_is_renamed_in_its_row_but_not_to_a_name_that_is_taken(window, panel, qtbot):
+def test_a_tag_is_renamed_unless_the_name_exists(window, panel, qtbot):
     window.session.commands.tag("one", [1, 2])
     window.session.commands.tag("two", [3])
     window.refresh()
@@ -134,7 +134,7 @@ def test_tags_stay_while_a_smoother_runs_and_after_a_reset(window, panel, qtbot)
     np.testing.assert_array_equal(window.session.document.now.mesh.points, window.session.document.start.mesh.points)
 
 
-def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, qtbot):
+def test_tagging_keeps_the_displayed_iteration(window, panel, qtbot):
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
     with qtbot.waitSignal(window.session.run.ended, timeout=PATIENCE):
         click(window, "Run")
@@ -147,7 +147,7 @@ def test_tagging_after_a_run_leaves_the_iteration_that_is_shown(window, panel, q
     assert shown.text() == before
 
 
-def test_a_format_that_cannot_hold_tags_is_said(window, panel, tmp_path):
+def test_a_format_without_tags_is_reported(window, panel, tmp_path):
     window.session.commands.tag("lost", [5])
     assert window.features["save"].save_and_wait(tmp_path / "mesh.mesh")
     kind, title, text = window.messages.messages()[-1]

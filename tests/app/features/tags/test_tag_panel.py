@@ -40,7 +40,7 @@ def said(panel):
         (True, False, " ", "Enter a tag name"),
     ],
 )
-def test_what_is_refused_has_a_reason(panel, refused, rows, selected, busy, name, word):
+def test_a_refused_tag_has_a_reason(panel, refused, rows, selected, busy, name, word):
     panel.set_tags(rows)
     panel.findChild(QComboBox).setEditText(name)
     panel.set_state(selected, busy)
@@ -51,13 +51,13 @@ def test_what_is_refused_has_a_reason(panel, refused, rows, selected, busy, name
     assert any(word in text or ("Select a hex" in text and not busy and name.strip()) for text in said(panel))
 
 
-def test_what_is_possible_is_done(panel, refused):
+def test_a_selected_hex_is_tagged(panel, refused):
     panel.set_state(True, False)
     panel.toggle()
     assert refused == ["tagged tagged"]
 
 
-def test_the_panel_keeps_its_height_whatever_is_said(panel):
+def test_the_panel_keeps_its_height(panel):
     heights = set()
     for selected, busy in ((True, False), (False, False), (True, True)):
         panel.set_tags([TagRow("one", 3, 0, 0.5)])
@@ -74,7 +74,7 @@ def host(qtbot):
     host.session.close()
 
 
-def test_the_key_says_why_nothing_is_tagged_while_a_run_is_paused(host, qtbot):
+def test_the_shortcut_reports_that_a_run_is_paused(host, qtbot):
     feature = FeatureTags(host)
     tag = action(feature, "tag")
     smoothing = host.session.run

@@ -75,7 +75,7 @@ def check(window, text):
     assert box.isChecked()
 
 
-def test_the_bar_waits_for_a_run(window):
+def test_the_bar_is_disabled_without_a_run(window):
     bar = window.features["timeline"].panel
     assert bar.isVisible()
     assert not any(bar.button(name).isEnabled() for name in ("first", "back", "play", "on", "newest", "branch"))
@@ -98,7 +98,7 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state is not newest
 
 
-def test_keys_go_back_and_on_and_to_the_ends(window, qtbot):
+def test_shortcuts_show_other_iterations(window, qtbot):
     stepped(window, qtbot)
     for pressed, number in (
         (Qt.Key.Key_Comma, 11),
@@ -135,7 +135,7 @@ def test_buttons_and_playing(window, qtbot):
 
 
 @pytest.mark.slow
-def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
+def test_a_branch_is_a_second_run(window, qtbot):
     first = stepped(window, qtbot)
     go(window, qtbot, 4)
     choose(window, "laplacian", StoppingCriteria(tolerance=0.0, max_iterations=3))
@@ -158,7 +158,7 @@ def test_a_branch_by_another_method_is_a_run_beside(window, qtbot):
     assert window.session.document.now is window.session.document.start
 
 
-def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
+def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     window.features["smooth"].panel.show_breakpoints()
     check(window, "A hex inverts")
     choose(window, "laplacian", ENDLESS)
@@ -176,7 +176,7 @@ def test_a_break_point_pauses_says_why_and_chooses_the_element(window, qtbot):
 @pytest.mark.parametrize(
     ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
-def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
+def test_breakpoints_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
     window.features["smooth"].panel.show_breakpoints()
     mesh = window.session.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
@@ -194,7 +194,7 @@ def test_break_points_for_a_node_and_for_the_line_search(window, qtbot, text, me
     assert window.session.selection.node == (node if chooses else None)
 
 
-def test_what_is_saved_is_the_iteration_shown(window, qtbot, tmp_path):
+def test_saving_writes_the_displayed_iteration(window, qtbot, tmp_path):
     from hexmend import io
 
     record = stepped(window, qtbot)
@@ -244,7 +244,7 @@ def test_another_mesh_has_an_empty_timeline(window, qtbot, mesh_file):
 
 
 @pytest.mark.slow
-def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbot):
+def test_the_method_can_change_while_a_run_is_paused(window, qtbot):
     record = stepped(window, qtbot, 4)
     click(window, "Step")
     qtbot.waitUntil(lambda: at(window, 8)() and phase(window, Phase.PAUSED)(), timeout=PATIENCE)
@@ -267,7 +267,7 @@ def test_the_method_and_its_values_may_change_while_a_run_is_paused(window, qtbo
 
 
 @pytest.mark.slow
-def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot):
+def test_an_unchanged_run_resumes_as_it_was(window, qtbot):
     record = stepped(window, qtbot, 3, "local-nr")
     with qtbot.assertNotEmitted(window.features["smooth"].panel.change_requested):
         click(window, "Step")
@@ -276,7 +276,7 @@ def test_a_paused_run_goes_on_as_it_was_where_nothing_was_changed(window, qtbot)
 
 
 @pytest.mark.slow
-def test_an_iteration_stays_in_a_view_of_its_own_while_others_are_gone_through(window, qtbot):
+def test_an_iteration_stays_in_its_side_view(window, qtbot):
     stepped(window, qtbot, 6)
     go(window, qtbot, 2)
     kept = window.session.document.now
