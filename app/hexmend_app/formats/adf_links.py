@@ -10,8 +10,8 @@ from hexmend.errors import FileError
 
 #: Position and text of the file signature; the CGNS library treats all other files as HDF5.
 _SIGNATURE = slice(4, 24), b"ADF Database Version"
-#: Signature and length of a node header, in bytes: its name is at 4, its type at 96 ("LK" for a link), the number of data
-#: chunks at 226, and their block and offset at 230.
+#: Signature and length of a node header, in bytes: its name is at 4, its type at 96 ("LK" for a link), the number of
+#: data chunks at 226, and their block and offset at 230.
 _NODE, _HEADER = b"NoDe", 246
 #: Length of a block, and offset of the text in the data of a link, in bytes.
 _BLOCK, _TEXT_OFFSET = 4096, 16
@@ -24,7 +24,9 @@ def check_links(path: Path) -> None:
     """
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         if data[_SIGNATURE[0]] != _SIGNATURE[1]:
-            raise FileError(path, "is no CGNS file based on ADF: its signature is missing", "Write it again, based on HDF5.")
+            raise FileError(
+                path, "is no CGNS file based on ADF: its signature is missing", "Write it again, based on HDF5."
+            )
         at = data.find(_NODE)
         while at >= 0:
             header = data[at : at + _HEADER]

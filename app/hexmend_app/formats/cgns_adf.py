@@ -40,7 +40,9 @@ def content(path: Path) -> Content:
         raise FileError(
             path, "contains no cells that VTK can read", "Write it again with the program that made it, based on HDF5."
         )
-    notes = ["Boundary conditions of CGNS files based on ADF are not read; adf2hdf converts the file to one with all data."]
+    notes = [
+        "Boundary conditions of CGNS files based on ADF are not read; adf2hdf converts the file to one with all data."
+    ]
     if len(zones) > 1:
         notes.append(f"{len(zones)} zones are read as one mesh; VTK does not report their connections. {JOIN_HINT}")
     points, blocks, data, first = [], [], [], 0
@@ -54,7 +56,6 @@ def content(path: Path) -> Content:
         first += len(zone_points)
     node_data = concatenate_data(data, [len(part) for part in points])
     return Content(np.concatenate(points), tuple(blocks), node_data, notes=tuple(notes))
-
 
 
 def _leaves(data: object, name: str = "") -> list[tuple[str, object]]:

@@ -128,7 +128,7 @@ class Cut(ConfigTable):
             raise ParameterError("the cut has planes and a box: expected one of them")
         if self.hexes:
             if self.style is not CutStyle.CRINKLE or not (self.planes or self.box):
-                raise ParameterError("hexes are listed without a cut by whole hexes: expected planes or a box, and style crinkle")
+                raise ParameterError("hexes require a cut by whole hexes: expected planes or a box, and style crinkle")
             try:
                 CutLeft(PlaneClip(), _ranges(self.hexes))
             except ValueError as error:
@@ -158,7 +158,7 @@ class Cut(ConfigTable):
 
     @classmethod
     def from_clip(cls, clip: Clip | None, left: CutLeft | None = None) -> Cut:
-        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed unless the text is too long."""
+        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed if the text is not too long."""
         if clip is None:
             return cls()
         options = {"style": CutStyle.CRINKLE if clip.crinkle else CutStyle.SMOOTH, "notch": clip.notch}
@@ -167,7 +167,6 @@ class Cut(ConfigTable):
         if isinstance(clip, BoxClip):
             return cls(box=Box(clip.low, clip.high), **options)
         return cls(tuple(Plane(plane.normal, point=plane.origin) for plane in clip.planes), **options)
-
 
 
 def _text(ranges: tuple[tuple[int, int], ...]) -> str:

@@ -33,7 +33,9 @@ class NamedCameras(ConfigTable):
         """Raise `ParameterError` for empty names and names with surrounding spaces."""
         for name in self.named:
             if not name or name != name.strip():
-                raise ParameterError(f"{name!r} is no valid name of a camera: expected a text without surrounding spaces")
+                raise ParameterError(
+                    f"{name!r} is no valid name of a camera: expected a text without surrounding spaces"
+                )
 
 
 def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str, Camera]:

@@ -169,7 +169,9 @@ class Page(ConfigTable):
         if self.background not in ("white", "transparent") and not re.fullmatch("#[0-9a-fA-F]{6}", self.background):
             raise ParameterError(f"background = {self.background!r} is unknown: expected white, transparent or #rrggbb")
         if 2 * self.pixels_of(self.margin) > min(width, height) - _MIN_SIDE:
-            raise ParameterError(f"margin = {self.margin:g} leaves no space: expected less than half a side of the page")
+            raise ParameterError(
+                f"margin = {self.margin:g} leaves no space: expected less than half a side of the page"
+            )
 
     @property
     def size(self) -> tuple[int, int]:

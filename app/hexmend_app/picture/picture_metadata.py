@@ -50,7 +50,9 @@ class PicturedMesh(ConfigTable):
     def check(self) -> None:
         """Raise `ParameterError` for an invalid path or digest."""
         if "\\" in self.file or ":" in self.file or PurePosixPath(self.file).is_absolute():
-            raise ParameterError(f"file = {self.file!r} is no path relative to the picture: expected, for example, ../mesh.vtu")
+            raise ParameterError(
+                f"file = {self.file!r} is no path relative to the picture: expected, for example, ../mesh.vtu"
+            )
         for value in (self.opened, self.shown):
             if not re.fullmatch("[0-9a-f]{64}", value):
                 raise ParameterError(f"{value!r} is no digest: expected 64 hexadecimal digits")
@@ -138,7 +140,9 @@ def read_metadata(path: str | os.PathLike[str]) -> PictureMetadata:
             raise ParameterError("no mesh is listed")
         scene.panels_of(len(about.meshes))
     except ParameterError as error:
-        raise FileError(Path(path), f"the scene in this picture is invalid: {error}", "Open the mesh that it shows.") from None
+        raise FileError(
+            Path(path), f"the scene in this picture is invalid: {error}", "Open the mesh that it shows."
+        ) from None
     return PictureMetadata(scene, about.meshes, recipe)
 
 

@@ -11,7 +11,7 @@ from vtkmodules.vtkInteractionWidgets import vtkBoxRepresentation, vtkBoxWidget2
 from hexmend_app.picture.cut_planes import BoxClip
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import PLANE_EDGE, PLANE_ACTIVE, rgb
+from hexmend_app.theme.palette import PLANE_ACTIVE, PLANE_EDGE, rgb
 
 
 class BoxWidget(Handles):

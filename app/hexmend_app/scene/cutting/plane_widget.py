@@ -9,7 +9,7 @@ from vtkmodules.vtkInteractionWidgets import vtkImplicitPlaneRepresentation, vtk
 from hexmend_app.picture.cut_planes import ClipPlane
 from hexmend_app.scene.cutting.handles import Handles
 from hexmend_app.scene.views.pane import Pane
-from hexmend_app.theme.palette import PLANE, PLANE_EDGE, PLANE_ACTIVE, rgb
+from hexmend_app.theme.palette import PLANE, PLANE_ACTIVE, PLANE_EDGE, rgb
 
 
 class PlaneWidget(Handles):

@@ -92,9 +92,7 @@ def pictures(
             yield _compose(Image.fromarray(stage.picture()), film_frame.caption, viewport, size, strip)
 
 
-def _compose(
-    picture: Image.Image, caption: str, viewport: Viewport, size: tuple[int, int], strip: int
-) -> Image.Image:
+def _compose(picture: Image.Image, caption: str, viewport: Viewport, size: tuple[int, int], strip: int) -> Image.Image:
     """Add a caption above a picture, a histogram on its right if the picture leaves space, and a colour bar below."""
     whole = paper(size, picture.mode)
     whole.paste(picture, (0, strip))

@@ -97,7 +97,9 @@ def _movement(
     if since is not None:
         return movement_since(since, name, first.mesh, opened)
     if len(meshes) == 1:
-        raise ParameterError("the scene shows the movement of a mesh: name the mesh before the movement first, then the mesh")
+        raise ParameterError(
+            "the scene shows the movement of a mesh: name the mesh before the movement first, then the mesh"
+        )
     return Displacement(
         opened, ReferenceState(first.mesh.points, first.figures, first.name), first.mesh.points, first.figures
     )

@@ -179,12 +179,13 @@ class _Views:
         for tile in tiles:
             tiles.aim(view.camera, whole, tile)
             rendered = self._render(mode, tiles.fine)
-            image.paste(rendered.crop((around, around, around + tile.width, around + tile.height)), (tile.left, tile.top))
+            box = around, around, around + tile.width, around + tile.height
+            image.paste(rendered.crop(box), (tile.left, tile.top))
         for layer in view.layers:
             window.RemoveRenderer(layer)
         return image.convert("RGBA") if mode == "RGBa" else image
 
-def _render(self, mode: str, fine: int) -> Image.Image:
+    def _render(self, mode: str, fine: int) -> Image.Image:
         """Render the stage and average its supersampled pixels."""
         pixels = self._stage.picture(transparent=self._background is None)
         image = Image.frombuffer(mode, pixels.shape[1::-1], pixels, "raw", mode, 0, 1)
