@@ -158,7 +158,7 @@ class Cut(ConfigTable):
 
     @classmethod
     def from_clip(cls, clip: Clip | None, left: CutLeft | None = None) -> Cut:
-        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed if the text is not too long."""
+        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed unless too many."""
         if clip is None:
             return cls()
         options = {"style": CutStyle.CRINKLE if clip.crinkle else CutStyle.SMOOTH, "notch": clip.notch}
