@@ -10,8 +10,8 @@ from hexmend.errors import FileError
 
 #: Position and text of the file signature; the CGNS library treats all other files as HDF5.
 _SIGNATURE = slice(4, 24), b"ADF Database Version"
-#: Signature and length of a node header, in bytes: its name is at 4, its type at 96 ("LK" for a link), the number of data
-#: chunks at 226, and their block and offset at 230.
+#: Signature and length of a node header, in bytes: its name is at 4, its type at 96 ("LK" for a link), the number of
+#: data chunks at 226, and their block and offset at 230.
 _NODE, _HEADER = b"NoDe", 246
 #: Length of a block, and offset of the text in the data of a link, in bytes.
 _BLOCK, _TEXT_OFFSET = 4096, 16

@@ -39,8 +39,8 @@ class CameraPose:
         position, focal, up, _, scale, axis = astuple(self)
         if not np.isfinite([*position, *focal, *up, scale]).all() or position == focal or not any(up) or scale <= 0:
             raise ValueError(
-                "the camera pose is invalid: expected finite numbers, a position other than the focal point, a nonzero up "
-                "vector and a positive scale"
+                "the camera pose is invalid: expected finite numbers, a position other than the focal point, a nonzero"
+                " up vector and a positive scale"
             )
         if axis not in ("x", "y", "z"):
             raise ValueError(f"the vertical axis is {axis!r}: expected x, y or z")

@@ -128,9 +128,7 @@ class Cut(ConfigTable):
             raise ParameterError("the cut has planes and a box: expected one of them")
         if self.hexes:
             if self.style is not CutStyle.CRINKLE or not (self.planes or self.box):
-                raise ParameterError(
-                    "hexes are listed without a cut by whole hexes: expected planes or a box, and style crinkle"
-                )
+                raise ParameterError("hexes require a cut by whole hexes: expected planes or a box, and style crinkle")
             try:
                 CutLeft(PlaneClip(), _ranges(self.hexes))
             except ValueError as error:
@@ -160,7 +158,7 @@ class Cut(ConfigTable):
 
     @classmethod
     def from_clip(cls, clip: Clip | None, left: CutLeft | None = None) -> Cut:
-        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed unless the text is too long."""
+        """Return the table of a cut, in the unit of the mesh; remaining hexes are listed unless too many."""
         if clip is None:
             return cls()
         options = {"style": CutStyle.CRINKLE if clip.crinkle else CutStyle.SMOOTH, "notch": clip.notch}

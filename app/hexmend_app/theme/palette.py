@@ -73,8 +73,8 @@ ON_ACCENT = Role("#ffffff", "#ffffff", on=(ACCENT, ACCENT_HOVER, ACCENT_PRESSED)
 ON_CHOSEN = Role("#003f66", "#d3e9fb", on=(CHOSEN,))
 FAINT = Role("#a3abb6", "#69737f")  # disabled texts
 
-# Colours of Okabe and Ito, which can be distinguished with all kinds of colour vision; BETTER and WORSE are bluish green
-# and vermilion, darkened or lightened to be legible.
+# Colours of Okabe and Ito, which can be distinguished with all kinds of colour vision; BETTER and WORSE are bluish
+# green and vermilion, darkened or lightened to be legible.
 BLUE = Role("#0072b2", "#6cb9f0", on=(*_NEUTRAL, INFO))
 BETTER = Role("#00745a", "#45c4a0", on=_NEUTRAL)
 WORSE = Role("#b34400", "#ff9d63", on=(*_NEUTRAL, WRONG))
@@ -114,8 +114,8 @@ TRIED = Role("#d55e00", "#ff8a4a")
 PATCH = Role("#ffffff", "#ffffff")
 OTHERWISE = Role("#9a80f0", "#b3a0ff")  # the patch after or before the step
 
-#: Colours of snapshots, by slot: those of Okabe and Ito except blue, which is for the current mesh, and yellow, which is
-#: too pale for lines.
+#: Colours of snapshots, by slot: those of Okabe and Ito except blue, which is for the current mesh, and yellow, which
+#: is too pale for lines.
 KEPT = (
     Role("#d55e00", "#d55e00"),
     Role("#009e73", "#009e73"),

@@ -71,7 +71,7 @@ def test_a_file_of_that_kind_is_read(library, joined, tmp_path):
     assert found.n_hexes == 27 + 8
     assert summarise(found).q_min == pytest.approx(1)
     assert sorted(len(members) for members in found.hex_sets.values()) == [8, 27]
-    assert any("boundary conditions" in note for note in found.notes)
+    assert any("Boundary conditions" in note for note in found.notes)
 
 
 def test_a_damaged_file_ends_no_process_but_its_own(library, joined, tmp_path):

@@ -16,8 +16,8 @@ from hexmend_app.theme.palette import INVERTED as MAGENTA
 #: Neutral colours: of boundary faces, and of faces inside the mesh that a cut or a filter exposes.
 OUTSIDE, OPENED = (0xF2, 0xF2, 0xEF), (0xF6, 0xC9, 0x4C)
 
-#: Colour of inverted hexes: magenta, which no colour map contains. Colours of changes use it for newly inverted hexes, a
-#: duller magenta for hexes that are still inverted, and yellow for repaired hexes.
+#: Colour of inverted hexes: magenta, which no colour map contains. Colours of changes use it for newly inverted hexes,
+#: a duller magenta for hexes that are still inverted, and yellow for repaired hexes.
 INVERTED = tuple(bytes.fromhex(MAGENTA[1:]))
 _STILL, _MENDED = (0x8E, 0x4B, 0x76), (0xF0, 0xE4, 0x42)
 

@@ -8,7 +8,7 @@ from vtkmodules.vtkFiltersCore import vtkBinnedDecimation
 
 from hexmend_app.scene.layers.surface import coloured, colours_of, hexes_of
 
-#: Number of faces above which a skin is decimated while the camera moves; they take 50 ms a frame in software rendering.
+#: Number of faces above which a skin is decimated while the camera moves; they take 50 ms in software rendering.
 MANY = 30_000
 
 _DIVISIONS = 64  # of each side of the bounding box, so that a grid cell is about ten pixels wide

@@ -179,9 +179,8 @@ class _Views:
         for tile in tiles:
             tiles.aim(view.camera, whole, tile)
             rendered = self._render(mode, tiles.fine)
-            image.paste(
-                rendered.crop((around, around, around + tile.width, around + tile.height)), (tile.left, tile.top)
-            )
+            box = around, around, around + tile.width, around + tile.height
+            image.paste(rendered.crop(box), (tile.left, tile.top))
         for layer in view.layers:
             window.RemoveRenderer(layer)
         return image.convert("RGBA") if mode == "RGBa" else image

@@ -220,7 +220,7 @@ def test_what_has_moved_is_drawn_from_the_first_mesh_on():
 def test_hexes_that_the_mesh_has_not_are_refused():
     with pytest.raises(ParameterError, match="names hex 8: expected one of the mesh, below 8"):
         drawn(grid(2), show=Show(hidden=(3, 8)))
-    with pytest.raises(ParameterError, match="panel 1 shows mesh 2, and there are 1"):
+    with pytest.raises(ParameterError, match="panel 1 shows mesh 2, but there are 1"):
         drawn(grid(2), panels=(PicturePanel(mesh=2),))
 
 

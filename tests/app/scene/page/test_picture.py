@@ -159,7 +159,7 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
     assert magenta[:320].sum() == 0
     assert magenta[320:].sum() > 50
     for words, message in (
-        ([paths[0]] * 13, "12 at most"),
+        ([paths[0]] * 13, "at most 12"),
         ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
     ):
         assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
@@ -225,7 +225,7 @@ def test_looks_are_values():
     figures = measure(grid(2).points, grid(2).hexes)
     assert figures.n_inverted == 0
     assert Look() == Look()
-    with pytest.raises(ValueError, match="expected a direction"):
+    with pytest.raises(ValueError, match="expected a nonzero vector"):
         ClipPlane((0, 0, 0))
 
 

@@ -34,8 +34,8 @@ KINDS: dict[int, str] = {
     WHISKER: "#cc79a7", PIN: PINNED,
 }  # fmt: skip
 
-#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh, so that
-#: the mesh stays visible; fast frames omit their rims and marks inside, which saves 0.1 s for 26,000 marks in software
+#: Maximum number of marks of one kind that are drawn in full. More are drawn thinner, and paler inside the mesh, to
+#: keep the mesh visible; fast frames omit their rims and marks inside, which saves 0.1 s for 26,000 marks in software
 #: rendering.
 _MANY = 1500
 
