@@ -106,7 +106,7 @@ def test_what_a_killed_window_had_is_recovered(killed, fresh_window, qtbot, mesh
     assert session.document.undo_title == METHODS["laplacian"].title
     (own,) = own_state.iterdir()  # what was left is this window's now
     assert (own / "session.hexmend").exists()
-    assert not window.features["session"].recovery.left
+    assert not window.features["session"].recovery.recoverable
 
 
 def test_what_was_left_is_offered_again_unless_it_is_discarded(killed, fresh_window, own_state):
@@ -169,9 +169,9 @@ def test_a_file_that_an_earlier_version_has_left_is_offered(fresh_window, qtbot,
         (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
     feature = fresh_window.features["session"]
     feature.start_autosave()
-    (left,) = feature.recovery.left
+    (left,) = feature.recovery.recoverable
     with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
-        feature.recovery.take_up(left)
+        feature.recovery.recover(left)
     assert len(fresh_window.session.history.records) == 1
     fresh_window.session.view.change(peel=1)
     with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
@@ -203,7 +203,7 @@ def test_a_window_that_is_open_is_not_offered(fresh_window, qtbot, own_state):
         "app = QCoreApplication([])\n"
         "recovery = Recovery(Session())\n"
         "recovery.begin()\n"
-        "print(len(recovery.left))\n"
+        "print(len(recovery.recoverable))\n"
         "recovery.end()\n"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
