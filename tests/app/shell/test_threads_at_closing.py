@@ -35,14 +35,14 @@ def windows(tmp_path, monkeypatch):
 @pytest.fixture
 def kept(fresh_window, qtbot, gate, windows, monkeypatch):
     """A window whose session is being written beside it, until the gate is opened."""
-    reached, keep = threading.Event(), session_data.keep
+    reached, write_new = threading.Event(), session_data.write_new
 
     def slow(*values):
         reached.set()
         assert gate.wait(PATIENCE / 1000)
-        keep(*values)
+        write_new(*values)
 
-    monkeypatch.setattr(session_data, "keep", slow)
+    monkeypatch.setattr(session_data, "write_new", slow)
     own = fresh_window.features["session"].recovery
     own.begin()
     fresh_window.session.commands.pin(0, True)

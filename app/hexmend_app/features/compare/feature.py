@@ -169,7 +169,7 @@ class FeatureCompare(Feature):
 
     def _use(self, name: str) -> None:
         title = "restore initial mesh" if name == INITIAL else METHODS[name].title
-        self.session.commands.take(title, self._state_of(name))
+        self.session.commands.adopt_positions(title, self._state_of(name))
 
     # Files
 

@@ -127,7 +127,7 @@ class FeatureConvergence(Feature):
     def dialog(self) -> ChartDialog:
         """Return the dialog that saves the charts, with the style used last."""
         event = self._report(Path())
-        chart, file_name = figure(*event.given[1:], **event.options), f"{self.host.stem}-convergence.svg"
+        chart, file_name = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-convergence.svg"
         return ChartDialog(chart, "the charts", file_name, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:

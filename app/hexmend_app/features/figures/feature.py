@@ -85,7 +85,7 @@ class FeatureFigures(Feature):
         file = () if document.path is None else (str(document.path),)
         self._folder = folder
         self._event = FileExported("figure set", write_set, (*arguments, *file))
-        self._drawing.begin(draw(*self._event.given), _progress_text)
+        self._drawing.begin(draw(*self._event.arguments), _progress_text)
 
     def _on_failed(self, error: Exception) -> None:
         self.host.messages.show_error("Figure set not exported", f"A figure could not be drawn: {error}")

@@ -153,7 +153,7 @@ class FeatureHistogram(Feature):
     def dialog(self) -> ChartDialog:
         """Return the export dialog, with the sizes and names of the last export."""
         event = self._export_event(Path())
-        chart, proposed = figure(*event.given[1:], **event.options), f"{self.host.stem}-histogram.svg"
+        chart, proposed = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-histogram.svg"
         return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:

@@ -118,7 +118,7 @@ class FeatureOpen(Feature):
         self.host.messages.clear()
         if restored := self._restored:
             self._restored = None
-            show = self.host.messages.show_info if restored.alike else self.host.messages.show_warning
+            show = self.host.messages.show_info if restored.matches else self.host.messages.show_warning
             show(*restored_message(restored))
         elif notes := self._document.start.mesh.notes:
             self.host.messages.show_info(" ".join(notes), timeout_ms=0)

@@ -39,25 +39,25 @@ def restored_message(restored: RestoredPicture) -> tuple[str, ...]:
         text += ", in which it was changed."
     if restored.path.suffix.lower() == SUFFIX:
         text += f" To restore its runs, open {name}."
-    return (text + others,) if restored.alike else (f"Not all of {picture} was restored", text + others)
+    return (text + others,) if restored.matches else (f"Not all of {picture} was restored", text + others)
 
 
 def _other_meshes(restored: RestoredPicture) -> str:
     """Describe the other meshes of a picture, as sentences with a leading space."""
     shown = [f"“{mesh.name}”" for mesh in restored.others if mesh.state is not None]
     names = " and ".join(filter(None, (", ".join(shown[:-1]), *shown[-1:])))
-    if restored.wiped is not None:
+    if restored.wipe_position is not None:
         layout = "is shown with a wipe"
     else:
         layout = f"{'are' if len(shown) > 1 else 'is'} shown next to it"
     sentences = [f"{names} {layout}."] if shown else []
-    sentences += [_problem(mesh) for mesh in restored.others if mesh.lack is not None]
+    sentences += [_problem(mesh) for mesh in restored.others if mesh.problem is not None]
     return "".join(f" {sentence}" for sentence in sentences)
 
 
 def _problem(mesh: RestoredMesh) -> str:
     """Explain why another mesh of a picture is not shown, or how it differs."""
-    if mesh.lack is RestoreProblem.PLACES:
+    if mesh.problem is RestoreProblem.PLACES:
         return f"“{mesh.name}” differs from the picture: {mesh.file} has other node positions."
     reason = {
         RestoreProblem.NO_SPACE: f"the window shows at most {MOST + 1} views",
@@ -65,7 +65,7 @@ def _problem(mesh: RestoredMesh) -> str:
         RestoreProblem.READING: str(mesh.error).rstrip("."),
         RestoreProblem.RUN: f"it is an iteration or a result of a run on {mesh.file}, which is not stored in that file",
         RestoreProblem.HEXES: f"{mesh.file} has other hexes; side views must have the hexes of the main view",
-    }[mesh.lack]
+    }[mesh.problem]
     return f"“{mesh.name}” is not shown: {reason}."
 
 

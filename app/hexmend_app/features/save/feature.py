@@ -122,7 +122,7 @@ class FeatureSave(Feature):
         dialog = self.picture_dialog()
         if dialog.exec():
             self._last = dialog.scene()
-            self.session.saved_cameras.take_in(self._last.cameras)
+            self.session.saved_cameras.add_all(self._last.cameras)
             self.write_picture(dialog.target.path(), self._last)
         dialog.deleteLater()
 

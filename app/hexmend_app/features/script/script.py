@@ -133,7 +133,7 @@ class Script(QObject):
                     names.add_state(event.title, after, mesh_call(names.mesh(before), event.change, event.values))
             case NodesMoved(after=after, before=before):
                 if after not in names:
-                    source, mesh = names.mesh(event.places), names.mesh(before)
+                    source, mesh = names.mesh(event.source), names.mesh(before)
                     names.add_state(event.title, after, f"{mesh}.with_points({source}.points)")
             case UndoOrRedo():
                 put(f"{'undo' if event.undone else 'redo'} {event.title}: continue with {names.mesh(event.now)}")

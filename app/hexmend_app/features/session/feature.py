@@ -50,8 +50,8 @@ class FeatureSession(Feature):
                 menu="File",
                 help="Open an autosaved session after a crash.",
                 needs_mesh=False,
-                handle=lambda: self._offer(self.recovery.left[0]),
-                enabled=lambda: bool(self.recovery.left) and not self.session.opener.busy,
+                handle=lambda: self._offer(self.recovery.recoverable[0]),
+                enabled=lambda: bool(self.recovery.recoverable) and not self.session.opener.busy,
             ),
         )
 
@@ -66,10 +66,10 @@ class FeatureSession(Feature):
 
     def refresh(self) -> None:
         """Offer each recoverable session once, unless a mesh is opening, which would clear the messages."""
-        for left in self.recovery.left[:1]:
-            if left not in self._offered and not self.session.opener.busy:
-                self._offered.add(left)
-                self._offer(left)
+        for crashed in self.recovery.recoverable[:1]:
+            if crashed not in self._offered and not self.session.opener.busy:
+                self._offered.add(crashed)
+                self._offer(crashed)
 
     def close(self) -> None:
         """End autosaving; the window closes normally."""
@@ -81,17 +81,17 @@ class FeatureSession(Feature):
         if path:
             self.session.commands.save_in_background(path)
 
-    def _offer(self, left: RecoveredSession) -> None:
-        buttons = (("Recover", lambda: self._recover(left)), ("Discard", lambda: self._forget(left)))
-        self.host.messages.show_offer(*recovery_offer(left), buttons)
+    def _offer(self, crashed: RecoveredSession) -> None:
+        buttons = (("Recover", lambda: self._recover(crashed)), ("Discard", lambda: self._discard(crashed)))
+        self.host.messages.show_offer(*recovery_offer(crashed), buttons)
 
-    def _recover(self, left: RecoveredSession) -> None:
-        if left in self.recovery.left and self.host.may_leave():
-            self.recovery.take_up(left)
+    def _recover(self, crashed: RecoveredSession) -> None:
+        if crashed in self.recovery.recoverable and self.host.may_leave():
+            self.recovery.recover(crashed)
 
-    def _forget(self, left: RecoveredSession) -> None:
-        if left in self.recovery.left:
-            self.recovery.forget(left)
+    def _discard(self, crashed: RecoveredSession) -> None:
+        if crashed in self.recovery.recoverable:
+            self.recovery.discard(crashed)
         self.host.refresh_soon()
 
     def _on_state_failed(self, name: str, error: Exception) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from hexmend_app.state.session.recovery import RecoveredSession
 
 
-def recovery_offer(left: RecoveredSession) -> tuple[str, str]:
+def recovery_offer(crashed: RecoveredSession) -> tuple[str, str]:
     """Return the title and text of the offer to recover a session.
 
     >>> from datetime import datetime
@@ -14,9 +14,9 @@ def recovery_offer(left: RecoveredSession) -> tuple[str, str]:
     >>> recovery_offer(RecoveredSession(Path("a"), QLockFile("a/lock"), "five.vtu", 1, datetime(2026, 3, 1, 14, 5)))[0]
     'five.vtu can be recovered'
     """
-    runs = "" if not left.runs else f", with {left.runs} run{'s' * (left.runs != 1)}"
-    when = f"{left.when:%H:%M} on {left.when.day} {left.when:%B %Y}"
+    runs = "" if not crashed.runs else f", with {crashed.runs} run{'s' * (crashed.runs != 1)}"
+    when = f"{crashed.when:%H:%M} on {crashed.when.day} {crashed.when:%B %Y}"
     return (
-        f"{left.name or 'A mesh'} can be recovered",
+        f"{crashed.name or 'A mesh'} can be recovered",
         f"Hexmend ended unexpectedly while this mesh was open. It was last autosaved at {when}{runs}.",
     )

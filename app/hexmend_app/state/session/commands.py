@@ -1,4 +1,4 @@
-"""Commands: all changes of the state that users request go through here."""
+"""Commands: every change of the state that the user requests."""
 
 from __future__ import annotations
 
@@ -49,43 +49,44 @@ class Commands(QObject):
         self.document, self.smoothing = session.document, session.run
 
     def open(self, path: str | Path) -> None:
-        """Open a mesh; a run under way ends first. What is open stays where the file cannot be read."""
+        """Open a mesh; an active run ends first. If the file cannot be read, the open mesh stays."""
         self.smoothing.end(lambda: self._session.opener.open(path))
 
     def save_in_background(self, path: str | Path) -> SaveTask:
-        """Write the mesh as it is now, or with a session's suffix the session, in a thread.
+        """Save the mesh in a thread, or the session if the path has the suffix of sessions.
 
-        `Session.saver` tells how it ends; if it fails, the file that was there stays.
+        `Session.saver` reports the outcome; if saving fails, an existing file is left unchanged.
         """
         return self._saver.save(path)
 
     def export(self, event: FileExported) -> None:
-        """Write the file of an event, and emit the event; raises `HexmendError` if it cannot be written."""
+        """Write the file of an event, then emit the event; raises `HexmendError` if it cannot be written."""
         event.perform()
         self._session.user_event.emit(event)
 
     def run(self, stage: Stage) -> None:
-        """Run a method on the present mesh, unless another mesh is being read."""
+        """Run a method on the current mesh, unless another mesh is being read."""
         self.when_memory_suffices([stage.smoother], lambda: self._start(stage))
 
     def step(self, stage: Stage, iterations: int) -> None:
-        """Make some iterations: the next ones of a paused run, or the first ones of a new run."""
+        """Run some iterations: the next ones of a paused run, or the first ones of a new run."""
         if self.smoothing.busy:
             self.smoothing.step(iterations)
         else:
             self.when_memory_suffices([stage.smoother], lambda: self._start(stage, iterations))
 
     def when_memory_suffices(self, works: Sequence[Smoother | Recipe], start: Callable[[], object]) -> None:
-        """Call `start` if memory suffices for each of some methods on the present mesh; otherwise emit `memory_short`.
+        """Call `start` if memory suffices for each method on the current mesh; otherwise emit `memory_short`.
 
-        Nothing happens while no mesh is open, or another one is being read or repaired.
+        Do nothing if no mesh is open, or a mesh is being read or repaired.
         """
         if not self.document.is_open or self._session.opener.busy or self._repairer.busy:
             return
         free = available()
-        short = [one for work in works if (one := shortage(work, self.document.now.mesh, free)) is not None]
-        if short:
-            self.memory_short.emit(max(short, key=lambda one: one.needed), start)
+        mesh = self.document.now.mesh
+        shortages = [found for work in works if (found := shortage(work, mesh, free)) is not None]
+        if shortages:
+            self.memory_short.emit(max(shortages, key=lambda shortage: shortage.needed), start)
         else:
             start()
 
@@ -96,7 +97,7 @@ class Commands(QObject):
             self.smoothing.start(stage.smoother, stage.stop, iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:
-        """Run the methods of a recipe one after another on the present mesh, unless another mesh is being read."""
+        """Run the methods of a recipe one after another on the current mesh, unless another mesh is being read."""
         self.when_memory_suffices([recipe], lambda: self._start_recipe(recipe))
 
     def _start_recipe(self, recipe: Recipe) -> None:
@@ -104,11 +105,11 @@ class Commands(QObject):
         self.smoothing.start(recipe, None)
 
     def branch(self, stage: Stage) -> None:
-        """Run a method on the mesh as it is shown, at any iteration; an active run ends first."""
+        """Run a method on the mesh as shown, at any iteration; an active run ends first."""
         self.when_memory_suffices([stage.smoother], lambda: self.smoothing.end(lambda: self._start(stage)))
 
     def reset(self) -> None:
-        """End a run and put the nodes back to where they were when the mesh was opened."""
+        """End the run and move the nodes back to where they were when the mesh was opened."""
         self.smoothing.end(self._reset)
 
     def _reset(self) -> None:
@@ -120,11 +121,8 @@ class Commands(QObject):
         if self.document.now is not before:
             self._session.user_event.emit(NodesMoved("reset", before, self.document.now, self.document.start))
 
-    def take(self, title: str, state: State) -> None:
-        """Put the nodes to where they are in another state of the mesh, while the mesh may be changed.
-
-        What is pinned and tagged stays so.
-        """
+    def adopt_positions(self, title: str, state: State) -> None:
+        """Move the nodes to their positions in another state, if the mesh is editable; pins and tags stay."""
         if self._session.editable:
             self._session.node_sweep.leave()
             before = self.document.now
@@ -133,7 +131,7 @@ class Commands(QObject):
             self._session.user_event.emit(NodesMoved(title, before, self.document.now, state))
 
     def replace_mesh(self, title: str, state: State) -> bool:
-        """Make another mesh the open one, as one change that undo takes back; return False if it may not be changed."""
+        """Replace the open mesh as one change that can be undone; return False if the mesh is not editable."""
         if not self._session.editable:
             return False
         self._session.node_sweep.leave()
@@ -141,33 +139,30 @@ class Commands(QObject):
         return True
 
     def pin(self, nodes: int | np.ndarray, on: bool) -> None:
-        """Keep a node or several where they are whatever smooths the mesh, or let them go, while it may be changed."""
+        """Pin nodes, so that no method moves them, or unpin them, if the mesh is editable."""
         self._amend("pin" if on else "unpin", with_pinned, nodes, on)
 
     def free_only(self, hexes: Sequence[int], rings: int) -> None:
-        """Pin all nodes but those of some hexes and of so many rings around them, while the mesh may be changed."""
+        """Pin all nodes except those of some hexes and of rings of hexes around them, if the mesh is editable."""
         self._amend("free a region", with_region_free, np.asarray(hexes, dtype=np.int64), rings)
 
     def tag(self, name: str, hexes: Sequence[int], on: bool = True) -> None:
-        """Add elements to a named group of the mesh, or take them out, while the mesh may be changed.
-
-        A group of which nothing is left is no more.
-        """
+        """Add hexes to a tag or remove them from it, if the mesh is editable; an empty tag is deleted."""
         before = self.document.now.mesh.hex_sets.get(name, ())
         after = with_tag(self.document.now.mesh, name, hexes, on).hex_sets.get(name, ())
         if len(before) != len(after):
             self._amend("tag" if on else "untag", with_tag, name, np.asarray(hexes, dtype=np.int64), on)
 
     def remove_tag(self, name: str) -> None:
-        """Let a named group of elements be no more, while the mesh may be changed."""
+        """Delete a tag, if the mesh is editable."""
         self._amend("untag", without_tag, name)
 
-    def rename_tag(self, name: str, other: str) -> None:
-        """Call a group of elements otherwise, while the mesh may be changed."""
-        self._amend("rename the tag", with_tag_renamed, name, other)
+    def rename_tag(self, name: str, new_name: str) -> None:
+        """Rename a tag, if the mesh is editable."""
+        self._amend("rename the tag", with_tag_renamed, name, new_name)
 
     def _amend(self, title: str, change: Callable[..., Mesh], *values: object) -> None:
-        """Change what the mesh carries beside its nodes' places, by a function of the core that the script names."""
+        """Change pins or tags of the mesh by a function of the core, which recorded scripts call."""
         if self._session.editable:
             self._session.node_sweep.leave()
             now = self.document.now
@@ -177,14 +172,14 @@ class Commands(QObject):
             self._session.user_event.emit(MeshEdited(title, now, self.document.now, change, values))
 
     def repair(self, kinds: Sequence[str] = ()) -> bool:
-        """Begin to repair some kinds of problem that the doctor finds, or all; whether the mesh may be changed now.
+        """Start repairing some kinds of problem, or all; return False if the mesh is not editable.
 
-        `Session.repairer` tells how it ends.
+        `Session.repairer` reports the outcome.
         """
         return self._repairer.start(kinds)
 
     def undo(self) -> None:
-        """Take back the last change, unless the mesh may not be changed."""
+        """Undo the last change, if the mesh is editable."""
         if self._session.editable:
             self._session.node_sweep.leave()
             title = self.document.undo_title
@@ -193,7 +188,7 @@ class Commands(QObject):
                 self._session.user_event.emit(UndoOrRedo(title, self.document.now, undone=True))
 
     def redo(self) -> None:
-        """Do again what was taken back, unless the mesh may not be changed."""
+        """Redo the change that was undone last, if the mesh is editable."""
         if self._session.editable:
             self._session.node_sweep.leave()
             title = self.document.redo_title

@@ -1,8 +1,8 @@
-"""The way back after an unexpected end: the session is written beside the window, and found again at the next start.
+"""Autosave: writes the session in the background, and finds it again at the next start after a crash.
 
-What is new of it is written each time, into a folder that is whole at any moment (`SessionFolder`).
-Every window has a folder of its own below `state_folder`, with a lock that ends with its process. A window that ends in
-order removes its folder; one whose lock nobody holds any more was left by a crash.
+Each time, only new data are written, into a folder that is valid at any moment (`SessionFolder`).
+Every window has its own folder below `state_folder`, with a lock that ends with its process. A window that closes
+normally removes its folder; a folder that is not locked was left by a crash.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from hexmend_app.state.session.recovery_folder import (
     ABOUT,
     SESSION,
     RecoveredSession,
-    found,
-    locked,
+    find_session,
+    lock_folder,
     remove_folder,
     remove_session,
     write_session,
@@ -35,14 +35,14 @@ from hexmend_app.state.tasks.task import Task
 if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
-#: Milliseconds between two looks at whether something has changed.
+#: Milliseconds between two checks for changes.
 PERIOD = 180_000
 
 _FOLDER = "windows"
 
 
 class Recovery(QObject):
-    """Writes the session while the window is open, when something has changed and nothing runs, and after every run.
+    """Saves the session automatically: periodically if it has changed and no run is active, and after every run.
 
     Parameters
     ----------
@@ -51,9 +51,9 @@ class Recovery(QObject):
     Signals
     -------
     written
-        The session is on disk, as it was when `write` was called last.
+        The session is on disk as it was at the last call of `write`.
     failed(Exception)
-        It could not be written.
+        The session could not be written.
     """
 
     written = Signal()
@@ -63,14 +63,14 @@ class Recovery(QObject):
         super().__init__(parent)
         self._session = session
         self._folder: Path | None = None
-        self._kept: SessionFolder | None = None
+        self._session_folder: SessionFolder | None = None
         self._lock: QLockFile | None = None
         self._task: Task | None = None
-        self._after: list[Callable[[], object]] = []  # what is done once the session has been written
+        self._after_writing: list[Callable[[], object]] = []
         self._changed = False
-        self._again = False  # whether a change is to be written as soon as what is being written is on disk
-        self._taken_up: RecoveredSession | None = None
-        self._left: list[RecoveredSession] = []
+        self._write_again = False  # the session has changed while it was being written
+        self._recovering: RecoveredSession | None = None
+        self._recoverable: list[RecoveredSession] = []
         self._timer = QTimer(self, interval=PERIOD)
         self._timer.timeout.connect(self.write)
         self._soon = QTimer(self, singleShot=True, interval=0)
@@ -79,8 +79,8 @@ class Recovery(QObject):
         for signal in (session.run.ended, session.run.failed):
             signal.connect(lambda _: self._on_run())
         session.opener.ended.connect(lambda _: self._on_opened())
-        session.opener.failed.connect(lambda *_: self._give_up())
-        session.opener.cancelled.connect(lambda _: self._give_up())
+        session.opener.failed.connect(lambda *_: self._cancel_recovering())
+        session.opener.cancelled.connect(lambda _: self._cancel_recovering())
 
     @property
     def watching(self) -> bool:
@@ -88,61 +88,62 @@ class Recovery(QObject):
         return self._lock is not None
 
     @property
-    def left(self) -> tuple[RecoveredSession, ...]:
-        """Sessions of windows that did not end in order, the newest first."""
-        return tuple(self._left)
+    def recoverable(self) -> tuple[RecoveredSession, ...]:
+        """Sessions of windows that crashed, newest first."""
+        return tuple(self._recoverable)
 
     def begin(self) -> None:
-        """Look for what was left, and write the session from now on; where there is no place for it, say why."""
+        """Find sessions left by crashes, and start the autosave; emit `failed` if its folder cannot be made."""
         if self.watching:
             return
-        place = state_folder() / _FOLDER
-        folder = place / f"{os.getpid()}-{os.urandom(4).hex()}"
+        windows = state_folder() / _FOLDER
+        folder = windows / f"{os.getpid()}-{os.urandom(4).hex()}"
         try:
-            make_folder(place)
+            make_folder(windows)
             folder.mkdir(mode=0o700)
-            flush_folder(place)
+            flush_folder(windows)
         except OSError as error:
             self.failed.emit(error)
             return
-        self._folder, self._lock, self._kept = folder, locked(folder), SessionFolder(folder / SESSION)
-        others = [one for one in place.iterdir() if one.is_dir() and one != folder]
-        self._left = sorted(filter(None, map(found, others)), key=lambda one: one.when, reverse=True)
+        self._folder, self._lock, self._session_folder = folder, lock_folder(folder), SessionFolder(folder / SESSION)
+        found = map(find_session, [path for path in windows.iterdir() if path.is_dir() and path != folder])
+        self._recoverable = sorted(filter(None, found), key=lambda session: session.when, reverse=True)
         self._changed = True
         self._timer.start()
 
     def write(self) -> None:
-        """Write the session, where there is something to lose and nothing runs; once more if it is being written."""
+        """Write the session if it has unsaved data and no run is active; if it is being written, write it again."""
         session = self._session
-        runs = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
-        if not (self.watching and self._changed and self._worth) or runs:
+        active = session.run.busy or session.node_sweep.sweep is not None or session.opener.busy
+        if not (self.watching and self._changed and self._has_unsaved_data) or active:
             return
         if self._task is not None:
-            self._again = True
+            self._write_again = True
             return
         self._changed = False
-        self._task = Task("keeping the session", partial(write_session, self._folder, self._kept, session.to_data()))
+        write = partial(write_session, self._folder, self._session_folder, session.to_data())
+        self._task = Task("keeping the session", write)
         self._task.ended.connect(self._on_written)
         self._task.start()
 
-    def take_up(self, left: RecoveredSession) -> None:
-        """Open what was left; once it is open it is this window's."""
-        self._taken_up = left
-        self._session.run.end(lambda: self._session.opener.open(left.path, recovers=True))
+    def recover(self, crashed: RecoveredSession) -> None:
+        """Open the session of a crashed window; once open, it is autosaved by this window."""
+        self._recovering = crashed
+        self._session.run.end(lambda: self._session.opener.open(crashed.path, recovers=True))
 
-    def forget(self, left: RecoveredSession) -> None:
-        """Remove what was left."""
-        self._left.remove(left)
-        remove_folder(left.folder, left.lock)
+    def discard(self, crashed: RecoveredSession) -> None:
+        """Delete the session of a crashed window."""
+        self._recoverable.remove(crashed)
+        remove_folder(crashed.folder, crashed.lock)
 
     def end(self) -> None:
-        """The window ends in order: nothing is left of it."""
+        """End the autosave and delete its folder: the window closes normally."""
         self._timer.stop()
         self._soon.stop()
-        self._after.clear()
-        for left in self._left:
-            left.lock.unlock()  # for the next start
-        self._left.clear()
+        self._after_writing.clear()
+        for crashed in self._recoverable:
+            crashed.lock.unlock()  # for the next start
+        self._recoverable.clear()
         task, self._task = self._task, None
         if self._lock is not None:
             remove = partial(remove_folder, self._folder, self._lock)
@@ -150,8 +151,8 @@ class Recovery(QObject):
             task.drop(remove) if task is not None else remove()
 
     @property
-    def _worth(self) -> bool:
-        """Return True if there is anything that the file does not contain."""
+    def _has_unsaved_data(self) -> bool:
+        """True if the session contains anything that the file of its mesh does not."""
         session = self._session
         work = (
             session.history.records
@@ -170,42 +171,42 @@ class Recovery(QObject):
         self._soon.start()
 
     def _on_opened(self) -> None:
-        """Begin anew with the mesh that was opened, once what is being written of another is on disk."""
+        """Restart the autosave for the mesh that was opened, as soon as nothing is being written."""
         if not self.watching:
             return
-        left, self._taken_up = self._taken_up, None
+        recovered, self._recovering = self._recovering, None
         if self._task is not None:
-            self._after.append(partial(self._begin_anew, left))
+            self._after_writing.append(partial(self._restart, recovered))
         else:
-            self._begin_anew(left)
+            self._restart(recovered)
 
-    def _begin_anew(self, left: RecoveredSession | None) -> None:
-        """Remove what was written of another mesh; what was taken up is as good as written."""
+    def _restart(self, recovered: RecoveredSession | None) -> None:
+        """Delete the autosave of the mesh before; the files of a recovered session become those of this window."""
         remove_session(self._folder)
-        self._kept = SessionFolder(self._folder / SESSION)
-        if left is None:
+        self._session_folder = SessionFolder(self._folder / SESSION)
+        if recovered is None:
             return
         for name in (SESSION, ABOUT):
             with suppress(OSError):
-                os.replace(left.folder / name, self._folder / name)
+                os.replace(recovered.folder / name, self._folder / name)
         flush_folder(self._folder)
-        self.forget(left)
+        self.discard(recovered)
 
-    def _give_up(self) -> None:
-        self._taken_up = None
+    def _cancel_recovering(self) -> None:
+        self._recovering = None
 
     def _on_written(self) -> None:
         task, self._task = self._task, None
-        after, self._after = self._after, []
-        for act in after:
-            act()
+        callbacks, self._after_writing = self._after_writing, []
+        for callback in callbacks:
+            callback()
         if isinstance(task.error, HexmendError | OSError):
             self.failed.emit(task.error)
         elif task.error is not None:
             raise task.error
         else:
-            again, self._again = self._again, False
+            again, self._write_again = self._write_again, False
             if again:
                 self.write()
-            if self._task is None and not after:
+            if self._task is None and not callbacks:
                 self.written.emit()

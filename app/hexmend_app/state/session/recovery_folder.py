@@ -1,4 +1,4 @@
-"""A window's folder of recovery: what it holds of a session, and the lock that ends with the window's process."""
+"""Autosave folder of a window: the files of its session, and a lock that ends with the window's process."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from hexmend_app.state.session import session_data
 from hexmend_app.state.tasks.task import Task
 
 _LOCK, SESSION, ABOUT = "lock", "session.hexmend", "about.json"
-#: What a file of an earlier version is called until all that is in it is written anew.
+#: Name of a file of an earlier version while its session is rewritten.
 EARLIER = "earlier.hexmend"
-#: Bytes of an account that are read.
-_LARGEST = 10_000
+#: Bytes that are read of a description.
+_MAX_ABOUT_BYTES = 10_000
 
 
 @dataclass(frozen=True, eq=False)
 class RecoveredSession:
-    """Session of a window that did not end in order.
+    """Session of a window that crashed.
 
     Parameters
     ----------
     folder : Path
     lock : QLockFile
-        Held, so that no other window offers it.
+        Locked, so that no other window offers the session.
     name : str
-        What its mesh was called.
+        Name of the mesh.
     runs : int
-        How many runs were on it.
+        Number of runs.
     when : datetime
-        When it was written, in local time.
+        Local time at which the session was written.
     """
 
     folder: Path
@@ -50,37 +50,37 @@ class RecoveredSession:
 
     @property
     def path(self) -> Path:
-        """The session."""
+        """Path of the session."""
         return self.folder / SESSION
 
 
-def write_session(folder: Path, kept: SessionFolder, data: session_data.SessionData, task: Task) -> None:
-    """Write what is new of a session, with an account of it."""
+def write_session(folder: Path, session_folder: SessionFolder, data: session_data.SessionData, task: Task) -> None:
+    """Write the new data of a session, with a description of it."""
     name = Path(data.document.path or data.document.now.mesh.name).name
     about = json.dumps({"name": name, "runs": len(data.history.records)})
     with atomic_write(folder / ABOUT) as temporary:
         temporary.write_text(about, encoding="utf-8")
     if (folder / SESSION).is_file():
         os.replace(folder / SESSION, folder / EARLIER)
-    session_data.keep(kept, data)
+    session_data.write_new(session_folder, data)
     (folder / EARLIER).unlink(missing_ok=True)
 
 
-def locked(folder: Path) -> QLockFile | None:
-    """The lock of a window's folder; None where its process holds it."""
+def lock_folder(folder: Path) -> QLockFile | None:
+    """Lock a window's folder; None if another process has locked it."""
     lock = QLockFile(str(folder / _LOCK))
-    lock.setStaleLockTime(0)  # however old it is, it is held as long as its process lives
+    lock.setStaleLockTime(0)  # a lock of any age is valid as long as its process lives
     return lock if lock.tryLock(0) else None
 
 
-def found(folder: Path) -> RecoveredSession | None:
-    """Find the session in a folder; None if its window is open, or if there is none, in which case it is removed."""
-    lock = locked(folder)
+def find_session(folder: Path) -> RecoveredSession | None:
+    """Return the session in a folder; None if its window is open. A folder without a session is removed."""
+    lock = lock_folder(folder)
     if lock is None:
         return None
     try:
         session = folder / SESSION
-        if (folder / EARLIER).is_file() and not (session / DESCRIPTION).exists():  # it was being written anew
+        if (folder / EARLIER).is_file() and not (session / DESCRIPTION).exists():  # it was being rewritten
             shutil.rmtree(session, ignore_errors=True)
             os.replace(folder / EARLIER, session)
         written = session if session.is_file() else session / DESCRIPTION  # a file is of an earlier version
@@ -91,20 +91,20 @@ def found(folder: Path) -> RecoveredSession | None:
     name, runs = "", 0
     with suppress(OSError, ValueError, AttributeError, TypeError):
         with open(folder / ABOUT, encoding="utf-8") as file:
-            about = json.loads(file.read(_LARGEST))
+            about = json.loads(file.read(_MAX_ABOUT_BYTES))
         name, runs = str(about.get("name", "")), int(about.get("runs", 0))
     return RecoveredSession(folder, lock, name, runs, when)
 
 
 def remove_folder(folder: Path, lock: QLockFile) -> None:
-    """Remove a window's folder, what is in it first: as long as it is locked, nobody offers it."""
+    """Remove a window's folder; it is unlocked only when its session is deleted, so that no window offers it."""
     remove_session(folder)
     lock.unlock()
     shutil.rmtree(folder, ignore_errors=True)
 
 
 def remove_session(folder: Path) -> None:
-    """Remove what a window's folder holds of a session; first what would take its place, and what makes it one."""
+    """Delete the session in a window's folder; its description first, so that no partly deleted session is found."""
     for path in (folder / EARLIER, folder / SESSION / DESCRIPTION, folder / SESSION, folder / ABOUT):
         with suppress(OSError):
             path.unlink()

@@ -1,4 +1,4 @@
-"""Restoring of what a picture shows: its mesh, and the meshes in side views."""
+"""Restoring the content of a picture: its mesh, and the meshes in side views."""
 
 from __future__ import annotations
 
@@ -19,42 +19,42 @@ from hexmend_app.state.view.side_views import MOST, NOW
 
 
 class RestoreProblem(Enum):
-    """Why a mesh of a picture cannot be shown, or is another than there."""
+    """Why a mesh of a picture cannot be shown, or differs from the picture."""
 
     NO_SPACE = "room"
     FILE = "file"
     READING = "reading"
     RUN = "run"
-    """It is an iteration or a result of a run on its file, which has it as it was before."""
+    """The picture shows an iteration or result of a run; the file contains the mesh before the run."""
     HEXES = "hexes"
-    """It has others than the first mesh."""
+    """The mesh has other hexes than the first mesh."""
     PLACES = "places"
-    """It is shown, its nodes elsewhere than in the picture."""
+    """The mesh is shown, but its node positions differ from the picture."""
 
 
 @dataclass(frozen=True, eq=False)
 class RestoredMesh:
-    """Another mesh of a picture.
+    """Mesh of a picture other than the first.
 
     Parameters
     ----------
     name : str
-        What the picture calls it.
+        Name in the picture.
     file : str
-        The name of its file, as far as it is known.
+        Name of its file; "" if unknown.
     state : State or None
-        Of the same hexes as the first mesh; None where it cannot be shown beside that.
-    lack : Lack or None
+        State with the hexes of the first mesh; None if the mesh cannot be shown next to it.
+    problem : RestoreProblem or None
     error : HexmendError or None
-        Where it cannot be read.
+        Error in reading the file.
     path : Path or None
-        Of its file; None where it is not shown.
+        Path of the file; None if the mesh is not shown.
     """
 
     name: str
     file: str
     state: State | None = None
-    lack: RestoreProblem | None = None
+    problem: RestoreProblem | None = None
     error: HexmendError | None = None
     path: Path | None = None
 
@@ -68,15 +68,15 @@ class RestoredPicture:
     picture : Path
     metadata : PictureMetadata
     path : Path
-        Of the mesh's file.
+        File of the first mesh.
     state : State
-        The mesh of that.
+        State of the first mesh.
     look : Look
-        How the picture has it looked at.
+        Appearance in the picture.
     digest : str
-        Of the mesh.
-    others : tuple of Beside
-        What the picture shows besides, in its order.
+        Digest of the first mesh.
+    others : tuple of RestoredMesh
+        The other meshes, in the order of the picture.
     """
 
     picture: Path
@@ -88,116 +88,117 @@ class RestoredPicture:
     others: tuple[RestoredMesh, ...] = ()
 
     @property
-    def alike(self) -> bool:
-        """True if the meshes are those that the picture shows, or the first is as before the runs on it."""
-        mine = self.digest in (self.metadata.first.opened, self.metadata.first.shown)
-        return mine and all(one.lack in (None, RestoreProblem.NO_SPACE, RestoreProblem.RUN) for one in self.others)
+    def matches(self) -> bool:
+        """True if the meshes are those of the picture; the first may also be the mesh before the run."""
+        harmless = None, RestoreProblem.NO_SPACE, RestoreProblem.RUN
+        first_matches = self.digest in (self.metadata.first.opened, self.metadata.first.shown)
+        return first_matches and all(mesh.problem in harmless for mesh in self.others)
 
     @property
-    def wiped(self) -> float | None:
+    def wipe_position(self) -> float | None:
         """Position of the wipe's edge, as a share of the width, if the picture shows a wipe."""
         panels = self.metadata.panels
         wipe = panels[0].wipe if len(panels) == 1 else None
-        return wipe.at if wipe is not None and any(one.state for one in self.others) else None
+        return wipe.at if wipe is not None and any(mesh.state for mesh in self.others) else None
 
 
 @dataclass(frozen=True, eq=False)
 class MissingMesh:
-    """A picture whose mesh is not where it was: somebody has to say where it is."""
+    """Picture whose mesh file was not found: the user is asked for its path."""
 
     picture: Path
     metadata: PictureMetadata
 
 
 def restore_picture(
-    wanting: MissingMesh, path: Path, states: Iterable[State], reads: Callable[[Path], object]
+    missing: MissingMesh, path: Path, states: Iterable[State], on_read: Callable[[Path], object]
 ) -> RestoredPicture:
-    """Restore a mesh that a picture shows, and the other meshes in it.
+    """Restore the meshes of a picture.
 
     Parameters
     ----------
-    wanting : Wanting
+    missing : MissingMesh
     path : Path
-        Of the mesh.
+        File of the first mesh.
     states : iterable of State
-        What the file holds of it: one, or, of a session, many, of which the first is taken where none is the picture's.
-    reads : callable
-        Told of every other file that is read.
+        States in that file; a session may have several. If the picture shows none of them, the first is used.
+    on_read : callable
+        Called with the path of every other file before it is read.
 
     Raises
     ------
     FileError
-        Where the picture cannot be one of the mesh.
+        If the picture cannot show the mesh.
     """
-    picture, metadata = wanting.picture, wanting.metadata
-    known = _known(states)
-    state = known.get(metadata.first.shown) or next(iter(known.values()))
+    picture, metadata = missing.picture, missing.metadata
+    states_by_digest = _by_digest(states)
+    state = states_by_digest.get(metadata.first.shown) or next(iter(states_by_digest.values()))
     try:
         look = metadata.scene.look(state.mesh)
     except ParameterError as error:
         raise FileError(picture, f"shows another mesh than {path.name}: {error}", "Name its mesh.") from None
-    named = _named(metadata)
-    first, *rest = named
+    names = _mesh_names(metadata)
+    first, *rest = names
     others = []
     for number in rest:
-        pictured, name = metadata.meshes[number - 1], named[number]
+        pictured, name = metadata.meshes[number - 1], names[number]
         if len(others) == MOST:
-            others.append(RestoredMesh(name, PurePosixPath(pictured.file).name, lack=RestoreProblem.NO_SPACE))
+            others.append(RestoredMesh(name, PurePosixPath(pictured.file).name, problem=RestoreProblem.NO_SPACE))
         elif pictured.file and pictured.file == metadata.meshes[first - 1].file:
-            others.append(_neighbour(name, pictured, path, known.get(pictured.shown, state), state))
+            others.append(_restore_mesh(name, pictured, path, states_by_digest.get(pictured.shown, state), state))
         else:
-            others.append(_read(name, pictured, picture, state, reads))
+            others.append(_read_mesh(name, pictured, picture, state, on_read))
     return RestoredPicture(picture, metadata, path, state, look, digest(state.mesh), tuple(others))
 
 
-def _known(states: Iterable[State]) -> dict[str, State]:
-    """States by the digests of their meshes; of equal ones the first."""
-    known: dict[str, State] = {}
-    for state in {id(one): one for one in states}.values():
-        known.setdefault(digest(state.mesh), state)
-    return known
+def _by_digest(states: Iterable[State]) -> dict[str, State]:
+    """Return states by the digests of their meshes; of states with equal meshes, the first."""
+    result: dict[str, State] = {}
+    for state in dict.fromkeys(states):
+        result.setdefault(digest(state.mesh), state)
+    return result
 
 
-def _named(metadata: PictureMetadata) -> dict[int, str]:
-    """The meshes that are seen, by number, in the order of the picture, and what they are called there."""
-    found: dict[int, str] = {}
-    taken = {NOW}  # by the view of the first
+def _mesh_names(metadata: PictureMetadata) -> dict[int, str]:
+    """Return the unique names of the visible meshes by number, in the order of the picture."""
+    names: dict[int, str] = {}
+    used = {NOW}  # by the view of the first mesh
     for panel in metadata.panels:
-        for one in (panel,) if panel.wipe is None else (panel, panel.wipe):
-            called = one.caption or PurePosixPath(metadata.meshes[one.mesh - 1].file).stem or str(one.mesh)
-            if one.mesh not in found:
-                names = (called, *(f"{called} ({k})" for k in range(2, len(metadata.meshes) + 2)))
-                found[one.mesh] = next(name for name in names if not found or name not in taken)
-                taken.add(found[one.mesh])
-    return found
+        for view in (panel,) if panel.wipe is None else (panel, panel.wipe):
+            stem = view.caption or PurePosixPath(metadata.meshes[view.mesh - 1].file).stem or str(view.mesh)
+            if view.mesh not in names:
+                candidates = (stem, *(f"{stem} ({k})" for k in range(2, len(metadata.meshes) + 2)))
+                names[view.mesh] = next(name for name in candidates if not names or name not in used)
+                used.add(names[view.mesh])
+    return names
 
 
-def _read(
-    name: str, pictured: PicturedMesh, picture: Path, first: State, reads: Callable[[Path], object]
+def _read_mesh(
+    name: str, pictured: PicturedMesh, picture: Path, first: State, on_read: Callable[[Path], object]
 ) -> RestoredMesh:
-    """Another mesh from its own file."""
+    """Read a mesh from its own file and restore it."""
     paths = pictured.candidates(picture)
     if not paths:
-        return RestoredMesh(name, pictured.file, lack=RestoreProblem.FILE)
-    reads(paths[0])
+        return RestoredMesh(name, pictured.file, problem=RestoreProblem.FILE)
+    on_read(paths[0])
     try:
         state = State.of(read(paths[0]))
     except HexmendError as error:
-        return RestoredMesh(name, paths[0].name, lack=RestoreProblem.READING, error=error)
-    return _neighbour(name, pictured, paths[0], state, first)
+        return RestoredMesh(name, paths[0].name, problem=RestoreProblem.READING, error=error)
+    return _restore_mesh(name, pictured, paths[0], state, first)
 
 
-def _neighbour(name: str, pictured: PicturedMesh, path: Path, state: State, first: State) -> RestoredMesh:
-    """Restore a mesh that is shown in a side view."""
-    known = digest(state.mesh)
-    if known == pictured.opened != pictured.shown:
-        return RestoredMesh(name, path.name, lack=RestoreProblem.RUN)
-    if not _same(state.mesh, first.mesh):
-        return RestoredMesh(name, path.name, lack=RestoreProblem.HEXES)
+def _restore_mesh(name: str, pictured: PicturedMesh, path: Path, state: State, first: State) -> RestoredMesh:
+    """Restore a mesh for a side view, with the hexes of the first mesh."""
+    found = digest(state.mesh)
+    if found == pictured.opened != pictured.shown:
+        return RestoredMesh(name, path.name, problem=RestoreProblem.RUN)
+    if not _same_hexes(state.mesh, first.mesh):
+        return RestoredMesh(name, path.name, problem=RestoreProblem.HEXES)
     shared = replace(state, mesh=first.mesh.with_points(state.mesh.points))
-    return RestoredMesh(name, path.name, shared, None if known == pictured.shown else RestoreProblem.PLACES, path=path)
+    return RestoredMesh(name, path.name, shared, None if found == pictured.shown else RestoreProblem.PLACES, path=path)
 
 
-def _same(one: Mesh, other: Mesh) -> bool:
+def _same_hexes(mesh: Mesh, other: Mesh) -> bool:
     """Return True if two meshes have the same hexes and the same number of nodes."""
-    return one.n_nodes == other.n_nodes and np.array_equal(one.hexes, other.hexes)
+    return mesh.n_nodes == other.n_nodes and np.array_equal(mesh.hexes, other.hexes)

@@ -51,11 +51,11 @@ class Session(SessionParts):
         for other in restored.others:
             if other.state is not None:
                 self.side_views.show(other.name, other.state)
-        if restored.wiped is not None:
+        if restored.wipe_position is not None:
             self.side_views.set_wiping(True)
-            self.side_views.move_wipe(restored.wiped)
+            self.side_views.move_wipe(restored.wipe_position)
         self.camera_request.look_through(metadata.scene.camera_of(metadata.panels[0]))
-        self.saved_cameras.take_in(metadata.scene.cameras)
+        self.saved_cameras.add_all(metadata.scene.cameras)
         if metadata.recipe is not None:
             self.recipe_draft.take(metadata.recipe)
 
@@ -64,7 +64,7 @@ class Session(SessionParts):
 
 
 def _signals(part: QObject) -> list[Signal]:
-    """List the signals of a part of the state."""
-    own = {name for kind in type(part).mro() if kind is not QObject for name, one in vars(kind).items()
-           if isinstance(one, Signal)} - {"destroyed", "objectNameChanged"}  # fmt: skip
-    return [getattr(part, name) for name in sorted(own)]
+    """Return the signals that a part of the state declares."""
+    names = {name for cls in type(part).mro() if cls is not QObject for name, value in vars(cls).items()
+             if isinstance(value, Signal)} - {"destroyed", "objectNameChanged"}  # fmt: skip
+    return [getattr(part, name) for name in sorted(names)]

@@ -1,4 +1,4 @@
-"""A session as a file: what its parts keep, put together, written, and read again."""
+"""Data of a session, and reading and writing of session files."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from hexmend_app.state.view.view_model import ViewData
 
 #: First bytes of a session file.
 _HEAD = 64
-#: What fields are called in files from before they were renamed.
+#: Former names of fields, by class and current name.
 _FORMER = {kind: {now: old for old, now in former_attributes(kind).items()} for kind in (Advice, Breakpoints)}
 _FORMER[Advice]["limiting"] = "holding"
 _FORMER[NodeOffsets] = {"displacements": "ways"}
@@ -51,7 +51,7 @@ _WITHOUT_FEATURES = 4
 
 @dataclass(frozen=True, eq=False)
 class SessionData:
-    """Everything that a session keeps, part by part; each part gives its own and takes it again."""
+    """Data of all parts of a session; each part makes its data and restores itself from them."""
 
     document: DocumentData
     history: HistoryData
@@ -72,29 +72,29 @@ class SessionData:
         hexes, nodes = mesh.n_hexes, mesh.n_nodes
         for state in self._compared():
             if state.mesh.hexes is not mesh.hexes:
-                raise ValueError("it compares the mesh with states of another")
+                raise ValueError("it compares the mesh with states of another mesh")
         self.view.check(hexes)
         self.selection.check(hexes, nodes)
-        for one in self.snapshots:
-            one.check(hexes, nodes)
+        for snapshot in self.snapshots:
+            snapshot.check(hexes, nodes)
         for number, count in ((self.breakpoints.hex, hexes), (self.breakpoints.node, nodes)):
             if not 0 <= (number or 0) < count:
-                raise ValueError(f"a run is to pause at {number}, of which there are {count}")
+                raise ValueError(f"a breakpoint is at hex or node {number}, of which there are {count}")
         if not 0 <= (self.timeline.record or 0) < max(len(self.history.records), self.timeline.record is None):
             raise ValueError(f"there is no run {self.timeline.record}")
 
     def states(self) -> Iterator[State]:
-        """Every state of the mesh that is kept whole: what is shown first, then what was opened."""
+        """Yield every complete state of the mesh: the shown one first, then those of the changes."""
         yield self.document.now
-        yield from (one.state for one in self.document.changes)
+        yield from (change.state for change in self.document.changes)
         yield from self._compared()
 
     def _compared(self) -> Iterator[State]:
-        """List the states that must have the hexes of the open mesh."""
-        yield from (one.state for one in self.side_views.shown)
+        """Yield the states that must have the hexes of the open mesh."""
+        yield from (side_view.state for side_view in self.side_views.shown)
         yield from (record.start for record in self.history.records)
         yield from (record.end for record in self.history.records if record.end is not None)
-        yield from (one.state for one in self.comparison.results if one.state is not None)
+        yield from (result.state for result in self.comparison.results if result.state is not None)
         if self.comparison.initial is not None:
             yield self.comparison.initial
 
@@ -108,65 +108,65 @@ _FORMER[SessionData] = {
 
 
 def is_session_file(path: Path) -> bool:
-    """Return True if a file is a session by its name, or else by its first bytes."""
+    """Return True if a file is a session by its suffix, or else by its first bytes."""
     if path.suffix.lower() == SUFFIX:
         return True
     try:
         with open(path, "rb") as file:
             return is_session(file.read(_HEAD))
-    except (OSError, ValueError):  # whoever reads it says why it cannot be read
+    except (OSError, ValueError):  # the reader reports why the file cannot be read
         return False
 
 
 def write(path: Path, data: SessionData) -> None:
-    """Write a session as a whole or, where that fails, leave what was there.
+    """Write a session file; if that fails, an existing file is left unchanged.
 
     Raises
     ------
     FileError
-        Where the place cannot be written to.
+        If the file cannot be written.
     """
     with atomic_write(path) as temporary:
-        write_session(temporary, *_stored(data))
+        write_session(temporary, *_encoded(data))
 
 
-def keep(kept: SessionFolder, data: SessionData) -> None:
-    """Write what is new of a session.
+def write_new(folder: SessionFolder, data: SessionData) -> None:
+    """Write the data of a session that its folder does not contain yet.
 
     Raises
     ------
     FileError
-        Where the place cannot be written to.
+        If the folder cannot be written to.
     """
-    kept.write(*_stored(data))
+    folder.write(*_encoded(data))
 
 
-def _stored(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
-    """The meshes of a session, which of them is shown, and all that the window keeps beside them."""
+def _encoded(data: SessionData) -> tuple[tuple[Mesh, ...], int, Any]:
+    """Return the meshes of a session, the number of the shown one, and the encoded data."""
     numbers: dict[Mesh, int] = {}
-    window = _simple(numbers).encode(data, SessionData)
+    window = _writing_codec(numbers).encode(data, SessionData)
     now = _number(numbers, data.document.now.mesh)
     return tuple(numbers), now, window
 
 
 def numbered(data: SessionData) -> dict[State, int]:
-    """Number the meshes of the states of a document, its runs and its comparison, as in the file."""
+    """Return the numbers that the meshes of the states have in the session file."""
     numbers: dict[Mesh, int] = {}
-    _simple(numbers).encode(data, SessionData)
+    _writing_codec(numbers).encode(data, SessionData)
     states = [data.document.now, *(change.state for change in data.document.changes)]
     for record in data.history.records:
         states += [record.start, record.end]
-    states += [data.comparison.initial, *(one.state for one in data.side_views.shown)]
+    states += [data.comparison.initial, *(side_view.state for side_view in data.side_views.shown)]
     return {state: numbers[state.mesh] for state in states if state is not None}
 
 
-def _simple(numbers: dict[Mesh, int]) -> Codec:
-    """Make the codec that writes a session; meshes become numbers, in the order in which they occur."""
+def _writing_codec(numbers: dict[Mesh, int]) -> Codec:
+    """Return the codec that writes a session: meshes become numbers, in the order in which they occur."""
     return Codec({
-        Mesh: TypeAdapter(partial(_number, numbers), _none),
-        State: TypeAdapter(lambda state: _number(numbers, state.mesh), _none),
-        Smoother: TypeAdapter(_smoother_data, _none),
-        NamedCameras: TypeAdapter(config_table.encode, _none),
+        Mesh: TypeAdapter(partial(_number, numbers), _unused),
+        State: TypeAdapter(lambda state: _number(numbers, state.mesh), _unused),
+        Smoother: TypeAdapter(_smoother_data, _unused),
+        NamedCameras: TypeAdapter(config_table.encode, _unused),
     })  # fmt: skip
 
 
@@ -175,20 +175,20 @@ def _number(numbers: dict[Mesh, int], mesh: Mesh) -> int:
 
 
 def read(path: Path) -> SessionData:
-    """Read a session; every mesh in it is measured.
+    """Read a session file and measure its meshes.
 
     Raises
     ------
     FileError
-        Where it is none, is damaged or newer, or its parts do not fit together.
+        If the file is no session, damaged, inconsistent, or of a newer version.
     """
     stored = read_session(path)
     states = _States(stored.meshes)
     codec = Codec({
-        Mesh: TypeAdapter(_none, lambda at: states(at).mesh),
-        State: TypeAdapter(_none, states),
-        Smoother: TypeAdapter(_none, _smoother),
-        NamedCameras: TypeAdapter(_none, lambda data: config_table.decode(NamedCameras, data, ("cameras",))),
+        Mesh: TypeAdapter(_unused, lambda number: states(number).mesh),
+        State: TypeAdapter(_unused, states),
+        Smoother: TypeAdapter(_unused, _smoother),
+        NamedCameras: TypeAdapter(_unused, lambda data: config_table.decode(NamedCameras, data, ("cameras",))),
     }, stored.version, _FORMER)  # fmt: skip
     try:
         window = stored.window if stored.version > _ZERO_FOR_NO_LIMIT else migrate_surface_tolerance(stored.window)
@@ -199,36 +199,36 @@ def read(path: Path) -> SessionData:
         check_feature_data(data.features, "the window.features")
         return data
     except (DecodeError, MeshError, ValueError) as error:
-        raise FileError(path, f"does not hold together: {error}", "Use an earlier copy, or open its mesh.") from None
+        raise FileError(path, f"is inconsistent: {error}", "Use an earlier copy, or open its mesh.") from None
 
 
 def _with_features(window: dict[str, Any]) -> dict[str, Any]:
-    """Return the data of an earlier version with the camera and the settings of panels as states of features."""
+    """Move the camera and the settings of panels, as an earlier version wrote them, to the data of features."""
     window = dict(window)
     history = window.pop("journey", {"before": [], "after": [], "left": None})
     camera = {"pose": window.pop("eye", None), "history": history}
-    panels = {name: one for name, one in window.pop("choices", {}).items() if one is not None}
+    panels = {name: data for name, data in window.pop("choices", {}).items() if data is not None}
     return {**window, "features": {**panels, "camera": camera}}
 
 
 class _States:
-    """States of some meshes by number, each made once; the same places of the same hexes are measured once."""
+    """States of meshes by number, made on demand; equal points and hexes are measured once."""
 
     def __init__(self, meshes: tuple[Mesh, ...]):
         self._meshes = meshes
         self._states: dict[int, State] = {}
         self._figures: dict[tuple[int, int], Any] = {}
 
-    def __call__(self, at: Any) -> State:
-        if type(at) is not int or not 0 <= at < len(self._meshes):
-            raise DecodeError(f"there is no mesh {str(at)[:20]}")
-        if at not in self._states:
-            mesh = self._meshes[at]
+    def __call__(self, number: Any) -> State:
+        if type(number) is not int or not 0 <= number < len(self._meshes):
+            raise DecodeError(f"there is no mesh {str(number)[:20]}")
+        if number not in self._states:
+            mesh = self._meshes[number]
             key = id(mesh.points), id(mesh.hexes)
             if key not in self._figures:
                 self._figures[key] = measure(mesh.points, mesh.hexes)
-            self._states[at] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
-        return self._states[at]
+            self._states[number] = State(mesh, self._figures[key], summarise(mesh, self._figures[key]))
+        return self._states[number]
 
 
 def _smoother_data(smoother: Smoother) -> dict[str, Any]:
@@ -237,13 +237,13 @@ def _smoother_data(smoother: Smoother) -> dict[str, Any]:
 
 def _smoother(data: Any) -> Smoother:
     if not isinstance(data, dict) or data.keys() != {"method", "parameters"}:
-        raise DecodeError("a method is no table of its name and its parameters")
+        raise DecodeError("a method is not a table of its name and parameters")
     name, parameters = str(data["method"]), data["parameters"]
     if not isinstance(parameters, dict):
-        raise DecodeError(f"the parameters of {name} are no table")
+        raise DecodeError(f"the parameters of {name} are not a table")
     return from_values(METHODS[name], parameters, owner=name)
 
 
-def _none(_: Any) -> None:
-    """The way that is not gone."""
+def _unused(_: Any) -> None:
+    """Stand in for a direction in which a codec is not used."""
     raise NotImplementedError

@@ -1,4 +1,4 @@
-"""The parts of a window's state, and what they have in common."""
+"""The parts of a window's state, and how they are saved and restored together."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class SessionParts(QObject):
     user_event(UserEvent)
         The user has changed the mesh, or written a file.
     about_to_save
-        The data for a session file are collected next: views tell the state what only they know.
+        The data for a session file are about to be collected: views store data that only they know.
     data_changed
         A session file written now would differ from the last one in more than the selection and the camera.
 
@@ -82,23 +82,23 @@ class SessionParts(QObject):
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self._parts: list[StatePart] = []  # in the order in which they are restored
-        document = self.document = self._saved("document", Document(self), "changes_changed")
+        document = self.document = self._add_part("document", Document(self), "changes_changed")
         self.history = History()
         self._parts.append(StatePart(name="history", to_data=self._history_data, restore=self.history.restore))
         self.run = RunController(document, self.history, self)
-        self.timeline = self._saved("timeline", Timeline(document, self.run, self.history, self), "runs_changed")
-        self.view = self._saved("view", ViewModel(document, self), "look_changed")
-        self.selection = self._saved("selection", Selection(document, self))
-        self.snapshots = self._saved("snapshots", Snapshots(document, self), "changed")
-        self.side_views = self._saved("side_views", SideViews(document, self.snapshots, self), "changed")
-        self.comparison = self._saved("comparison", Comparison(document, self), "changed")
-        self.run_setup = self._saved("run_setup", RunSetup(self), "changed")
-        self.recipe_draft = self._saved("recipe_draft", RecipeDraft(self), "changed")
+        self.timeline = self._add_part("timeline", Timeline(document, self.run, self.history, self), "runs_changed")
+        self.view = self._add_part("view", ViewModel(document, self), "look_changed")
+        self.selection = self._add_part("selection", Selection(document, self))
+        self.snapshots = self._add_part("snapshots", Snapshots(document, self), "changed")
+        self.side_views = self._add_part("side_views", SideViews(document, self.snapshots, self), "changed")
+        self.comparison = self._add_part("comparison", Comparison(document, self), "changed")
+        self.run_setup = self._add_part("run_setup", RunSetup(self), "changed")
+        self.recipe_draft = self._add_part("recipe_draft", RecipeDraft(self), "changed")
         self._parts.append(
             StatePart(name="breakpoints", to_data=lambda: self.run.breakpoints, restore=self.run.break_at)
         )
-        self.saved_cameras = self._saved("cameras", SavedCameras(self), "changed")
-        self.feature_states = self._saved("features", FeatureStates(self), "changed")
+        self.saved_cameras = self._add_part("cameras", SavedCameras(self), "changed")
+        self.feature_states = self._add_part("features", FeatureStates(self), "changed")
         self.comparison_bases = ComparisonBases(document, self.history)
         self.camera_request = CameraRequest(self)
         self.opener = MeshOpener(document, self)
@@ -108,8 +108,8 @@ class SessionParts(QObject):
         self.mesh_checker = MeshChecker(self)
         self.node_sweep = NodeSweep(document, self)
 
-    def _saved(self, name: str, part: Part, change: str = "") -> Part:
-        """Register a part that session files have under a name, with the signal of its changes, and return it."""
+    def _add_part(self, name: str, part: Part, change: str = "") -> Part:
+        """Register a part by its name in session files, with the name of its change signal, and return it."""
         self._parts.append(StatePart(name=name, to_data=part.to_data, restore=part.restore))
         if change:
             getattr(part, change).connect(self.data_changed)
@@ -117,7 +117,7 @@ class SessionParts(QObject):
 
     @property
     def editable(self) -> bool:
-        """True if the mesh may be edited: no task that changes it is active, and no file is being read."""
+        """True if the mesh can be edited: no task that changes it is active, and no file is being read."""
         return self.document.is_open and not any(getattr(part, "blocks_editing", False) for part in self.children())
 
     @property
@@ -161,7 +161,7 @@ class SessionParts(QObject):
             self.saved_cameras.saved()
 
     def close(self) -> None:
-        """Ask all threads to end; `wait_for_dropped` waits for them."""
+        """Cancel the tasks of all parts; `wait_for_dropped` waits for their threads."""
         for part in self.children():
             if hasattr(part, "close"):
                 part.close()

@@ -1,4 +1,4 @@
-"""Parts of a session: how each is saved, restored and closed."""
+"""State parts: how each part of a session is saved, restored and closed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.codec.codec import Codec, DecodeError
 
-#: Declared parts of features by name: what session files are checked against before anything is restored.
+#: Declared parts of features by name, to check session files before anything is restored.
 _DECLARED: dict[str, StatePart] = {}
 
 
@@ -20,7 +20,7 @@ def _nothing(*_: object) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class StatePart:
-    """A part of a session, as session files and the closing window see it.
+    """Part of a session: its name in session files, and functions that save, restore and close it.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class StatePart:
 
 
 def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
-    """Check the data of all parts that features have declared.
+    """Check the encoded data of all parts that features have declared.
 
     Raises
     ------
@@ -70,15 +70,15 @@ def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
 class FeatureStates(QObject):
     """The state parts that features declare.
 
-    Session files store them by name, each as the codec encodes it. Data of a part that is not declared, or not yet, is
-    stored, so that it is restored as soon as the part is declared and is in the session file that is written next.
+    Session files store their encoded data by name. Data of a part that is not declared yet is stored: it is restored
+    when the part is declared, and written to the next session file.
 
     Signals
     -------
     changed
         The data of a part have changed.
     failed(name, Exception)
-        The data of a part do not fit its type; the part is as it was.
+        The data of a part do not fit its type; the part is unchanged.
     """
 
     changed = Signal()
@@ -90,7 +90,7 @@ class FeatureStates(QObject):
         self._unclaimed: dict[str, Any] = {}
 
     def add(self, part: StatePart) -> None:
-        """Declare a part; data of a session that is open already are restored at once.
+        """Add a part; if the open session has data of it, restore them at once.
 
         Raises
         ------
@@ -112,8 +112,8 @@ class FeatureStates(QObject):
         return {**self._unclaimed, **declared}
 
     def restore(self, data: dict[str, Any]) -> None:
-        """Restore the parts that a session file has; the others stay as they are."""
-        self._unclaimed = {name: one for name, one in data.items() if name not in self._parts}
+        """Restore the parts that are in a session file; the others are unchanged."""
+        self._unclaimed = {name: encoded for name, encoded in data.items() if name not in self._parts}
         for name, part in self._parts.items():
             if name in data:
                 self._restore(part, data[name])

@@ -1,4 +1,4 @@
-"""Events of the user's changes and exports, as data: scripts are written from them (`Commands.done`)."""
+"""The user's changes and exports as events, from which scripts are recorded (`SessionParts.user_event`)."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MeshEdited:
-    """A function of the core has changed what the mesh is or carries.
+    """A function of the core has changed the mesh, its pins or its tags.
 
     Parameters
     ----------
     title : str
     before, after : State
     change : callable
-        Takes the mesh before and `values`.
+        Function of the mesh before the change and `values`.
     values : tuple
-        Text, switches, whole numbers or arrays of them.
+        Strings, booleans, integers or arrays of integers.
     """
 
     title: str
@@ -38,12 +38,12 @@ class MeshEdited:
 
 @dataclass(frozen=True, eq=False)
 class NodesMoved:
-    """The nodes were put to where they are in another state."""
+    """The nodes were moved to their positions in another state, `source`."""
 
     title: str
     before: State
     after: State
-    places: State
+    source: State
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +57,15 @@ class UndoOrRedo:
 
 @dataclass(frozen=True, eq=False)
 class MeshSaved:
-    """The mesh was written to a file, or the session.
+    """The mesh or the session was written to a file.
 
     Parameters
     ----------
     path : Path
     now : State
-        The mesh as it was shown when that was asked for.
+        The state shown when the user saved.
     data : SessionData or None
-        What was written of the session; None for a file of the mesh alone.
+        The data of the session; None for a mesh file.
     """
 
     path: Path
@@ -75,18 +75,18 @@ class MeshSaved:
 
 @dataclass(frozen=True, eq=False)
 class FileExported:
-    """A function writes a file, or a folder of them: the same call from a script writes the same.
+    """Export of files by a function; the same call in a script writes the same files.
 
     Parameters
     ----------
     title : str
     function : callable
-        Of a module that needs no window.
+        Function of a module that needs no window.
     values : tuple
-        What it is called with: paths, text, numbers, scenes, recipes, rows of a comparison, runs, and states of the
-        mesh, which stand for their meshes; also in lists and tuples.
+        Positional arguments: paths, strings, numbers, scenes, recipes, rows of a comparison, runs, and states, which
+        are replaced by their meshes; also in lists and tuples.
     options : mapping
-        The same by name.
+        Keyword arguments of the same types.
     """
 
     title: str
@@ -95,18 +95,18 @@ class FileExported:
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
-    def given(self) -> tuple[Any, ...]:
-        """The values as the function takes them."""
-        return _given(self.values)
+    def arguments(self) -> tuple[Any, ...]:
+        """Positional arguments of the function."""
+        return _argument(self.values)
 
     def perform(self) -> None:
-        """Write it; raises what the function does."""
-        self.function(*self.given, **{name: _given(one) for name, one in self.options.items()})
+        """Call the function, which writes the files; its errors are passed on."""
+        self.function(*self.arguments, **{name: _argument(value) for name, value in self.options.items()})
 
 
 @dataclass(frozen=True, eq=False)
 class IterationsExported:
-    """A run of which somebody wants to know where the nodes were at some iterations; to functions, the run."""
+    """Argument of an export: a run, with the numbers of the iterations whose node positions it needs."""
 
     record: RunRecord
     numbers: Sequence[int]
@@ -114,7 +114,7 @@ class IterationsExported:
 
 @dataclass(frozen=True, eq=False)
 class TableExported:
-    """The comparison of methods was written as a table, with other names for methods and another title, or its own."""
+    """The comparison of methods was written as a table, optionally with other names of methods and another title."""
 
     path: Path
     names: Mapping[str, str] | None = None
@@ -122,17 +122,17 @@ class TableExported:
 
 
 def displacement_since(movement: Displacement | None, opened: State) -> dict[str, Any]:
-    """Return the arguments of drawing functions for the displacement shown and for the mesh as opened."""
+    """Return the arguments of drawing functions that describe the displacement shown; empty if there is none."""
     if movement is None:
         return {}
     since = opened.mesh.with_points(movement.before.points)
     return {"opened": opened, "since": since, "since_name": movement.before.name}
 
 
-def _given(value: Any) -> Any:
+def _argument(value: Any) -> Any:
     """Return the argument of a function for a value of an event."""
     if isinstance(value, list | tuple):
-        return type(value)(map(_given, value))
+        return type(value)(map(_argument, value))
     if isinstance(value, IterationsExported):
         return value.record
     return value.mesh if isinstance(value, State) else value

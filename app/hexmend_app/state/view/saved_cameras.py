@@ -60,7 +60,7 @@ class SavedCameras(QObject):
         """Keep one no longer."""
         self._take({one: camera for one, camera in self.all.items() if one != name})
 
-    def take_in(self, cameras: Mapping[str, Camera]) -> None:
+    def add_all(self, cameras: Mapping[str, Camera]) -> None:
         """Keep those of a scene too."""
         self._take(merged(self.all, cameras))
 

@@ -144,7 +144,7 @@ def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
 
 def test_a_comparison_table_and_an_adopted_result(window, qtbot, script, tmp_path):
     compared(window, qtbot, "laplacian", "getme")
-    window.session.commands.take("GETMe", window.session.comparison.of("getme").state)
+    window.session.commands.adopt_positions("GETMe", window.session.comparison.of("getme").state)
     save_and_wait(window.session, tmp_path / "out.vtu")
     assert window.features["compare"].save(tmp_path / "table.csv")
     (mesh, mesh_again), (rows, rows_again) = again(script, tmp_path, tmp_path / "out.vtu", tmp_path / "table.csv")

@@ -77,11 +77,11 @@ def test_a_comparison_is_read_from_the_session(session, qtbot, tmp_path):
     save_and_wait(session, kept)
     opened(qtbot, session, kept)
     assert not session.opener.busy
-    session.commands.take("Laplacian", session.comparison.of("laplacian").state)
+    session.commands.adopt_positions("Laplacian", session.comparison.of("laplacian").state)
     assert "compare(" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
     save_and_wait(session, kept)
     assert "overwritten" not in same_again(session, tmp_path).partition("kept.hexmend")[2]
-    session.commands.take("steepest descent", session.comparison.of("local-sd").state)
+    session.commands.adopt_positions("steepest descent", session.comparison.of("local-sd").state)
     same_again(session, tmp_path)
 
 
@@ -97,7 +97,7 @@ def test_an_overwritten_session_is_read_by_its_new_numbers(session, qtbot, tmp_p
     session.commands.undo()
     run(qtbot, session, stage("mend"))
     save_and_wait(session, kept)
-    session.commands.take("back", end)
+    session.commands.adopt_positions("back", end)
     same_again(session, tmp_path)
 
 

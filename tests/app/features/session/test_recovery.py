@@ -106,7 +106,7 @@ def test_a_killed_window_is_recovered(killed, fresh_window, qtbot, mesh_file, ow
     assert session.document.undo_title == METHODS["laplacian"].title
     (own,) = own_state.iterdir()  # what was left is this window's now
     assert (own / "session.hexmend").exists()
-    assert not window.features["session"].recovery.left
+    assert not window.features["session"].recovery.recoverable
 
 
 def test_recovery_is_offered_until_discarded(killed, fresh_window, own_state):
@@ -169,9 +169,9 @@ def test_a_file_of_an_earlier_version_is_recovered(fresh_window, qtbot, own_stat
         (own_state / "1-left/session.hexmend/arrays/0.npy").touch()
     feature = fresh_window.features["session"]
     feature.start_autosave()
-    (left,) = feature.recovery.left
+    (left,) = feature.recovery.recoverable
     with qtbot.waitSignal(fresh_window.session.opener.ended, timeout=PATIENCE):
-        feature.recovery.take_up(left)
+        feature.recovery.recover(left)
     assert len(fresh_window.session.history.records) == 1
     fresh_window.session.view.change(peel=1)
     with qtbot.waitSignal(feature.recovery.written, timeout=PATIENCE):
@@ -203,7 +203,7 @@ def test_an_open_window_is_not_recovered(fresh_window, qtbot, own_state):
         "app = QCoreApplication([])\n"
         "recovery = Recovery(Session())\n"
         "recovery.begin()\n"
-        "print(len(recovery.left))\n"
+        "print(len(recovery.recoverable))\n"
         "recovery.end()\n"
     )
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}

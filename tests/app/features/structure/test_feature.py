@@ -90,7 +90,7 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     assert window.canvas.viewport.extras.optional["original"].shown
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points * 1.2)
-    window.session.commands.take("grow", State.of(moved))
+    window.session.commands.adopt_positions("grow", State.of(moved))
     five.refresh()
     places = window.canvas.viewport.extras.optional["original"].places
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)

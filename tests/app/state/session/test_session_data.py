@@ -1,4 +1,4 @@
-"""Sessions that earlier versions wrote are read whole."""
+"""Sessions of earlier versions are read completely."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_a_session_of_an_earlier_version_is_read_with_its_run(version):
     assert record.advice.reason.startswith("Stopped at the limit of 3 iterations")
 
 
-def test_a_session_that_is_read_is_written_as_it_was(tmp_path):
+def test_a_session_is_unchanged_by_reading_and_writing_it(tmp_path):
     data = session_data.read(_FILES / "version_2.hexmend")
     session_data.write(tmp_path / "again.hexmend", data)
     again = session_data.read(tmp_path / "again.hexmend")
@@ -37,19 +37,19 @@ def test_a_session_that_is_read_is_written_as_it_was(tmp_path):
 
 
 @pytest.mark.parametrize(("version", "read"), [(3, "unlimited"), (4, 0.0)])
-def test_a_surface_tolerance_of_0_was_no_limit_up_to_version_3(tmp_path, monkeypatch, version, read):
+def test_a_surface_tolerance_of_0_means_no_limit_up_to_version_3(tmp_path, monkeypatch, version, read):
     data = session_data.read(_FILES / "version_2.hexmend")
     stage = Stage(METHODS["mend"](boundary="slide", surface_tolerance=0))
     data = dataclasses.replace(data, run_setup=dataclasses.replace(data.run_setup, stage=stage))
     fields = codec._fields
-    monkeypatch.setattr(codec, "_fields", lambda kind, of=version: fields(kind, of))  # what that version wrote
+    monkeypatch.setattr(codec, "_fields", lambda kind, of=version: fields(kind, of))  # as that version wrote them
     monkeypatch.setattr(session_file, "VERSION", version)
     session_data.write(tmp_path / "old.hexmend", data)
     monkeypatch.undo()
     assert session_data.read(tmp_path / "old.hexmend").run_setup.stage.smoother.surface_tolerance == read
 
 
-def test_values_that_version_0_1_kept_for_a_method_have_their_names_of_today():
+def test_values_of_version_0_1_are_stored_by_current_parameter_names():
     stage = Stage(METHODS["mend"](), StoppingCriteria())
-    order = RunSetupData(stage, "", {"mend": {"softness": 0.05, "highest_p": 4.0}, "general": {"sufficient": 0.5}})
-    assert order.values == {"mend": {"initial_epsilon": 0.05, "max_p": 4.0}, "general": {"q_target": 0.5}}
+    setup = RunSetupData(stage, "", {"mend": {"softness": 0.05, "highest_p": 4.0}, "general": {"sufficient": 0.5}})
+    assert setup.values == {"mend": {"initial_epsilon": 0.05, "max_p": 4.0}, "general": {"q_target": 0.5}}

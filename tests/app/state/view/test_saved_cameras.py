@@ -53,14 +53,14 @@ def test_there_is_an_end(cameras):
         cameras.keep(str(number), X)
     with pytest.raises(ParameterError, match="101 entries: expected 100"):
         cameras.keep("one more", X)
-    cameras.take_in({"another": Y, "3": X})
+    cameras.add_all({"another": Y, "3": X})
     assert len(cameras.all) == MOST
 
 
 def test_those_of_a_scene_are_taken_in_and_take_no_name_away(cameras):
     cameras.keep("front", X)
     for _ in range(2):  # the same again are there already
-        cameras.take_in({"front": Y, "top": Y})
+        cameras.add_all({"front": Y, "top": Y})
         assert cameras.all == {"front": X, "front (2)": Y, "top": Y}
     assert merged({}, {"front": Y}) == {"front": Y}
 
