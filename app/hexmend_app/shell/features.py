@@ -1,4 +1,4 @@
-"""Finds the features: every folder below `hexmend_app.features` is one."""
+"""Find, import and build the features: each folder below `hexmend_app.features` contains one."""
 
 from __future__ import annotations
 
@@ -13,75 +13,75 @@ from hexmend_app.feature import Feature, Host
 
 
 def names() -> list[str]:
-    """The names of the folders."""
-    return [one.name for one in pkgutil.iter_modules(folder.__path__)]
+    """Return the names of all features, which are those of their folders."""
+    return [module.name for module in pkgutil.iter_modules(folder.__path__)]
 
 
 def first_names() -> list[str]:
-    """The features that open and draw a mesh: those whose package declares `FIRST = True`.
+    """Return the names of the features that open and draw a mesh: their packages declare `FIRST = True`.
 
-    They are built before the others, so that the first picture need not wait for these; no feature is imported.
+    They are built first, so that the first picture does not wait for the others. No module `feature` is imported.
     """
     return [name for name in names() if getattr(import_module(f"{folder.__name__}.{name}"), "FIRST", False)]
 
 
-def kind_of(name: str) -> type[Feature]:
-    """Import the feature of a folder, and return its class.
+def feature_class(name: str) -> type[Feature]:
+    """Import the feature of a folder and return its class.
 
     Raises
     ------
     TypeError
-        If its module `feature` declares none, or several.
+        If its module `feature` does not declare exactly one feature.
     """
     module = import_module(f"{folder.__name__}.{name}.feature")
-    own = [
+    classes = [
         kind
         for _, kind in inspect.getmembers(module, inspect.isclass)
         if issubclass(kind, Feature) and kind.__module__ == module.__name__
     ]
-    if len(own) != 1:
-        raise TypeError(f"{module.__name__} declares {len(own)} features: expected one")
-    return own[0]
+    if len(classes) != 1:
+        raise TypeError(f"{module.__name__} declares {len(classes)} features: expected one")
+    return classes[0]
 
 
 def in_order(kinds: Iterable[type[Feature]]) -> list[type[Feature]]:
-    """Classes of features in the order in which they are built."""
+    """Sort classes of features into the order in which they are built."""
     return sorted(kinds, key=lambda kind: (kind.order, kind.__module__))
 
 
-def found() -> list[type[Feature]]:
-    """The class of every feature, in the order in which they are built."""
-    return in_order(map(kind_of, names()))
+def feature_classes() -> list[type[Feature]]:
+    """Return the classes of all features, in the order in which they are built."""
+    return in_order(map(feature_class, names()))
 
 
 def name_of(kind: type[Feature]) -> str:
-    """The name of a feature: its folder's."""
+    """Return the name of a feature, which is that of its folder."""
     return kind.__module__.split(".")[-2]
 
 
-def building(host: Host, built: dict[str, Feature]) -> Generator[None, None, dict[str, Feature]]:
+def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, None, dict[str, Feature]]:
     """Import and build all features that are not built yet, step by step.
 
     Parameters
     ----------
     host : Host
     built : dict
-        Features by the names of their folders.
+        Features by name.
 
     Returns
     -------
     dict
-        All features by name, in their order; those that raise are left out and reported.
+        All features by name, in building order; a feature that raises is reported and omitted.
     """
     for name in names():
-        kind_of(name)  # its imports take longer than building it
+        feature_class(name)  # importing takes longer than building
         yield
-    kinds, all_of_them = found(), dict(built)
+    kinds, features = feature_classes(), dict(built)
     for kind in kinds:
-        if name_of(kind) not in all_of_them:
+        if name_of(kind) not in features:
             try:
-                all_of_them[name_of(kind)] = kind(host)
-            except Exception:  # the other features are built whatever one raises
+                features[name_of(kind)] = kind(host)
+            except Exception:  # build the other features nevertheless
                 sys.excepthook(*sys.exc_info())
             yield
-    return {name_of(kind): all_of_them[name_of(kind)] for kind in kinds if name_of(kind) in all_of_them}
+    return {name_of(kind): features[name_of(kind)] for kind in kinds if name_of(kind) in features}

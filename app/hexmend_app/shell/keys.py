@@ -1,4 +1,4 @@
-"""The page of mouse and keys: controls of the view, and every action with keys."""
+"""Tables of the mouse and key controls of the view, and of all actions with their keys."""
 
 from __future__ import annotations
 
@@ -8,42 +8,37 @@ from hexmend_app.feature import MENUS, Action
 
 #: Mouse and key controls of the view.
 VIEW = (
-    ("Turn", "drag, arrow keys"),
+    ("Rotate", "drag, arrow keys"),
     ("Zoom", "wheel, right drag, + and −"),
     ("Pan", "middle drag, Shift+drag, Shift+arrow keys"),
-    ("Choose a hex and its nearest node", "click"),
+    ("Select a hex and its nearest node", "click"),
     ("Dig a hex away", "Ctrl+click"),
-    ("Centre of rotation", "double click"),
-    ("What can be done there", "right click"),
+    ("Set the centre of rotation", "double click"),
+    ("Open the context menu", "right click"),
 )
 
 
 def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, str]]]]:
-    """Titles with rows of (what, keys, help): the view first, then every menu with its actions.
-
-    Parameters
-    ----------
-    actions : iterable of Action
-    """
+    """Return titles with rows of (name, keys, help): first the view, then each menu."""
     actions = list(actions)
-    found = [("In the view", [(topic, style, "") for topic, style in VIEW])]
+    found = [("In the view", [(name, keys, "") for name, keys in VIEW])]
     for menu in (*MENUS, ""):
-        rows = [(words(one), one.keys, one.help) for one in actions if one.menu == menu]
+        rows = [(name_of(action), action.keys, action.help) for action in actions if action.menu == menu]
         if rows:
-            found.append((menu.replace("/", " › ") or "Elsewhere", rows))
+            found.append((menu.replace("/", " › ") or "Without a menu", rows))
     return found
 
 
-def words(action: Action) -> str:
-    """Text of an action without its ampersand."""
+def name_of(action: Action) -> str:
+    """Return the text of an action without ampersand and ellipsis."""
     return action.text.replace("&", "").rstrip("…")
 
 
 def as_markdown(actions: Iterable[Action]) -> str:
-    """The page for `docs/keys.md`."""
-    parts = ["# Mouse and keys", "", "Written by `make docs` from what the features declare.", ""]
+    """Return the page `docs/keys.md`."""
+    lines = ["# Mouse and keys", "", "Written by `make docs` from what the features declare.", ""]
     for title, rows in tables(actions):
-        parts += [f"## {title}", "", "| what | keys | |", "|---|---|---|"]
-        parts += [f"| {subject} | {keys and f'`{keys}`'} | {help} |" for subject, keys, help in rows]
-        parts.append("")
-    return "\n".join(parts)
+        lines += [f"## {title}", "", "| action | keys | |", "|---|---|---|"]
+        lines += [f"| {name} | {keys and f'`{keys}`'} | {help} |" for name, keys, help in rows]
+        lines.append("")
+    return "\n".join(lines)

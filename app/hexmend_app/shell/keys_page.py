@@ -1,4 +1,4 @@
-"""The window that lists mouse actions and keys."""
+"""Window that lists mouse controls and keys."""
 
 from __future__ import annotations
 
@@ -14,21 +14,16 @@ from hexmend_app.theme.style import on_theme_change, set_help
 
 
 class KeysPage(QDialog):
-    """Lists every action with its keys; the text field filters the list.
-
-    Parameters
-    ----------
-    actions : iterable of Action
-    """
+    """List of every action with its keys, and a text field that filters it."""
 
     def __init__(self, actions: Iterable[Action], parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle("Mouse and keys")
         self._tables = tables(actions)
         self._field = QLineEdit()
-        self._field.setPlaceholderText("Type some letters")
+        self._field.setPlaceholderText("Filter by name, keys or help")
         self._field.setClearButtonEnabled(True)
-        set_help(self._field, "Find", "Leaves what has these letters in its name, its keys or its help.")
+        set_help(self._field, "Filter", "Show only the entries whose name, keys or help contain these words.")
         self._page = QTextBrowser()
         set_help(self._page, "Mouse and keys", "")
         layout = QVBoxLayout(self)
@@ -39,21 +34,21 @@ class KeysPage(QDialog):
         self.resize(640, 620)
 
     def text(self) -> str:
-        """The list as plain text."""
+        """Return the list as plain text."""
         return self._page.toPlainText()
 
     def _fill(self, *_: object) -> None:
-        wanted = self._field.text().lower().split()
+        words = self._field.text().lower().split()
         parts = []
         for title, rows in self._tables:
-            kept = [row for row in rows if all(word in " ".join(row).lower() for word in wanted)]
-            if kept:
+            matches = [row for row in rows if all(word in " ".join(row).lower() for word in words)]
+            if matches:
                 parts.append(f"<tr><td colspan=2><br><b>{escape(title)}</b></td></tr>")
-                parts += [_row(*row) for row in kept]
+                parts += [_row(*row) for row in matches]
         self._page.setHtml(f"<table width='100%' cellspacing=0 cellpadding=2>{''.join(parts)}</table>")
 
 
-def _row(subject: str, keys: str, help: str) -> str:
-    about = f"<br><small style='color:{MUTED}'>{escape(help)}</small>" if help else ""
+def _row(name: str, keys: str, help: str) -> str:
+    explanation = f"<br><small style='color:{MUTED}'>{escape(help)}</small>" if help else ""
     shown = escape(keys).replace(" ", "&nbsp;") if len(keys) < 24 else escape(keys)
-    return f"<tr><td>{escape(subject)}{about}</td><td align=right><b>{shown}</b></td></tr>"
+    return f"<tr><td>{escape(name)}{explanation}</td><td align=right><b>{shown}</b></td></tr>"

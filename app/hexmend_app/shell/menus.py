@@ -1,4 +1,4 @@
-"""Menus, tool bar and shortcuts, made from the actions of features."""
+"""Menus, tool bar and shortcuts, built from the actions of features."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.feature import MENUS, Action, ActionFace
-from hexmend_app.shell.mnemonics import letter_of, letters, marked
+from hexmend_app.shell.mnemonics import letter_of, letters, with_mnemonic
 from hexmend_app.theme.style import icon
 
 
 class Menus:
-    """The window's menus with their actions.
+    """Menus and tool bar of the window.
 
     Parameters
     ----------
     window : QMainWindow
     actions : sequence of Action
-        In the order of their features.
+        Sorted by feature.
 
     Attributes
     ----------
     actions : dict of QAction
-        By id, in the order of the menus.
+        By id, sorted by menu.
     """
 
     def __init__(self, window: QMainWindow, actions: Sequence[Action]):
@@ -37,23 +37,22 @@ class Menus:
         self._bar.setIconSize(QSize(16, 16))
         self._menus = _menus(window)
         for menu in ("", *MENUS):
-            self._fill(menu, [one for one in actions if one.menu == menu])
+            self._fill(menu, [action for action in actions if action.menu == menu])
         for name, menu in self._menus.items():
             menu.menuAction().setVisible(not menu.isEmpty())
             if "/" in name and menu.isEmpty():
                 menu.deleteLater()
         for menu in (window.menuBar(), *self._menus.values()):
-            _give_letters([action for action in menu.actions() if not action.isSeparator()])
-        for trailing in self._bar.actions()[-1:]:
-            if trailing.isSeparator():
-                self._bar.removeAction(trailing)
-        self._bar.setMinimumWidth(self._bar.sizeHint().width())  # or it hides buttons that fit
+            _assign_mnemonics([action for action in menu.actions() if not action.isSeparator()])
+        if self._bar.actions() and self._bar.actions()[-1].isSeparator():
+            self._bar.removeAction(self._bar.actions()[-1])
+        self._bar.setMinimumWidth(self._bar.sizeHint().width())  # otherwise Qt hides buttons that fit
         self._window.menuBar().setCornerWidget(self._bar, Qt.Corner.TopRightCorner)
 
     def _fill(self, name: str, actions: list[Action]) -> None:
-        group = QActionGroup(self._window) if any(one.exclusive for one in actions) else None
+        group = QActionGroup(self._window) if any(declared.exclusive for declared in actions) else None
         part = None
-        for declared in sorted(actions, key=lambda one: one.part):
+        for declared in sorted(actions, key=lambda declared: declared.part):
             action = self._make(declared)
             if name:
                 menu = self._menus[name]
@@ -83,7 +82,7 @@ class Menus:
         action.setCheckable(declared.checked is not None)
         handle = declared.handle
         if declared.checked is not None:
-            action.triggered.connect(handle)  # `toggled` would be sent by `refresh` too
+            action.triggered.connect(handle)  # `refresh` would emit `toggled` too
         else:
             action.triggered.connect(lambda checked=False: handle())
         self._declared[declared.id] = declared
@@ -108,30 +107,30 @@ class Menus:
                 action.setProperty("name", face.text)
                 _show_face(action, face)
             if declared.title is not None:
-                action.setText(marked(declared.title(), letter_of(action.text())))
+                action.setText(with_mnemonic(declared.title(), letter_of(action.text())))
                 action.setIconText(declared.tool or declared.text.replace("&", ""))
 
     def declared(self) -> Iterable[Action]:
-        """The declarations of all actions."""
+        """Return the declarations of all actions."""
         return self._declared.values()
 
-    def in_view(self) -> QMenu:
-        """The context menu of the view."""
+    def context_menu(self) -> QMenu:
+        """Return a new context menu of the view, with the actions that are enabled now."""
         menu = QMenu(self._window)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        before = None
-        # Actions for the clicked hex come first.
-        for id, declared in sorted(self._declared.items(), key=lambda one: one[1].menu != "Hex"):
+        previous = None
+        # Actions for the clicked hex are listed first.
+        for id, declared in sorted(self._declared.items(), key=lambda entry: entry[1].menu != "Hex"):
             if declared.in_view and self.actions[id].isEnabled():
-                if before not in (None, declared.menu):
+                if previous not in (None, declared.menu):
                     menu.addSeparator()
                 menu.addAction(self.actions[id])
-                before = declared.menu
+                previous = declared.menu
         return menu
 
 
 def _show_face(action: QAction, face: ActionFace) -> None:
-    """Show text, icon and help of an action on its buttons; without a text, they show that of the menu."""
+    """Set the text, icon and help that buttons of an action show; an empty text leaves that of the menu."""
     if action.property("face") == list(face):
         return
     action.setProperty("face", list(face))
@@ -145,15 +144,16 @@ def _show_face(action: QAction, face: ActionFace) -> None:
     action.setStatusTip(face.help)
 
 
-def _give_letters(actions: Sequence[QAction]) -> None:
+def _assign_mnemonics(actions: Sequence[QAction]) -> None:
     """Give the entries of a menu distinct mnemonics."""
     for action, letter in zip(actions, letters([action.text() for action in actions]), strict=True):
-        action.setText(marked(action.text(), letter))
+        action.setText(with_mnemonic(action.text(), letter))
 
 
 def _menus(window: QMainWindow) -> dict[str, QMenu]:
+    """Add the menus and submenus of `MENUS` to the menu bar; return them by name."""
     menus: dict[str, QMenu] = {}
     for name in MENUS:
-        within, _, title = name.rpartition("/")
-        menus[name] = (menus[within] if within else window.menuBar()).addMenu(title)
+        parent, _, title = name.rpartition("/")
+        menus[name] = (menus[parent] if parent else window.menuBar()).addMenu(title)
     return menus

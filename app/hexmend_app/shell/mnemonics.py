@@ -1,4 +1,4 @@
-"""Mnemonics of menu entries, distinct in each menu: features do not know each other's."""
+"""Mnemonics of menu entries, made distinct in each menu: features choose theirs independently."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def letter_of(text: str) -> str:
-    """The mnemonic of a text in lower case; "" without one.
+    """Return the mnemonic of a text in lower case; "" if it has none.
 
     >>> letter_of("R&un"), letter_of("Run")
     ('u', '')
@@ -15,61 +15,62 @@ def letter_of(text: str) -> str:
 
 
 def letters(texts: Sequence[str]) -> list[str]:
-    """Distinct mnemonics for the texts of a menu in lower case; "" where letters run out.
+    """Return distinct mnemonics for the texts of a menu in lower case; "" if no letter is left.
 
-    What stands behind an ampersand is given to the first that has it there. The others have words' first letters as
-    far as these go, then any of theirs.
-
-    Parameters
-    ----------
-    texts : sequence of str
+    A letter after an ampersand is assigned to the first text that has it there. The other texts are assigned the first
+    letters of their words, or any of their letters if those are taken.
 
     >>> letters(["Open &recent", "&Run", "Cut", "Compare", "Cu"])
     ['r', 'u', 't', 'o', 'c']
     """
-    holders: dict[str, int] = {}
+    owners: dict[str, int] = {}  # indices of texts by letter
     for at, text in enumerate(texts):
-        holders.setdefault(letter_of(text), at)
-    holders.pop("", None)
-    named = set(holders.values())
+        owners.setdefault(letter_of(text), at)
+    owners.pop("", None)
+    marked = set(owners.values())
     for at in range(len(texts)):
-        if at not in named:
-            _give(at, texts, holders, {letter_of(texts[one]) for one in named})
-    assigned = {at: letter for letter, at in holders.items()}
+        if at not in marked:
+            _assign(at, texts, owners, {letter_of(texts[index]) for index in marked})
+    assigned = {at: letter for letter, at in owners.items()}
     return [assigned.get(at, "") for at in range(len(texts))]
 
 
-def marked(text: str, letter: str) -> str:
-    """A text with an ampersand before a letter, preferably where it is now or at the start of a word.
+def with_mnemonic(text: str, letter: str) -> str:
+    """Return a text with an ampersand before a letter, preferably where it is now or at the start of a word.
 
-    >>> marked("R&un", "u"), marked("Run the recipe", "r"), marked("&Iteration on", "n"), marked("Run", "")
-    ('R&un', '&Run the recipe', 'Iteratio&n on', 'Run')
+    >>> with_mnemonic("R&un", "u"), with_mnemonic("Run the recipe", "r"), with_mnemonic("&Iteration on", "n")
+    ('R&un', '&Run the recipe', 'Iteratio&n on')
+    >>> with_mnemonic("Run", "")
+    'Run'
     """
     if letter_of(text) == letter:
         return text
     text = text.replace("&", "")
-    places = [at for at, one in enumerate(text) if one.lower() == letter]
-    at = min(places, key=lambda at: (not _begins(text, at), at), default=None)
+    places = [at for at, character in enumerate(text) if character.lower() == letter]
+    at = min(places, key=lambda at: (not _begins_word(text, at), at), default=None)
     return text if at is None else f"{text[:at]}&{text[at:]}"
 
 
-def _give(at: int, texts: Sequence[str], holders: dict[str, int], closed: set[str]) -> bool:
-    """Assign a free letter, or one whose owner can take another; letters of `closed`, which grows, are not tried."""
-    simple = texts[at].replace("&", "")
-    initials = [one for place, one in enumerate(simple) if _begins(simple, place)]
-    offered = [one.lower() for one in (*initials, *simple) if one.isalnum()]
-    free = next((one for one in offered if one not in holders), "")
+def _assign(at: int, texts: Sequence[str], owners: dict[str, int], closed: set[str]) -> bool:
+    """Assign a free letter, or one whose owner can take another; return True on success.
+
+    Letters in `closed` are not tried; those that are tried are added to it.
+    """
+    text = texts[at].replace("&", "")
+    initials = [character for place, character in enumerate(text) if _begins_word(text, place)]
+    candidates = [character.lower() for character in (*initials, *text) if character.isalnum()]
+    free = next((letter for letter in candidates if letter not in owners), "")
     if free:
-        holders[free] = at
+        owners[free] = at
         return True
-    for letter in offered:
+    for letter in candidates:
         if letter not in closed:
             closed.add(letter)
-            if _give(holders[letter], texts, holders, closed):
-                holders[letter] = at
+            if _assign(owners[letter], texts, owners, closed):
+                owners[letter] = at
                 return True
     return False
 
 
-def _begins(text: str, at: int) -> bool:
+def _begins_word(text: str, at: int) -> bool:
     return at == 0 or not text[at - 1].isalnum()

@@ -1,4 +1,4 @@
-"""Timer that joins all changes of a turn of the event loop into one refresh."""
+"""Timer that combines all changes in a turn of the event loop into one refresh."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ class RefreshTimer(QObject):
     Signals
     -------
     all_changed
-        Once after changes in a turn of the event loop.
+        Emitted once after the changes in a turn of the event loop.
     iteration_changed
-        Instead, if only the iteration of a run has changed.
+        Emitted instead if only the iteration of a run has changed.
     """
 
     all_changed = Signal()
@@ -26,17 +26,17 @@ class RefreshTimer(QObject):
         self._all = False
 
     def refresh(self, iteration_only: bool) -> None:
-        """Refresh in the next turn of the event loop."""
+        """Request a refresh in the next turn of the event loop."""
         self._all = self._all or not iteration_only
         if not self._timer.isActive():
             self._timer.start()
 
     def refresh_all(self) -> None:
-        """Refresh everything in the next turn of the event loop."""
+        """Request a refresh of everything in the next turn of the event loop."""
         self.refresh(iteration_only=False)
 
     def stop(self) -> None:
-        """Drop what is pending: it is refreshed already, or the window closes."""
+        """Cancel a pending refresh."""
         self._timer.stop()
         self._all = False
 

@@ -1,4 +1,4 @@
-"""The main window: builds features, and refreshes them once for all changes of a moment."""
+"""Main window: builds the features, and refreshes them once per turn of the event loop."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QMainWindow, QWidget
 from hexmend_app.feature import Panel, PanelPlace
 from hexmend_app.shell.palette.type_to_find import TypeToFind
 from hexmend_app.shell.panels.docks import Docks
-from hexmend_app.shell.panels.hex_counts import Counts
+from hexmend_app.shell.panels.hex_counts import HexCounts
 from hexmend_app.shell.refresh_timer import RefreshTimer
 from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import wait_for_dropped
@@ -35,10 +35,10 @@ _MENUS_PERIOD = 0.5
 
 
 class Window(QMainWindow):
-    """The main window, host of all features.
+    """Main window and host of all features.
 
-    It is shown before the slow imports: `begin` builds the features that open and draw a mesh, `build_canvas` the 3D
-    view, `build_features` the other features with all panels and menus.
+    It is shown before the slow imports. Then `begin` builds the features that open and draw a mesh, `build_canvas` the
+    3D view, and `build_features` the other features with all panels and menus.
 
     Signals
     -------
@@ -49,9 +49,9 @@ class Window(QMainWindow):
     ----------
     session : Session
     features : dict of Feature
-        By the names of their folders.
+        By name.
     docks : Docks
-        The panels.
+        Panels around the view.
     canvas : Canvas or None
     messages : MessageBar
     busy : Busy
@@ -67,7 +67,7 @@ class Window(QMainWindow):
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
         reserve_opengl(self)
         TypeToFind(self)
-        self._counts = Counts()
+        self._counts = HexCounts()
         self._build_status_bar()
         self.session: Session | None = None
         self.canvas: Canvas | None = None
@@ -77,7 +77,7 @@ class Window(QMainWindow):
         self._timer.all_changed.connect(self.refresh)
         self._timer.iteration_changed.connect(self.refresh_iteration)
         self._menus_shown = 0.0
-        self._first_size()
+        self._set_initial_size()
 
     # Building
 
@@ -91,12 +91,12 @@ class Window(QMainWindow):
             bar.addPermanentWidget(part)
 
     def begin(self) -> None:
-        """Build the session, and the features that open and draw a mesh."""
-        from hexmend_app.shell.features import first_names, in_order, kind_of, name_of
+        """Build the session and the features that open and draw a mesh."""
+        from hexmend_app.shell.features import feature_class, first_names, in_order, name_of
         from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
-        self.features = {name_of(kind): kind(self) for kind in in_order(map(kind_of, first_names()))}
+        self.features = {name_of(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
         self._add_states(self.features.values())
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
         for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):
@@ -105,20 +105,20 @@ class Window(QMainWindow):
         self.docks.reserve(settings.PANELS.get())
         self.refresh()
 
-    def building_features(self) -> Iterator[None]:
+    def build_steps(self) -> Iterator[None]:
         """Build the other features step by step; in the last step, add all panels and menus."""
-        from hexmend_app.shell.features import building
+        from hexmend_app.shell.features import build_remaining
         from hexmend_app.shell.menus import Menus
-        from hexmend_app.shell.window_actions import own_actions
+        from hexmend_app.shell.window_actions import declare_actions
 
         first = self.features
-        self.features = yield from building(self, first)
+        self.features = yield from build_remaining(self, first)
         self._add_states(self.features[name] for name in self.features.keys() - first.keys())
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
-        listed = sorted(self.features.values(), key=lambda one: one.menu_order)
-        actions = [action for feature in listed for action in feature.actions()]
-        self._menus = Menus(self, [*actions, *own_actions(self, panels)])
+        in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
+        actions = [action for feature in in_menu_order for action in feature.actions()]
+        self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
         if self.canvas is not None:
             for name in self.features.keys() - first.keys():
                 self.features[name].canvas_ready(self.canvas)
@@ -130,7 +130,7 @@ class Window(QMainWindow):
         """Build all features."""
         if self.session is None:
             self.begin()
-        for _ in self.building_features():
+        for _ in self.build_steps():
             pass
 
     def _add_states(self, features: Iterable[Feature]) -> None:
@@ -159,22 +159,22 @@ class Window(QMainWindow):
 
     @property
     def plotter(self) -> CanvasPlotter | None:
-        """PyVista's plotter on the 3D view, made when first asked for; None before there is a view."""
+        """PyVista plotter of the 3D view, created on first use; None before the view is built."""
         return None if self.canvas is None else self.canvas.plotter
 
     @property
     def dialog_parent(self) -> QWidget:
-        """The window, as parent of dialogs."""
+        """Parent of dialogs: this window."""
         return self
 
     @property
     def window_actions(self) -> dict[str, QAction]:
-        """Every action by its id."""
+        """All actions by id."""
         return self._menus.actions
 
     @property
     def menus(self) -> Menus:
-        """The menus and the declarations of their actions."""
+        """Menus and the declarations of their actions."""
         return self._menus
 
     def action(self, id: str) -> QAction:
@@ -227,17 +227,17 @@ class Window(QMainWindow):
         return wait_until(self, text, over, leave)
 
     def refresh_soon(self) -> None:
-        """Refresh everything once, in the next turn of the event loop."""
+        """Request a refresh of everything, once, in the next turn of the event loop."""
         self._timer.refresh_all()
 
     def refresh(self) -> None:
-        """Show the present session."""
+        """Show the current state of the session."""
         self._timer.stop()
         if self.session is None:
             return
         self._refresh_features(lambda feature: feature.refresh())
         self._refresh_menus()
-        # Esc closes a message first, then cancels opening.
+        # Esc dismisses messages first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
         document = self.session.document
         if document.is_open:
@@ -253,10 +253,10 @@ class Window(QMainWindow):
         self._counts.refresh(self.session)
 
     def _refresh_features(self, refresh: Callable[[Feature], object]) -> None:
-        for feature in sorted(self.features.values(), key=lambda one: one.refresh_order):
+        for feature in sorted(self.features.values(), key=lambda feature: feature.refresh_order):
             try:
                 refresh(feature)
-            except Exception:  # the other features are refreshed whatever one raises
+            except Exception:  # refresh the other features nevertheless
                 sys.excepthook(*sys.exc_info())
 
     def _refresh_menus(self) -> None:
@@ -270,19 +270,19 @@ class Window(QMainWindow):
             self.session.selection.choose(*hit)
         self.refresh()
         if self._menus is not None:
-            self._menus.in_view().popup(at)
+            self._menus.context_menu().popup(at)
 
     # Closing
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """End threads and the 3D view; wait for all threads together."""
+        """Save the layout, close the features and the 3D view, and wait for all threads."""
         if not self.may_leave():
             event.ignore()
             return
         settings.GEOMETRY.set(self.saveGeometry())
-        if self._menus is not None:  # otherwise panels are not added yet
+        if self._menus is not None:  # otherwise the panels have not been added yet
             settings.PANELS.set(self.docks.state())
-        self.docks.set_hidden(True)  # floating ones are windows
+        self.docks.set_hidden(True)  # floating panels are windows of their own
         self.hide()  # threads may take a while to end
         for feature in self.features.values():
             feature.close()
@@ -295,13 +295,13 @@ class Window(QMainWindow):
         event.accept()
 
     def changeEvent(self, event: QEvent) -> None:
-        """Refresh everything after a change of theme."""
+        """Request a refresh after a change of theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self.refresh_soon()
 
-    def _first_size(self) -> None:
-        """Restore the size, or fit the screen."""
-        space = self.screen().availableGeometry()
-        self.resize(min(1600, round(space.width() * 0.94)), min(1000, round(space.height() * 0.92)))
+    def _set_initial_size(self) -> None:
+        """Restore the saved geometry, or fit the screen."""
+        screen = self.screen().availableGeometry()
+        self.resize(min(1600, round(screen.width() * 0.94)), min(1000, round(screen.height() * 0.92)))
         self.restoreGeometry(settings.GEOMETRY.get())  # no effect without a saved geometry

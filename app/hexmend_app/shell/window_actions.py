@@ -1,4 +1,4 @@
-"""The window's own actions: panels, layout, command palette, keys and quitting."""
+"""Actions of the window itself: panels, layout, command palette, keys and quit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PySide6.QtCore import QPoint, Qt
 from hexmend_app.feature import Action, Panel, PanelPlace
 from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.palette_entries import choices, commands, panels_in
+from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class ActionWindow(Protocol):
-    """Window, a QMainWindow, on which these actions act."""
+    """QMainWindow on which these actions operate."""
 
     docks: Docks
     menus: Menus
@@ -29,23 +29,16 @@ class ActionWindow(Protocol):
     window_actions: dict[str, QAction]
 
     def refresh(self) -> None:
-        """Show the present state."""
+        """Show the current state of the session."""
 
 
-def own_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
-    """The window's own actions, among them one for each panel.
-
-    Parameters
-    ----------
-    window : ActionWindow
-    panels : sequence of Panel
-        Of all features.
-    """
-    return [*_of_panels(window.docks, panels), *_of_layout(window.docks), *_of_program(window, panels)]
+def declare_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+    """Return the actions of the window, including one for each of the `panels` of all features."""
+    return [*_panel_actions(window.docks, panels), *_layout_actions(window.docks), *_program_actions(window, panels)]
 
 
-def _of_panels(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
-    """Actions that show and close each panel."""
+def _panel_actions(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
+    """Return the actions that show and close each panel."""
     by_id = {panel.id: panel for panel in panels}
     return [
         Action(
@@ -62,8 +55,8 @@ def _of_panels(docks: Docks, panels: Sequence[Panel]) -> list[Action]:
     ]
 
 
-def _of_layout(docks: Docks) -> list[Action]:
-    """Actions for all panels together."""
+def _layout_actions(docks: Docks) -> list[Action]:
+    """Return the actions for all panels together."""
     return [
         Action(
             id="panels",
@@ -85,7 +78,7 @@ def _of_layout(docks: Docks) -> list[Action]:
             part=3,
             keys="Ctrl+B",
             icon="dock-bottom",
-            help="Open or close the drawer below the view.",
+            help="Open or close the panels below the view.",
             handle=lambda on: docks.set_folded(not on),
             checked=lambda: not docks.folded and not docks.hidden,
             needs_mesh=False,
@@ -96,15 +89,15 @@ def _of_layout(docks: Docks) -> list[Action]:
             menu="View/Panels",
             part=9,
             icon="dock-window",
-            help="Dock and open every panel in its default place.",
+            help="Open and dock all panels in their default places.",
             handle=docks.reset,
             needs_mesh=False,
         ),
     ]
 
 
-def _of_program(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
-    """Command palette, keys and quitting."""
+def _program_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
+    """Return the actions command palette, keys and quit."""
     return [
         Action(
             id="commands",
@@ -122,7 +115,7 @@ def _of_program(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
             menu="Help",
             keys="F1",
             icon="mouse",
-            help="List mouse controls of the view and all keys.",
+            help="List the mouse controls of the view and all keys.",
             needs_mesh=False,
             handle=lambda: _show_keys(window),
         ),
@@ -141,8 +134,12 @@ def _of_program(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
 
 def _show_palette(window: ActionWindow, panels: Sequence[Panel]) -> None:
     window.refresh()
-    others = {id: action for id, action in window.window_actions.items() if id != "commands"}
-    entries = [*commands(others), *panels_in(window.docks, panels), *choices(window.session)]
+    actions = {id: action for id, action in window.window_actions.items() if id != "commands"}
+    entries = [
+        *command_entries(actions),
+        *panel_entries(window.docks, panels),
+        *choice_entries(window.session),
+    ]
     palette = CommandPalette(entries, window)
     palette.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     palette.move(window.mapToGlobal(QPoint((window.width() - palette.width()) // 2, 60)))

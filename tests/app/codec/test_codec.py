@@ -61,7 +61,7 @@ def test_a_value_is_the_same_again_and_is_plain_on_the_way(value):
     (Look, {"dug": {}}, "look.dug is of another kind: expected list"),
     (Look, {"dug": [1, "a"]}, r"look.dug\[1\] is of another kind"),
     (Look, {"clip": {"Sphere": {}}}, "look.clip is none of PlaneClip, BoxClip"),
-    (Look, {"clip": {"PlaneClip": {"planes": [], "crinkle": True, "notch": False}}}, "look.clip: a cut has no plane"),
+    (Look, {"clip": {"PlaneClip": {"planes": [], "crinkle": True, "notch": False}}}, "look.clip: the cut has no plane"),
     (Pair, {"first": [1]}, "look.first has 1 entries: expected 2"),
     (Pair, {"table": {"b": "c"}}, "look.table.b is of another kind: expected float"),
     (StoppingCriteria, {"max_iterations": -1}, "max_iterations = -1 is out of range"),

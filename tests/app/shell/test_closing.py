@@ -1,4 +1,4 @@
-"""Closing the window ends the program, whatever goes on in its threads."""
+"""Closing the window ends the program, even while threads are running."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ sys.exit(open_window(sys.argv[1]))
 """
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes that have a name")
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
 @pytest.mark.parametrize("before", ["pass", "window.session.opener.cancel()"], ids=["while it reads", "after Cancel"])
-def test_the_process_ends_with_its_window_though_a_file_never_answers(qapp, tmp_path, before):
+def test_the_process_ends_with_its_window_although_a_file_does_not_respond(qapp, tmp_path, before):
     os.mkfifo(tmp_path / "dead.vtk")
     program = PROGRAM.replace("{before}", before)
     words = [sys.executable, "-c", program, str(tmp_path / "dead.vtk"), str(tmp_path / "settings")]
     ended = subprocess.run(words, capture_output=True, text=True, timeout=100)
     assert ended.returncode == 0, ended.stderr
-    assert "closed while threads were at work: reading dead.vtk" in ended.stderr
+    assert "closed while threads were running: reading dead.vtk" in ended.stderr

@@ -21,7 +21,7 @@ from hexmend.io.formats.session.session_file import VERSION
 from hexmend.quality import METRICS
 from hexmend_app.picture import Page
 from hexmend_app.shell.keys import as_markdown
-from hexmend_app.shell.palette.palette_entries import commands
+from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
 from hexmend_app.state.mesh.document import State
 from tests.app.driving import open_and_wait
@@ -153,7 +153,7 @@ def test_the_state_of_a_feature_is_in_sessions_and_its_export_in_the_script(
     window = fresh_window
     assert window.action("panel_notes").text().replace("&", "") == "Notes"
     assert "| Export notes |" in as_markdown(window.menus.declared())
-    assert "Export notes…" in {entry.name for entry in commands(window.window_actions)}
+    assert "Export notes…" in {entry.name for entry in command_entries(window.window_actions)}
     _choose_and_write(window, 3, "thin")
     _choose_and_write(window, 5, "at the weld")
     session = tmp_path / "work.hexmend"

@@ -16,7 +16,7 @@ from hexmend_app.picture import colour_map, from_toml, layer_switch
 from hexmend_app.picture.appearance import ColourScale, Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.keys import as_markdown
-from hexmend_app.shell.palette.palette_entries import commands
+from hexmend_app.shell.palette.palette_entries import command_entries
 from tests.app.driving import named, open_and_wait
 from tests.app.features.structure.layers import count, pixels
 from tests.examples import example
@@ -60,7 +60,7 @@ def test_panel_menu_palette_and_map_box_have_them(window):
     assert row.box.text() == "Bounding box"
     assert next(label.text() for label in row.entries.findChildren(QLabel)).count("×") == 2
     action = window.action("show_bounding-box")
-    assert "Bounding box: off" in {entry.name for entry in commands(window.window_actions)}
+    assert "Bounding box: off" in {entry.name for entry in command_entries(window.window_actions)}
     assert "| Bounding box | `Ctrl+Shift+B` | Show the box around the mesh. |" in as_markdown(window.menus.declared())
     action.trigger()
     window.refresh()

@@ -1,4 +1,4 @@
-"""Features declare themselves: what one offers is found in menus, palette, page of keys and window."""
+"""Features: their declarations appear in menus, command palette, page of keys and window."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from hexmend_app.feature import MENUS, Action, Feature, Panel, PanelPlace
 from hexmend_app.shell import features as finding
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.command_palette import CommandPalette
-from hexmend_app.shell.palette.palette_entries import commands
+from hexmend_app.shell.palette.palette_entries import command_entries
 from hexmend_app.shell.window import Window
 
 
 class FeatureCounting(Feature):
-    """An example: counts how often it was asked to."""
+    """Example feature that counts."""
 
     order = 99
 
@@ -40,9 +40,7 @@ class FeatureCounting(Feature):
         )
 
     def panels(self):
-        return (
-            Panel(id="count", title="Counter", widget=self.panel, place=PanelPlace.FACTS, help="What was counted."),
-        )
+        return (Panel(id="count", title="Counter", widget=self.panel, place=PanelPlace.FACTS, help="The count."),)
 
     def refresh(self):
         self.refreshed += 1
@@ -55,9 +53,9 @@ class FeatureCounting(Feature):
 
 @pytest.fixture
 def with_example(qtbot, monkeypatch, tmp_path):
-    """A window that finds the example among its features."""
-    known = finding.found()
-    monkeypatch.setattr(finding, "found", lambda: [*known, FeatureCounting])
+    """A window with the example among its features."""
+    classes = finding.feature_classes()
+    monkeypatch.setattr(finding, "feature_classes", lambda: [*classes, FeatureCounting])
     monkeypatch.setattr(finding, "name_of", lambda kind: kind.__name__.removeprefix("Feature").lower())
     window = Window()
     qtbot.addWidget(window)
@@ -67,14 +65,14 @@ def with_example(qtbot, monkeypatch, tmp_path):
     window.close()
 
 
-def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
+def test_a_feature_appears_in_menu_palette_keys_and_window(with_example, qtbot):
     window = with_example
     action = window.action("count")
     menu = next(one for one in window.menuBar().findChildren(QMenu) if one.title().replace("&", "") == "Help")
     assert action in menu.actions()
     assert action.shortcut().toString() == "Ctrl+Alt+U"
-    palette = CommandPalette(commands(window.window_actions), window)
-    assert "Count up" in palette.found()
+    palette = CommandPalette(command_entries(window.window_actions), window)
+    assert "Count up" in palette.titles()
     palette.close()
     assert "| Count up | `Ctrl+Alt+U` | Count one more. |" in as_markdown(window.menus.declared())
     assert "panel_count" in window.window_actions
@@ -84,7 +82,7 @@ def test_a_feature_reaches_menu_palette_keys_and_window(with_example, qtbot):
 
 
 @pytest.mark.slow
-def test_whatever_changes_in_a_turn_of_the_event_loop_is_shown_once(with_example, qtbot):
+def test_all_changes_in_a_turn_of_the_event_loop_cause_one_refresh(with_example, qtbot):
     window = with_example
     example = window.features["counting"]
     qtbot.waitUntil(lambda: example.refreshed > 0)
@@ -100,7 +98,7 @@ def test_whatever_changes_in_a_turn_of_the_event_loop_is_shown_once(with_example
     assert not window.action("count").isEnabled()
 
 
-def test_every_action_is_in_a_menu_that_there_is_and_has_help(with_example):
+def test_every_action_has_a_known_menu_and_help(with_example):
     declared = list(with_example.menus.declared())
     assert {one.menu for one in declared} <= {"", *MENUS}
     for one in declared:
@@ -113,19 +111,19 @@ def test_no_two_actions_have_the_same_keys(with_example):
 
 
 def test_every_folder_is_a_feature():
-    names = [finding.name_of(kind) for kind in finding.found()]
+    names = [finding.name_of(kind) for kind in finding.feature_classes()]
     assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
     assert len(names) == len(set(names))
 
 
 @pytest.mark.slow
-def test_the_page_of_keys_in_the_docs_is_what_the_features_declare(window):
+def test_docs_keys_match_the_declared_actions(window):
     """`make docs` writes it."""
     page = Path(__file__).resolve().parents[3] / "docs" / "keys.md"
     assert page.read_text(encoding="utf-8") == as_markdown(window.menus.declared())
 
 
-def test_the_orders_of_menus_and_of_refreshing_follow_that_of_building_unless_declared():
+def test_menu_and_refresh_order_default_to_the_order_of_building():
     class FeatureListed(Feature):
         order = 7
         menu_order = 80
@@ -139,7 +137,7 @@ def test_the_orders_of_menus_and_of_refreshing_follow_that_of_building_unless_de
 
 
 @pytest.mark.slow
-def test_a_new_iteration_refreshes_only_what_shows_it(window, qtbot, monkeypatch):
+def test_a_new_iteration_refreshes_only_features_that_show_it(window, qtbot, monkeypatch):
     calls = []
     for name in ("timeline", "help"):
         feature = window.features[name]

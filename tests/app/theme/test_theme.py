@@ -152,7 +152,7 @@ def colours():
 
 
 def palette():
-    return CommandPalette([PaletteEntry(name="Fit", do=print), PaletteEntry(name="Run", do=print)])
+    return CommandPalette([PaletteEntry(name="Fit", run=print), PaletteEntry(name="Run", run=print)])
 
 
 BUILT = {

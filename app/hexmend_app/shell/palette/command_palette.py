@@ -1,4 +1,4 @@
-"""The command palette: commands are found by typing a part of their name."""
+"""Command palette: finds commands by parts of their names."""
 
 from __future__ import annotations
 
@@ -11,34 +11,29 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTre
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
 from hexmend_app.theme.style import GREY, MUTED, note, on_theme_change, set_help
 
-#: Keys that move in the list while the cursor stands in the field.
+#: Keys that move in the list while the text field has the focus.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 
 _WIDTH = 590
 
 
 class _Field(QLineEdit):
-    """A text field whose arrow keys move in a list."""
+    """Text field whose arrow keys move in a list."""
 
-    def __init__(self, neighbour: QTreeWidget):
+    def __init__(self, tree: QTreeWidget):
         super().__init__()
-        self._neighbour = neighbour
+        self._tree = tree
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Pass arrow keys to the list."""
         if event.key() in _MOVES:
-            self._neighbour.keyPressEvent(event)
+            self._tree.keyPressEvent(event)
         else:
             super().keyPressEvent(event)
 
 
 class CommandPalette(QDialog):
-    """Finds commands by name, best match first, and runs them.
-
-    Parameters
-    ----------
-    entries : iterable of Entry
-    """
+    """Dialog that finds commands by name, best match first, and runs them."""
 
     def __init__(self, entries: Iterable[PaletteEntry], parent: QWidget | None = None):
         super().__init__(parent)
@@ -48,8 +43,8 @@ class CommandPalette(QDialog):
         self._found: list[PaletteEntry] = []
         self._list = QTreeWidget()
         self._field = _Field(self._list)
-        self._field.setPlaceholderText("Type some letters of a command, a panel, a method, a metric or a setting")
-        set_help(self._field, "Command", "Letters of what is looked for, in any order of words; Enter does it.")
+        self._field.setPlaceholderText("Find a command, panel, method, metric or setting")
+        set_help(self._field, "Command", "Type parts of its name in any order; Enter runs the selected entry.")
         self._list.setColumnCount(2)
         self._list.setHeaderHidden(True)
         self._list.setRootIsDecorated(False)
@@ -59,7 +54,7 @@ class CommandPalette(QDialog):
         self._list.header().setStretchLastSection(False)
         self._list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._list.header().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        self._nothing = note("Nothing has these letters.")
+        self._nothing = note("No matches.")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         for part in (self._field, self._list, self._nothing):
@@ -71,20 +66,20 @@ class CommandPalette(QDialog):
         on_theme_change(self, self._fill)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw the frame, which a frameless window lacks."""
+        """Draw a border, as the window has no frame."""
         super().paintEvent(event)
         painter = QPainter(self)
         painter.setPen(QColor(str(GREY)))
         painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
 
-    def found(self) -> list[str]:
-        """The entries that are listed, best match first."""
-        return [one.title for one in self._found]
+    def titles(self) -> list[str]:
+        """Return the titles of the listed entries, best match first."""
+        return [entry.title for entry in self._found]
 
     def _fill(self, *_: object) -> None:
         self._found = ranked(self._entries, self._field.text())
         self._list.clear()
-        self._list.addTopLevelItems([_item(one) for one in self._found])
+        self._list.addTopLevelItems([_item(entry) for entry in self._found])
         self._list.setCurrentItem(self._list.topLevelItem(0))
         self._nothing.setVisible(not self._found)
 
@@ -92,11 +87,11 @@ class CommandPalette(QDialog):
         at = self._list.indexOfTopLevelItem(self._list.currentItem()) if self._found else -1
         if at >= 0:
             self.accept()
-            self._found[at].do()
+            self._found[at].run()
 
 
 def _no_icon() -> QIcon:
-    """An empty icon, so that titles without an icon are aligned with the others."""
+    """Return an empty icon, which aligns titles without an icon with the others."""
     empty = QPixmap(16, 16)
     empty.fill(Qt.GlobalColor.transparent)
     return QIcon(empty)

@@ -1,4 +1,4 @@
-"""The entries of the palette: commands, panels, their controls, methods, and metrics to colour by."""
+"""Entries of the command palette: commands, panels and their controls, methods, and metrics to colour by."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from hexmend_app.widgets.section import Section
 if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
-#: Controls of panels.
+#: Types of widgets in panels that have an entry.
 _CONTROLS = (QAbstractButton, QAbstractSpinBox, QComboBox, QLineEdit, QSlider)
 
 
-def commands(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
-    """The enabled actions, except those that only open a panel: panels have entries themselves.
+def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
+    """Yield an entry for each enabled action, except those that open a panel, which has an entry itself.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def commands(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
             name = f"{name}: {'on' if action.isChecked() else 'off'}"
         yield PaletteEntry(
             name=name,
-            do=action.trigger,
+            run=action.trigger,
             help=action.statusTip(),
             kind=action.property("within") or "",
             keys=action.shortcut().toString(QKeySequence.SequenceFormat.NativeText),
@@ -51,69 +51,67 @@ def commands(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
         )
 
 
-def panels_in(docks: Docks, panels: Iterable[Panel]) -> Iterator[PaletteEntry]:
-    """Entries that show a panel, then entries that focus a control of a panel."""
+def panel_entries(docks: Docks, panels: Iterable[Panel]) -> Iterator[PaletteEntry]:
+    """Yield entries that show a panel, then entries that focus a control of a panel."""
     shown = [panel for panel in panels if panel.id in docks.ids()]
     for panel in shown:
-        yield PaletteEntry(name=panel.title, do=partial(docks.show_panel, panel.id), help=panel.help, kind="Panel")
+        yield PaletteEntry(name=panel.title, run=partial(docks.show_panel, panel.id), help=panel.help, kind="Panel")
     for panel in shown:
         for control in _controls(panel.widget):
             yield PaletteEntry(
                 name=control.accessibleName(),
-                do=partial(_go_to, docks, panel, control),
+                run=partial(_focus_control, docks, panel, control),
                 help=control.accessibleDescription(),
                 kind=f"In {panel.title}",
             )
 
 
-def choices(session: Session) -> Iterator[PaletteEntry]:
-    """The methods, with their last parameters, and the metrics to colour by."""
-    order, stop = (
-        session.run_setup,
-        session.run_setup.stage.stop if session.run_setup.stage is not None else StoppingCriteria(),
-    )
+def choice_entries(session: Session) -> Iterator[PaletteEntry]:
+    """Yield entries that choose a method, with its last parameters, or a metric to colour by."""
+    run_setup = session.run_setup
+    stop = run_setup.stage.stop if run_setup.stage is not None else StoppingCriteria()
     if session.editable:
         for method in METHODS.values():
-            stage = Stage(order.smoother_of(method.name), stop)
-            reason = f"Chosen: {method.title}. Run starts it."
-            yield PaletteEntry(
-                name=method.title, do=partial(order.choose, stage, reason), help=method.help, kind="Method"
-            )
+            stage = Stage(run_setup.smoother_of(method.name), stop)
+            choose = partial(run_setup.choose, stage, f"{method.title} chosen. Press Run to start it.")
+            yield PaletteEntry(name=method.title, run=choose, help=method.help, kind="Method")
     if session.document.is_open:
         for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
-            do = partial(session.view.colour_by, metric.name)
-            yield PaletteEntry(name=metric.title, do=do, help=metric.meaning, kind="Colour by")
+            colour = partial(session.view.colour_by, metric.name)
+            yield PaletteEntry(name=metric.title, run=colour, help=metric.meaning, kind="Colour by")
 
 
 def _controls(panel: QWidget) -> Iterator[QWidget]:
-    """The focusable controls of a panel, in collapsed sections too."""
+    """Yield the named, enabled controls of a panel, including those in collapsed sections."""
     for widget in panel.findChildren(QWidget):
-        within = isinstance(widget.parentWidget(), (QAbstractSpinBox, QComboBox))
-        if not isinstance(widget, _CONTROLS) or within or isinstance(widget.parentWidget(), Section):
+        if not isinstance(widget, _CONTROLS) or isinstance(
+            widget.parentWidget(), (QAbstractSpinBox, QComboBox, Section)
+        ):
             continue
-        if widget.accessibleName() and widget.isEnabledTo(panel) and _can_be_seen(widget, panel):
+        if widget.accessibleName() and widget.isEnabledTo(panel) and _is_reachable(widget, panel):
             yield widget
 
 
-def _can_be_seen(widget: QWidget, panel: QWidget) -> bool:
-    """Return True if nothing but collapsed sections hides a widget."""
-    folded = [section.content() for section in _sections_around(widget)]
+def _is_reachable(widget: QWidget, panel: QWidget) -> bool:
+    """Return True if a widget is hidden by collapsed sections only, or not at all."""
+    collapsed = [section.content() for section in _sections_around(widget)]
     while widget is not panel:
-        if widget.isHidden() and widget not in folded:
+        if widget.isHidden() and widget not in collapsed:
             return False
         widget = widget.parentWidget()
     return True
 
 
 def _sections_around(widget: QWidget) -> Iterator[Section]:
-    around = widget.parentWidget()
-    while around is not None:
-        if isinstance(around, Section):
-            yield around
-        around = around.parentWidget()
+    """Yield the sections that contain a widget, innermost first."""
+    parent = widget.parentWidget()
+    while parent is not None:
+        if isinstance(parent, Section):
+            yield parent
+        parent = parent.parentWidget()
 
 
-def _go_to(docks: Docks, panel: Panel, control: QWidget) -> None:
+def _focus_control(docks: Docks, panel: Panel, control: QWidget) -> None:
     docks.show_panel(panel.id)
     for section in _sections_around(control):
         section.expand()

@@ -1,4 +1,4 @@
-"""Entries of the palette, and their order for a typed text."""
+"""Entries of the command palette, and their ranking for a typed text."""
 
 from __future__ import annotations
 
@@ -11,23 +11,24 @@ from PySide6.QtGui import QIcon
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PaletteEntry:
-    """A command that is found by its name.
+    """Command of the palette.
 
     Parameters
     ----------
     name : str
-    do : callable
+    run : callable
+        Called without arguments to carry it out.
     help : str
         One sentence.
     kind : str
-        What it is, where it is no command: "Panel", "Method"...
+        Category, such as "Panel" or "Method"; "" for a command.
     keys : str
-        In the desktop's words, "" for none.
+        Shortcut in the notation of the desktop; "" for none.
     icon : QIcon
     """
 
     name: str
-    do: Callable[[], object]
+    run: Callable[[], object]
     help: str = ""
     kind: str = ""
     keys: str = ""
@@ -35,36 +36,36 @@ class PaletteEntry:
 
     @property
     def title(self) -> str:
-        """The name with its kind."""
+        """Kind and name."""
         return f"{self.kind}: {self.name}" if self.kind else self.name
 
 
 def ranked(entries: Iterable[PaletteEntry], text: str) -> list[PaletteEntry]:
-    """The entries that contain every word of a text, best match first; equal matches keep their order.
+    """Return the entries that contain every word of a text, best match first; equal matches keep their order.
 
-    A name that begins with the text comes before one whose words begin with its words, then one that holds them, then
-    one that needs its kind for them; what only the help speaks of comes last.
+    Matches at the start of the name rank first, then matches at starts of words of the name, then of the title; after
+    these, matches anywhere in the name, in the title, and in the help.
 
-    >>> some = [PaletteEntry(name="Reset", do=print, help="Undo all."), PaletteEntry(name="Undo", do=print)]
-    >>> some.append(PaletteEntry(name="Run", do=print))
-    >>> [one.name for one in ranked(some, "un")]
+    >>> entries = [PaletteEntry(name="Reset", run=print, help="Undo all."), PaletteEntry(name="Undo", run=print)]
+    >>> entries.append(PaletteEntry(name="Run", run=print))
+    >>> [entry.name for entry in ranked(entries, "un")]
     ['Undo', 'Run', 'Reset']
     """
     words = text.lower().split()
-    found = [(rank, one) for one in entries if (rank := _rank(one, words)) is not None]
-    return [one for _, one in sorted(found, key=lambda pair: pair[0])]
+    matches = [(rank, entry) for entry in entries if (rank := _rank(entry, words)) is not None]
+    return [entry for _, entry in sorted(matches, key=lambda match: match[0])]
 
 
 def _rank(entry: PaletteEntry, words: list[str]) -> int | None:
-    """Rank of a match, 0 the best; None without a match."""
+    """Return the rank of a match, 0 for the best; None if the entry does not match."""
     name, title = entry.name.lower(), entry.title.lower()
     if name.startswith(" ".join(words)):
         return 0
-    for rank, message in enumerate((name, title), start=1):
-        begins = re.split(r"[\s\-–(:,]+", message)
-        if all(any(one.startswith(word) for one in begins) for word in words):
+    for rank, text in enumerate((name, title), start=1):
+        parts = re.split(r"[\s\-–(:,]+", text)
+        if all(any(part.startswith(word) for part in parts) for word in words):
             return rank
-    for rank, message in enumerate((name, title, f"{title} {entry.help.lower()}"), start=3):
-        if all(word in message for word in words):
+    for rank, text in enumerate((name, title, f"{title} {entry.help.lower()}"), start=3):
+        if all(word in text for word in words):
             return rank
     return None

@@ -1,4 +1,4 @@
-"""The default arrangement of docks: tools above figures at the right, the drawer below the view."""
+"""Default arrangement of docks: tools above figures on the right, the drawer below the view."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ from hexmend_app.shell.panels.dock import Dock
 
 RIGHT, BOTTOM = Qt.DockWidgetArea.RightDockWidgetArea, Qt.DockWidgetArea.BottomDockWidgetArea
 
-#: Places of docks in their order.
+#: Places of docks, in order.
 PLACES = (PanelPlace.TOOLS, PanelPlace.FACTS, PanelPlace.DRAWER)
 
-#: Width of the right column as a share of the window's, its minimum in pixels, and the share of tools in its height.
-_COLUMN, _MINIMUM_COLUMN, _TOOLS = 0.19, 272, 0.55
+#: Width of the right column as a share of that of the window, its minimum in pixels, and the share of tools in its
+#: height.
+_COLUMN_SHARE, _MINIMUM_COLUMN, _TOOLS_SHARE = 0.19, 272, 0.55
 
 
 def area_of(place: PanelPlace) -> Qt.DockWidgetArea:
-    """The area of the main window in which docks of a place are by default."""
+    """Return the default area of the main window for docks of a place."""
     return BOTTOM if place is PanelPlace.DRAWER else RIGHT
 
 
 def arrange(main: QMainWindow, docks: Sequence[Dock]) -> None:
-    """Dock all in their default places, the first of each place in front and the drawer closed."""
+    """Dock all panels in their default places, with the first of each place in front and the drawer closed."""
     for dock in docks:
         dock.is_open = True
         dock.setFloating(False)
@@ -47,20 +48,20 @@ def size(main: QMainWindow, docks: Sequence[Dock]) -> None:
     """Give the right column its default size."""
     firsts = [next((dock for dock in docks if dock.place is place), None) for place in PLACES[:2]]
     firsts = [dock for dock in firsts if dock is not None]
-    heights = [round(main.height() * share) for share in (_TOOLS, 1 - _TOOLS)]
-    main.resizeDocks(firsts, [_column(main)] * len(firsts), Qt.Orientation.Horizontal)
+    heights = [round(main.height() * share) for share in (_TOOLS_SHARE, 1 - _TOOLS_SHARE)]
+    main.resizeDocks(firsts, [_column_width(main)] * len(firsts), Qt.Orientation.Horizontal)
     main.resizeDocks(firsts, heights[: len(firsts)], Qt.Orientation.Vertical)
 
 
-def _column(main: QMainWindow) -> int:
-    return max(round(main.width() * _COLUMN), _MINIMUM_COLUMN)
+def _column_width(main: QMainWindow) -> int:
+    return max(round(main.width() * _COLUMN_SHARE), _MINIMUM_COLUMN)
 
 
 def reserve_column(main: QMainWindow, width: int = 0) -> Dock:
-    """Add an empty dock at the right, `width` pixels wide (0: by default), for docks that are added later."""
+    """Add an empty dock on the right, `width` pixels wide (0: default width), as a placeholder for later docks."""
     dock = Dock("space", "", "")
     dock.setFeatures(Dock.DockWidgetFeature.NoDockWidgetFeatures)
     dock.setWidget(QWidget())
     main.addDockWidget(RIGHT, dock)
-    main.resizeDocks([dock], [width or _column(main)], Qt.Orientation.Horizontal)
+    main.resizeDocks([dock], [width or _column_width(main)], Qt.Orientation.Horizontal)
     return dock

@@ -1,4 +1,4 @@
-"""A dock that lays out its page only while it is in front."""
+"""Dock whose page is visible only while the dock is in front."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from hexmend_app.feature import PanelPlace
 
 
 class Dock(QDockWidget):
-    """A dock widget with one or several panels.
+    """Dock widget with one or several panels.
 
-    Qt leaves docks behind other tabs visible outside the window, where Tab reaches them and their panels are kept up
-    to date for nobody; so the page of a dock is hidden unless the dock is in front.
+    Qt keeps docks behind other tabs visible, outside the window: Tab reaches them, and their panels are refreshed.
+    Therefore the page is hidden unless the dock is in front.
 
     Signals
     -------
     closed
-        The user has closed it.
+        The user closed it.
 
     Parameters
     ----------
     name : str
-        Object name, by which its place is saved.
+        Object name, under which its place is saved.
     title, help : str
 
     Attributes
     ----------
     place : PanelPlace
-        Where it is by default.
+        Default place.
     is_open : bool
-        The user has not closed it; it may be hidden with others.
+        The user has not closed it; it may be hidden together with others.
     in_front : bool
-        It is visible.
+        It is visible, not behind another tab.
     """
 
     closed = Signal()
@@ -48,7 +48,7 @@ class Dock(QDockWidget):
         self.visibilityChanged.connect(self.set_in_front)
 
     def set_page(self, page: QWidget) -> None:
-        """Show a page, which keeps its room in the layout while another tab is in front."""
+        """Set the page, which keeps its space in the layout while it is hidden."""
         policy = page.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         page.setSizePolicy(policy)
@@ -62,7 +62,7 @@ class Dock(QDockWidget):
             self.widget().setVisible(in_front)
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        """Remember that it was closed, not only hidden."""
+        """Record that the user closed the dock, rather than hid it with others."""
         super().closeEvent(event)
         self.is_open = False
         self.closed.emit()

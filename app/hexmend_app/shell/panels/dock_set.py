@@ -1,4 +1,4 @@
-"""Set of the panels around the view: docks in tabs at the right and below, and lines under the view."""
+"""Set of the panels around the view: tabbed docks on the right and below, and bars under the view."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from hexmend_app.shell.panels.drawer_row import DrawerRow
 from hexmend_app.shell.panels.saved_layout import SavedLayout
 from hexmend_app.shell.panels.tab_bars import TabBars
 
-#: Panels are added, and reached by Tab, in the order of these places.
-_READ = (PanelPlace.EMPTY, PanelPlace.BELOW, PanelPlace.DRAWER, PanelPlace.TOOLS, PanelPlace.FACTS)
+#: Order of places in which panels are added and reached by Tab.
+_TAB_ORDER = (PanelPlace.EMPTY, PanelPlace.BELOW, PanelPlace.DRAWER, PanelPlace.TOOLS, PanelPlace.FACTS)
 
 #: Minimum size of the view in pixels.
 _MINIMUM_VIEW = (320, 240)
@@ -26,17 +26,17 @@ _DRAWER = 260
 
 
 class DockSet(QObject):
-    """The panels of a main window, and which of them are open.
+    """Panels of a main window and their state: open, closed or hidden.
 
     Signals
     -------
     changed
-        Another set of panels is visible.
+        The set of visible panels has changed.
 
     Parameters
     ----------
     main : QMainWindow
-        Its central widget and its docks are set here.
+        Its central widget and docks are set here.
 
     Attributes
     ----------
@@ -45,9 +45,9 @@ class DockSet(QObject):
     view : QVBoxLayout
         The layout of `centre`; the 3D view is inserted at its top.
     row : DrawerRow
-        Tabs of the drawer while it is closed; for the status bar.
+        Tabs of the closed drawer, for the status bar.
     folded : bool
-        The drawer, which is all docks below the view, is closed.
+        The drawer (all docks below the view) is closed.
     hidden : bool
         All panels are hidden.
     """
@@ -61,13 +61,13 @@ class DockSet(QObject):
         self._main = main
         self._docks: dict[str, Dock] = {}  # by the id of each panel
         self._panels: dict[str, QWidget] = {}
-        self._lines: dict[str, QWidget] = {}
-        self._space: Dock | None = None
+        self._bars: dict[str, QWidget] = {}
+        self._placeholder: Dock | None = None
         self.folded, self.hidden = True, False
-        self._height = _DRAWER
+        self._drawer_height = _DRAWER
         self._placed = self._restoring = False
-        self._saved, self._shown_lines = QByteArray(), []  # the arrangement before all panels were hidden
-        self._offered: list[Dock] = []  # brought to the front once they are visible
+        self._saved, self._shown_bars = QByteArray(), []  # the arrangement before all panels were hidden
+        self._offered: list[Dock] = []  # raised once they are visible
         self.centre = QWidget()
         self.centre.setMinimumSize(*_MINIMUM_VIEW)
         self.view = QVBoxLayout(self.centre)
@@ -83,7 +83,7 @@ class DockSet(QObject):
         main.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Size the docks by the window when it is first shown, and set up rows of tabs as Qt makes them."""
+        """Size the docks when the window is first shown, and set up tab bars when Qt creates them."""
         if event.type() in (QEvent.Type.Resize, QEvent.Type.Show) and not self._placed and self._docks:
             self.place()
         elif event.type() == QEvent.Type.LayoutRequest:
@@ -93,40 +93,40 @@ class DockSet(QObject):
     # Adding
 
     def reserve(self, state: dict[str, object]) -> None:
-        """Keep the right column free for panels that are added later, as wide as in a saved state."""
+        """Reserve the right column, as wide as in a saved state, for panels that are added later."""
         saved = SavedLayout.read(state)
         if saved is None or not saved.hidden:
-            self._space = default_layout.reserve_column(self._main, saved.column if saved is not None else 0)
+            self._placeholder = default_layout.reserve_column(self._main, saved.column if saved is not None else 0)
 
     def add(self, panels: Sequence[Panel]) -> None:
         """Add panels; those with the same tab share a dock."""
-        panels = sorted(panels, key=lambda one: (_READ.index(one.place), one.order))
-        for place, group in groupby(panels, key=lambda one: one.place):
+        panels = sorted(panels, key=lambda panel: (_TAB_ORDER.index(panel.place), panel.order))
+        for place, group in groupby(panels, key=lambda panel: panel.place):
             if place is PanelPlace.BELOW:
                 for panel in group:
-                    self._lines[panel.id] = line = _around(panel.widget)
-                    self.view.addWidget(line)
+                    self._bars[panel.id] = bar = _wrapped(panel.widget)
+                    self.view.addWidget(bar)
             elif place is PanelPlace.EMPTY:
                 for panel in group:
                     self.view.insertWidget(0, panel.widget, 1)
             else:
-                for title, within in groupby(group, key=lambda one: one.tab or one.title):
-                    self._add_dock(title, list(within))
+                for title, members in groupby(group, key=lambda panel: panel.tab or panel.title):
+                    self._add_dock(title, list(members))
         if self._docks:
-            if self._space is not None:
-                self._main.removeDockWidget(self._space)
-                self._space.deleteLater()
-                self._space = None
+            if self._placeholder is not None:
+                self._main.removeDockWidget(self._placeholder)
+                self._placeholder.deleteLater()
+                self._placeholder = None
             self.reset()
 
     def _add_dock(self, title: str, panels: list[Panel]) -> None:
-        from hexmend_app.shell.panels.stacked_panels import column
+        from hexmend_app.shell.panels.stacked_panels import stack
 
         first = panels[0]
-        alone = len(panels) == 1 and not first.scrolls and first.place is not PanelPlace.TOOLS
+        unwrapped = len(panels) == 1 and not first.scrolls and first.place is not PanelPlace.TOOLS
         dock = Dock(first.id, title, first.help, self._main)
         dock.place = first.place
-        dock.set_page(first.widget if alone else column(panels))
+        dock.set_page(first.widget if unwrapped else stack(panels))
         dock.closed.connect(self._on_closed)
         dock.visibilityChanged.connect(self._on_visibility)
         for panel in panels:
@@ -139,18 +139,18 @@ class DockSet(QObject):
         return list(dict.fromkeys(self._docks.values()))
 
     def _drawer(self) -> list[Dock]:
-        return [one for one in self._all() if self._in_drawer(one)]
+        return [dock for dock in self._all() if self._in_drawer(dock)]
 
     def _in_drawer(self, dock: Dock) -> bool:
         return not dock.isFloating() and self._main.dockWidgetArea(dock) == default_layout.BOTTOM
 
     def reset(self) -> None:
-        """Put every panel where it is by default: all open, the drawer closed."""
+        """Restore the default arrangement: all panels open, the drawer closed."""
         self._restoring = True
-        self.hidden, self.folded, self._height = False, True, _DRAWER
+        self.hidden, self.folded, self._drawer_height = False, True, _DRAWER
         self._offered.clear()
-        for line in self._lines.values():
-            line.show()
+        for bar in self._bars.values():
+            bar.show()
         default_layout.arrange(self._main, self._all())
         self._placed = self._main.isVisible()
         self._restoring = False
@@ -161,20 +161,20 @@ class DockSet(QObject):
         default_layout.size(self._main, self._all())
         self._placed = self._main.isVisible()
 
-    # Which panels there are, and which are visible
+    # Queries
 
     def ids(self) -> list[str]:
-        """Panels that can be shown and closed: tools, figures, drawer, lines."""
+        """Return the ids of the panels that can be shown and closed: tools, figures, drawer, bars."""
         docks = [id for place in default_layout.PLACES for id, dock in self._docks.items() if dock.place is place]
-        return [*docks, *self._lines]
+        return [*docks, *self._bars]
 
     def is_open(self, id: str) -> bool:
         """Return True unless the user has closed a panel."""
-        return not self._lines[id].isHidden() if id in self._lines else self._docks[id].is_open
+        return not self._bars[id].isHidden() if id in self._bars else self._docks[id].is_open
 
     def in_front(self, id: str) -> bool:
         """Return True if a panel is visible."""
-        return self._lines[id].isVisible() if id in self._lines else self._docks[id].in_front
+        return self._bars[id].isVisible() if id in self._bars else self._docks[id].in_front
 
     def _on_closed(self) -> None:
         self._refresh_row()
@@ -189,10 +189,10 @@ class DockSet(QObject):
         self.row.set_panels([(dock.objectName(), dock.windowTitle(), dock.toolTip()) for dock in listed])
 
 
-def _around(widget: QWidget) -> QWidget:
-    """A widget around another: the feature shows and hides the inner one, the user the outer one."""
-    around = QWidget()
-    layout = QVBoxLayout(around)
+def _wrapped(widget: QWidget) -> QWidget:
+    """Return a container of a widget: the feature shows and hides the widget, the user the container."""
+    container = QWidget()
+    layout = QVBoxLayout(container)
     layout.setContentsMargins(0, 0, 0, 0)
     layout.addWidget(widget)
-    return around
+    return container

@@ -1,4 +1,4 @@
-"""Showing, closing, hiding and saving of the panels around the view."""
+"""Operations on the panels around the view: show, close, hide, save and restore."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hexmend_app.shell.panels.tab_bars import TabBars
 
 
 class Docks(DockSet):
-    """The panels of a main window, with what the user does to them."""
+    """Panels of a main window, with the operations of the user."""
 
     def __init__(self, main: QMainWindow):
         super().__init__(main)
@@ -25,8 +25,8 @@ class Docks(DockSet):
     def show_panel(self, id: str) -> None:
         """Open a panel in front of its tabs, and show all panels if they are hidden."""
         self.set_hidden(False)
-        if id in self._lines:
-            self._lines[id].show()
+        if id in self._bars:
+            self._bars[id].show()
             self.changed.emit()
             return
         dock = self._docks[id]
@@ -51,15 +51,15 @@ class Docks(DockSet):
 
     def _raise(self, dock: Dock) -> None:
         dock.raise_()
-        if not dock.isFloating():  # of a floating dock Qt gives those that it was among
+        if not dock.isFloating():  # for a floating dock, Qt returns its former neighbours
             for other in self._main.tabifiedDockWidgets(dock):
                 other.set_in_front(False)
         dock.set_in_front(dock.isVisible())
 
     def close_panel(self, id: str) -> None:
         """Close a panel until it is shown again."""
-        if id in self._lines:
-            self._lines[id].hide()
+        if id in self._bars:
+            self._bars[id].hide()
         else:
             self._docks[id].close()
             self._docks[id].is_open = False
@@ -72,14 +72,14 @@ class Docks(DockSet):
             return
         drawer = [dock for dock in self._drawer() if dock.is_open]
         front = next((dock for dock in drawer if dock.in_front), None)
-        if folded:
-            self._height = front.height() + self._tab_bars.drawer_height() if front is not None else self._height
-            self._offered += [front] if front is not None else []
+        if folded and front is not None:
+            self._drawer_height = front.height() + self._tab_bars.drawer_height()
+            self._offered.append(front)
         self.folded = folded
         for dock in drawer:
             dock.setVisible(not folded)
         if not folded and drawer:
-            self._main.resizeDocks(drawer[:1], [self._height], Qt.Orientation.Vertical)
+            self._main.resizeDocks(drawer[:1], [self._drawer_height], Qt.Orientation.Vertical)
             self._raise(next((dock for dock in reversed(self._offered) if dock in drawer), drawer[0]))
             self._offered = [dock for dock in self._offered if dock not in drawer]
         self._refresh_row()
@@ -92,7 +92,7 @@ class Docks(DockSet):
         self._restoring = True
         if hidden:
             self._saved = self._main.saveState(LAYOUT)
-            self._shown_lines = [id for id in self._lines if self.is_open(id)]
+            self._shown_bars = [id for id in self._bars if self.is_open(id)]
             self._offered += [dock for dock in self._all() if dock.in_front]
             for dock in self._all():
                 dock.hide()
@@ -100,11 +100,11 @@ class Docks(DockSet):
             self._main.restoreState(self._saved, LAYOUT)
         self.hidden = hidden
         if not hidden:
-            for dock in [one for one in self._offered if one.isVisible()]:
+            for dock in [dock for dock in self._offered if dock.isVisible()]:
                 self._raise(dock)
             self._offered = [dock for dock in self._offered if self.folded and self._in_drawer(dock)]
-        for id in self._shown_lines:
-            self._lines[id].setVisible(not hidden)
+        for id in self._shown_bars:
+            self._bars[id].setVisible(not hidden)
         self._restoring = False
         self._refresh_row()
         self.changed.emit()
@@ -112,8 +112,8 @@ class Docks(DockSet):
     # Saving
 
     def state(self) -> dict[str, object]:
-        """The arrangement, for `restore`."""
-        shown = self._shown_lines if self.hidden else []
+        """Return the arrangement, for `restore`."""
+        shown = self._shown_bars if self.hidden else []
         tools = next((dock for dock in self._all() if dock.place is PanelPlace.TOOLS), None)
         fronts = [dock for dock in self._all() if dock.in_front] if not self.hidden else []
         return {
@@ -121,19 +121,19 @@ class Docks(DockSet):
             "state": self._saved if self.hidden else self._main.saveState(LAYOUT),
             "hidden": self.hidden,
             "folded": self.folded,
-            "drawer": self._height,
+            "drawer": self._drawer_height,
             "column": tools.width() if tools is not None else 0,
             "fronts": [dock.windowTitle() for dock in dict.fromkeys([*self._offered, *fronts])],
             "closed": [id for id in self.ids() if not self.is_open(id) and id not in shown],
         }
 
     def restore(self, state: dict[str, object]) -> None:
-        """Restore an arrangement; the default stays where it is of another version or cannot be read.
+        """Restore an arrangement; what is of another version or unreadable remains at its default.
 
         Parameters
         ----------
         state : dict
-            From `state`, or from an older version.
+            Return value of `state`, possibly of an older version.
         """
         saved = SavedLayout.read(state)
         if saved is None:
@@ -141,11 +141,11 @@ class Docks(DockSet):
         self.reset()
         QApplication.sendPostedEvents(self._main, QEvent.Type.LayoutRequest)
         self._restoring = True
-        self._height = saved.drawer
+        self._drawer_height = saved.drawer
         if saved.docks is not None:
             self._placed = self._main.restoreState(saved.docks, LAYOUT) or self._placed
         for id in saved.closed:
-            if id in self._lines or id in self._docks:
+            if id in self._bars or id in self._docks:
                 self.close_panel(id)
         for dock in self._all():
             if not dock.isFloating() and self._main.dockWidgetArea(dock) == Qt.DockWidgetArea.NoDockWidgetArea:

@@ -1,4 +1,4 @@
-"""Tabs of the panels below the view while these are closed."""
+"""Tabs of the closed drawer."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexmend_app.theme.style import smaller
 
 
 class DrawerRow(QTabBar):
-    """A row of tabs, each of which opens the drawer with its panel.
+    """Tab bar in which each tab opens the drawer with its panel.
 
     Signals
     -------
@@ -21,7 +21,7 @@ class DrawerRow(QTabBar):
     Parameters
     ----------
     name : str
-        For screen readers.
+        Accessible name.
     """
 
     clicked = Signal(str)
@@ -51,7 +51,7 @@ class DrawerRow(QTabBar):
         self.setVisible(bool(panels))
 
     def set_front(self, id: str | None) -> None:
-        """Mark the panel that the drawer opens with."""
+        """Select the tab of the panel that will be in front when the drawer opens."""
         for at in range(self.count()):
             if self.tabData(at) == id:
                 self.setCurrentIndex(at)

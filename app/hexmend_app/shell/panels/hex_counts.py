@@ -1,4 +1,4 @@
-"""Counts in the status bar: hexes, inverted and isolated ones, and the selected hex."""
+"""Label in the status bar with the numbers of hexes, inverted and isolated hexes, and the selected hex."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
 
-class Counts(QLabel):
+class HexCounts(QLabel):
     """Label with counts of the open mesh."""
 
     def __init__(self, parent: QWidget | None = None):
@@ -18,22 +18,22 @@ class Counts(QLabel):
         self.setAccessibleName("Counts")
 
     def refresh(self, session: Session) -> None:
-        """Show the present mesh."""
+        """Show the counts of the current mesh."""
         summary = session.document.now.summary
         inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-        self.setText(f"{summary.hexes:,} hexes, {inverted}{_isolated(session)}{_chosen(session)}")
+        self.setText(f"{summary.hexes:,} hexes, {inverted}{_isolated_text(session)}{_selected_text(session)}")
 
 
-def _isolated(session: Session) -> str:
-    """Number of isolated hexes, and the key that shows all again."""
+def _isolated_text(session: Session) -> str:
+    """Return the number of isolated hexes and the key that shows all hexes; "" if none are isolated."""
     isolation = session.view.look.isolation
     return "" if isolation is None else f"  ·  {len(isolation.hexes):,} isolated (Esc)"
 
 
-def _chosen(session: Session) -> str:
-    """The selected hex and its quality."""
-    chosen, now = session.selection.hex, session.document.now
-    if chosen is None:
+def _selected_text(session: Session) -> str:
+    """Return the selected hex and its quality; "" if none is selected."""
+    selected, now = session.selection.hex, session.document.now
+    if selected is None:
         return ""
-    state = "inverted" if now.figures.inverted[chosen] else f"q {now.figures.q[chosen]:.3f}"
-    return f"  ·  hex {chosen:,}: {state}"
+    state = "inverted" if now.figures.inverted[selected] else f"q {now.figures.q[selected]:.3f}"
+    return f"  ·  hex {selected:,}: {state}"

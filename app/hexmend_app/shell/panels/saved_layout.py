@@ -1,4 +1,4 @@
-"""The arrangement of panels as it is saved in the settings."""
+"""Arrangement of panels as stored in the settings."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QByteArray
 
-#: Version of the saved arrangement; of another version, the state of the docks is not read.
+#: Version of the saved arrangement; the state of docks is ignored if it is of another version.
 LAYOUT = 8
 
 _MINIMUM_DRAWER = 60
@@ -15,14 +15,14 @@ _MINIMUM_DRAWER = 60
 
 @dataclass(frozen=True)
 class SavedLayout:
-    """A saved arrangement.
+    """Saved arrangement.
 
     Parameters
     ----------
     docks : QByteArray or None
-        State of the main window; None of another version.
+        State of the main window; None if it is of another version.
     closed : tuple of str
-        Ids of the panels that the user has closed.
+        Ids of closed panels.
     fronts : tuple of str
         Titles of the docks in front.
     folded, hidden : bool
@@ -41,7 +41,7 @@ class SavedLayout:
 
     @classmethod
     def read(cls, data: Mapping[str, object]) -> SavedLayout | None:
-        """Read the settings' value, of this version or an older one; None if it is broken."""
+        """Read the stored value, of this version or an older one; return None if it is invalid."""
         try:
             docks = data.get("state") if data["layout"] == LAYOUT else None
             return cls(

@@ -10,53 +10,53 @@ from PySide6.QtWidgets import QApplication, QScrollArea, QStyle, QVBoxLayout, QW
 from hexmend_app.feature import Panel
 from hexmend_app.widgets.section import Section
 
-#: Extra width in pixels, for texts that grow with their figures.
-_LONGER = 2
+#: Extra width in pixels, for texts whose numbers grow.
+_EXTRA_WIDTH = 2
 
 
-class _Column(QScrollArea):
-    """A scroll area that scrolls to the focused widget, also if the focus comes from outside.
+class _StackArea(QScrollArea):
+    """Scroll area that scrolls to the focused widget, unless a mouse button is pressed.
 
-    It does not scroll while a mouse button is pressed.
+    Qt does so only if the focus comes from inside the area.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        QApplication.instance().focusChanged.connect(self._follow)
+        QApplication.instance().focusChanged.connect(self._on_focus)
 
-    def _follow(self, before: QWidget | None, now: QWidget | None) -> None:
+    def _on_focus(self, before: QWidget | None, now: QWidget | None) -> None:
         if now is not None and self.isAncestorOf(now) and not QApplication.mouseButtons():
             self.ensureWidgetVisible(now)
 
 
-def column(panels: Sequence[Panel]) -> QScrollArea:
-    """Stack panels; each but the first can be collapsed under its title."""
-    tools = QWidget()
-    layout = QVBoxLayout(tools)
+def stack(panels: Sequence[Panel]) -> QScrollArea:
+    """Return a scroll area with panels one below the other; all but the first can be collapsed under their titles."""
+    page = QWidget()
+    layout = QVBoxLayout(page)
     layout.setContentsMargins(6, 6, 6, 6)
     layout.setSpacing(6)
     for at, panel in enumerate(panels):
         layout.addWidget(Section(panel.title, panel.widget, panel.help) if at else panel.widget)
     layout.addStretch()
-    scroll = _Column()
-    scroll.setWidget(tools)
+    scroll = _StackArea()
+    scroll.setWidget(page)
     scroll.setWidgetResizable(True)
     scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     scroll.setFrameShape(QScrollArea.Shape.NoFrame)
     scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
-    scroll.setMinimumWidth(tools.minimumSizeHint().width() + bar + _LONGER)
+    scroll_bar = scroll.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
+    scroll.setMinimumWidth(page.minimumSizeHint().width() + scroll_bar + _EXTRA_WIDTH)
     return scroll
 
 
 def unfold(page: QWidget, panel: QWidget) -> None:
     """Expand a panel of a page and scroll to it."""
-    around = panel
-    while around is not page:
-        around = around.parentWidget()
-        if isinstance(around, Section):
-            around.expand()
+    parent = panel
+    while parent is not page:
+        parent = parent.parentWidget()
+        if isinstance(parent, Section):
+            parent.expand()
             if isinstance(page, QScrollArea):
                 page.widget().layout().activate()
-                page.ensureVisible(0, around.geometry().bottom())
-                page.ensureWidgetVisible(around.toggleButton())
+                page.ensureVisible(0, parent.geometry().bottom())
+                page.ensureWidgetVisible(parent.toggleButton())

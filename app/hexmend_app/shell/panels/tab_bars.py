@@ -1,4 +1,4 @@
-"""The rows of tabs that Qt makes for docks."""
+"""Tab bars that Qt creates for docks."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from PySide6.QtWidgets import QMainWindow, QTabBar, QWidget
 from hexmend_app.feature import PanelPlace
 from hexmend_app.shell.panels.dock import Dock
 
-#: Names of the rows of tabs, for screen readers.
+#: Accessible names of the tab bars.
 _NAMES = {PanelPlace.TOOLS: "Tools", PanelPlace.FACTS: "Figures", PanelPlace.DRAWER: "Panels below the view"}
 
 
 class TabBars:
-    """Sets up rows of tabs, which Qt makes, empties and reuses as docks move.
+    """Setup of the tab bars of docks, which Qt creates, empties and reuses as docks move.
 
     Parameters
     ----------
     main : QMainWindow
     close_drawer : callable
-        Called on a double click on a tab of the drawer.
+        Called when a tab of the drawer is double-clicked.
     """
 
     def __init__(self, main: QMainWindow, close_drawer: Callable[[], object]):
@@ -31,7 +31,7 @@ class TabBars:
         return self._main.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly)
 
     def set_up(self, docks: Iterable[Dock]) -> None:
-        """Name the rows, and let Tab reach those that have tabs right before their pages."""
+        """Name the tab bars, and insert those with tabs into the tab order, right before their pages."""
         by_title = {dock.windowTitle(): dock for dock in docks}
         for bar in self._all():
             bar.setFocusPolicy(Qt.FocusPolicy.TabFocus if bar.count() else Qt.FocusPolicy.NoFocus)
@@ -45,13 +45,13 @@ class TabBars:
                 bar.tabBarDoubleClicked.connect(lambda _, bar=bar: self._on_double_click(bar))
             bar.setAccessibleName(_NAMES[first.place])
             before = first.previousInFocusChain()
-            while not before.focusPolicy() & Qt.FocusPolicy.TabFocus:  # Qt puts nothing after any other
+            while not before.focusPolicy() & Qt.FocusPolicy.TabFocus:  # setTabOrder ignores other widgets
                 before = before.previousInFocusChain()
             if before is not bar:
                 QWidget.setTabOrder(before, bar)
 
     def drawer_height(self) -> int:
-        """Height of the drawer's row of tabs in pixels, 0 without one."""
+        """Return the height of the tab bar of the drawer in pixels; 0 if it has none."""
         return sum(bar.height() for bar in self._all() if _is_drawer(bar) and bar.isVisible())
 
     def _on_double_click(self, bar: QTabBar) -> None:

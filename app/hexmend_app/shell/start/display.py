@@ -1,4 +1,4 @@
-"""Checks that a window can be opened: Qt and VTK would end the process if it cannot."""
+"""Check that a window can be opened: otherwise Qt and VTK would end the process."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import sys
 
 from hexmend.errors import HexmendError
 
-#: Libraries that Qt's xcb plugin loads, and the Debian packages with them.
-_XCB = {
+#: Libraries that Qt's xcb plugin loads, and the Debian packages that contain them.
+_XCB_PACKAGES = {
     "libxcb-cursor.so.0": "libxcb-cursor0",
     "libxcb-icccm.so.4": "libxcb-icccm4",
     "libxcb-keysyms.so.1": "libxcb-keysyms1",
@@ -25,23 +25,23 @@ _XCB = {
 
 
 class DisplayError(HexmendError):
-    """No window can be opened here."""
+    """No window can be opened."""
 
 
 def check_display() -> None:
-    """Raise `DisplayError` with the missing part if Qt could not open a window."""
+    """Raise `DisplayError` with the reason if Qt could not open a window."""
     if not sys.platform.startswith("linux"):
         return
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         raise DisplayError(
             "there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set). "
-            "Use `hexmend smooth` and `hexmend render`, which need none, or a virtual screen: xvfb-run hexmend."
+            "Use `hexmend smooth` or `hexmend render`, which need no display, or a virtual one: xvfb-run hexmend."
         )
-    missing = sorted({package for library, package in _XCB.items() if not _loads(library)})
+    missing = sorted({package for library, package in _XCB_PACKAGES.items() if not _loads(library)})
     if missing:
         raise DisplayError(f"libraries of the window system are missing: run  apt-get install {' '.join(missing)}")
-    if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY") and not _answers():
-        raise DisplayError(f"the display {os.environ['DISPLAY']} does not answer. Is its server running?")
+    if os.environ.get("DISPLAY") and not os.environ.get("WAYLAND_DISPLAY") and not _responds():
+        raise DisplayError(f"the display {os.environ['DISPLAY']} does not respond. Check that its server is running.")
 
 
 def _loads(library: str) -> bool:
@@ -52,16 +52,17 @@ def _loads(library: str) -> bool:
     return True
 
 
-def _answers() -> bool:
+def _responds() -> bool:
+    """Return True if the X server can be reached."""
     try:
         xcb = ctypes.CDLL("libxcb.so.1")
     except OSError:
-        return True  # Qt reports what is missing
+        return True  # Qt reports the missing library
     xcb.xcb_connect.restype = ctypes.c_void_p
     xcb.xcb_connect.argtypes = [ctypes.c_char_p, ctypes.c_void_p]
     xcb.xcb_connection_has_error.argtypes = [ctypes.c_void_p]
     xcb.xcb_disconnect.argtypes = [ctypes.c_void_p]
     connection = xcb.xcb_connect(None, None)
-    refused = bool(xcb.xcb_connection_has_error(connection))
+    failed = bool(xcb.xcb_connection_has_error(connection))
     xcb.xcb_disconnect(connection)
-    return not refused
+    return not failed

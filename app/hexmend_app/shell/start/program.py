@@ -33,7 +33,7 @@ log = logging.getLogger(__name__)
 
 
 def application() -> QApplication:
-    """The QApplication with its theme; it runs the garbage collector from now on."""
+    """Return the QApplication with its theme; from now on it runs the garbage collector."""
     app = QApplication.instance() or QApplication(sys.argv[:1])
     QCoreApplication.setOrganizationName("Hexmend")
     QCoreApplication.setApplicationName("Hexmend")
@@ -47,10 +47,10 @@ def application() -> QApplication:
 
 
 def open_window(mesh: str | None = None) -> int:
-    """Show the window, open `mesh` or the demo, and run until it is closed; return the exit status."""
+    """Show the window, open `mesh` or the demo mesh, and run until it is closed; return the exit status."""
     app = application()
     from hexmend_app.shell.start.start_report import report_start
-    from hexmend_app.shell.start.window_start import Starting
+    from hexmend_app.shell.start.window_start import WindowStart
     from hexmend_app.shell.window import Window
 
     window = Window()
@@ -58,30 +58,31 @@ def open_window(mesh: str | None = None) -> int:
     report_unexpected_errors(window)
     window.ready.connect(lambda: [feature.program_started() for feature in window.features.values()])
     window.ready.connect(app.findChild(UiThreadGC).spare)
-    # A signal may arrive during painting: the window is closed after that.
+    # A signal may arrive during painting: close the window afterwards.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     for number in ENDING:  # end at once; the autosave is offered at the next start
         if number != signal.SIGINT and signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, signal.SIG_DFL)
-    alive = QTimer()  # lets Python handle Ctrl-C
-    alive.start(250)
-    alive.timeout.connect(lambda: None)
+    wake_up = QTimer()  # lets Python handle signals
+    wake_up.start(250)
+    wake_up.timeout.connect(lambda: None)
     window.show()
     app.processEvents()  # show it before the slow imports
-    Starting(window, Path(mesh) if mesh else demo_mesh())
+    WindowStart(window, Path(mesh) if mesh else demo_mesh())
     status = app.exec()
     end_with_threads(status)
     return status
 
 
 def end_with_threads(status: int) -> None:
-    """End the process if a thread cannot be ended: Python would wait for it without a window.
+    """End the process if threads are still running: Python would wait for them.
 
-    For example it reads from a network drive that does not answer. All data has been written before.
+    A thread cannot be ended while it reads from a network drive that does not respond, for example. All data has been
+    written before.
     """
     if not running():
         return
-    log.warning("closed while threads were at work: %s", ", ".join(task.name for task in running()))
+    log.warning("closed while threads were running: %s", ", ".join(task.name for task in running()))
     settings.write_all()
     logging.shutdown()
     for stream in (sys.stdout, sys.stderr):
@@ -91,7 +92,7 @@ def end_with_threads(status: int) -> None:
 
 
 def report_unexpected_errors(window: Window) -> None:
-    """Show exceptions of slots in the window; Qt would only print them."""
+    """Show exceptions raised in slots as messages in the window; Qt would only print them."""
 
     def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
         if issubclass(kind, KeyboardInterrupt):
@@ -100,8 +101,6 @@ def report_unexpected_errors(window: Window) -> None:
         log.error("unexpected error", exc_info=(kind, error, trace))
         place = traceback.extract_tb(trace)[-1] if trace else None
         where = f" ({Path(place.filename).name}, line {place.lineno})" if place else ""
-        window.messages.show_error(
-            "Something went wrong inside Hexmend", f"{kind.__name__}: {error}{where}", report_of(error)
-        )
+        window.messages.show_error("Unexpected error in Hexmend", f"{kind.__name__}: {error}{where}", report_of(error))
 
     sys.excepthook = hook

@@ -1,4 +1,4 @@
-"""Report on the time of a start, written if an environment variable asks for it."""
+"""Report of start-up times, written to the file named by an environment variable."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from PySide6.QtWidgets import QApplication
 if TYPE_CHECKING:
     from hexmend_app.shell.window import Window
 
-#: Names the file that a report is appended to, a line of JSON for each moment.
+#: Environment variable with the path of the file to append to, one line of JSON per event.
 VARIABLE = "HEXMEND_REPORT_START"
 
 _DRAWING = (QEvent.Type.Expose, QEvent.Type.UpdateRequest, QEvent.Type.Paint)
 
 
 class StartReport(QObject):
-    """Writes the times of the first window, mesh and panels, with the modules loaded by then.
+    """Writer of the times at which window, mesh and panels are first shown, with the modules loaded by then.
 
-    Each line holds `moment` ("window", "picture" or "panels"), `at`, seconds of `time.monotonic`, which other processes
-    share, and `modules`, sorted names.
+    Each line contains `moment` ("window", "picture" or "panels"), `at` (seconds of `time.monotonic`, which is the same
+    in all processes) and `modules` (sorted names).
 
     Parameters
     ----------
@@ -39,11 +39,11 @@ class StartReport(QObject):
         self._window, self._path = window, path
         self._painted = self._delivering = False
         self._canvas: Any = None
-        window.ready.connect(lambda: self._tell("panels"))
+        window.ready.connect(lambda: self._write("panels"))
         QApplication.instance().installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Distinguish painted events from requested ones."""
+        """Report the first painted frame of the window and of the 3D view."""
         kind = event.type()
         if self._painted:
             if kind == QEvent.Type.Paint and self._canvas is None and self._window.canvas is not None:
@@ -52,12 +52,12 @@ class StartReport(QObject):
         elif kind == QEvent.Type.Paint and watched is self._window:
             self._painted = True
         elif kind in _DRAWING and watched is self._window.windowHandle() and not self._delivering:
-            # Its widgets are painted and put on the screen before this returns.
+            # The widgets are painted and shown on the screen before this returns.
             self._delivering = True
             watched.event(event)
             self._delivering = False
             if self._painted:
-                self._tell("window")
+                self._write("window")
             return True
         return False
 
@@ -65,15 +65,15 @@ class StartReport(QObject):
         if self._canvas.colouring is not None:
             self._canvas.interactor.frameSwapped.disconnect(self._on_frame)
             QApplication.instance().removeEventFilter(self)
-            self._tell("picture")
+            self._write("picture")
 
-    def _tell(self, moment: str) -> None:
-        text = {"moment": moment, "at": time.monotonic(), "modules": sorted(sys.modules)}
+    def _write(self, moment: str) -> None:
+        event = {"moment": moment, "at": time.monotonic(), "modules": sorted(sys.modules)}
         with self._path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(text) + "\n")
+            file.write(json.dumps(event) + "\n")
 
 
 def report_start(window: Window) -> None:
-    """Report on the start if the variable is set."""
+    """Report start-up times if the environment variable is set."""
     if path := os.environ.get(VARIABLE):
         StartReport(window, Path(path))

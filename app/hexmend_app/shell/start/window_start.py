@@ -1,4 +1,4 @@
-"""The start of the window: first the mesh, then the panels, without blocking for long."""
+"""Start of the window: first the mesh is opened, then the panels are built, without blocking for long."""
 
 from __future__ import annotations
 
@@ -9,41 +9,41 @@ from PySide6.QtCore import QObject, QTimer
 from hexmend_app.shell.window import Window
 from hexmend_app.state.tasks.task import Task
 
-#: Milliseconds that the panels wait for the first picture: reading a large mesh takes longer.
+#: Maximum time in milliseconds for which building the panels is delayed until the mesh is drawn.
 _WAIT = 700
 
-_OVER = object()
+_EXHAUSTED = object()
 
 
-class Starting(QObject):
-    """Opens a mesh in a window, and builds all features once it is drawn.
+class WindowStart(QObject):
+    """Opening of a mesh in a new window, followed by building all features.
 
-    The 3D modules are imported in a thread, so that the window is repainted meanwhile. The panels are built in steps of
-    the event loop, once the mesh is drawn, has failed to open, or takes long.
+    The 3D modules are imported in a thread, so that the window is repainted meanwhile. The panels are built in turns of
+    the event loop, once the mesh is drawn, has failed to open, or takes too long.
 
     Parameters
     ----------
     window : Window
-        It is shown.
+        Visible window.
     mesh : Path
     """
 
     def __init__(self, window: Window, mesh: Path):
         super().__init__(window)
         self._window, self._mesh = window, mesh
-        self._steps = window.building_features()
+        self._steps = window.build_steps()
         self._step = QTimer(self, interval=0)
         self._step.timeout.connect(self._build_features)
         self._wait = QTimer(self, interval=_WAIT, singleShot=True)
         self._wait.timeout.connect(self._step.start)
-        self._loading = Task("what draws", _load)
+        self._loading = Task("3D modules", _load)
         self._loading.ended.connect(self._open)
         self._loading.start()
 
     def _open(self) -> None:
         window = self._window
         if not window.isVisible():
-            return  # it has been closed
+            return  # closed meanwhile
         if self._loading.error is not None:
             raise self._loading.error
         window.begin()
@@ -66,14 +66,15 @@ class Starting(QObject):
         self._wait.start(0)
 
     def _build_features(self) -> None:
-        if not self._window.isVisible() or next(self._steps, _OVER) is _OVER:
+        if not self._window.isVisible() or next(self._steps, _EXHAUSTED) is _EXHAUSTED:
             self._step.stop()
 
 
 def _load(task: Task) -> None:
+    """Import the 3D modules and the features that draw a mesh."""
     import hexmend_app.canvas.canvas
     import hexmend_app.state.session.session  # noqa: F401
-    from hexmend_app.shell.features import first_names, kind_of
+    from hexmend_app.shell.features import feature_class, first_names
 
     for name in first_names():
-        kind_of(name)
+        feature_class(name)

@@ -186,7 +186,7 @@ def test_commands_are_found_by_name_in_the_palette(window, qtbot):
     key(window, Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier)
     palette = window.findChild(CommandPalette)
     qtbot.waitExposed(palette)
-    assert any("Isometric" in text for text in palette.found())
+    assert any("Isometric" in text for text in palette.titles())
     QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
     QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
     assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]

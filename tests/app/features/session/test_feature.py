@@ -18,7 +18,7 @@ from hexmend_app.bench.windows import end_run
 from hexmend_app.picture import Camera
 from hexmend_app.picture.appearance import Arrows, ColourScale, Structure, Traces, ValueRange
 from hexmend_app.picture.cut_planes import PlaneClip
-from hexmend_app.shell.start.window_start import Starting
+from hexmend_app.shell.start.window_start import WindowStart
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, key, open_and_wait, phase, pixels
 from tests.patience import PATIENCE
@@ -239,7 +239,7 @@ def test_the_program_starts_with_a_session(window, qtbot, tmp_path, bare_window)
     before = tables(window)
     pose = window.canvas.pose
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
-        Starting(bare_window, tmp_path / "work.hexmend")
+        WindowStart(bare_window, tmp_path / "work.hexmend")
     bare_window.refresh()
     assert tables(bare_window) == before
     assert bare_window.canvas.pose == pose

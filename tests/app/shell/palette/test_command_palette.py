@@ -1,4 +1,4 @@
-"""Commands found by name."""
+"""The command palette."""
 
 from functools import partial
 
@@ -13,9 +13,9 @@ from hexmend_app.shell.palette.ranking import PaletteEntry
 
 @pytest.fixture
 def palette(qtbot):
-    done = []
+    executed = []
     widget = CommandPalette(
-        PaletteEntry(name=name, help=help, do=partial(done.append, name))
+        PaletteEntry(name=name, help=help, run=partial(executed.append, name))
         for name, help in (
             ("Fit", "Show the whole mesh."),
             ("Along X", "Look along the X axis."),
@@ -23,7 +23,7 @@ def palette(qtbot):
         )
     )
     qtbot.addWidget(widget)
-    widget.carried_out = done
+    widget.executed = executed
     widget.open()
     return widget
 
@@ -32,30 +32,30 @@ def field(palette):
     return palette.findChild(QLineEdit)
 
 
-def test_all_are_listed_at_first(palette):
-    assert palette.found() == ["Fit", "Along X", "Along Y"]
+def test_all_entries_are_listed_at_first(palette):
+    assert palette.titles() == ["Fit", "Along X", "Along Y"]
 
 
-def test_letters_in_any_order_find_it_and_enter_carries_it_out(palette):
+def test_parts_of_a_name_in_any_order_match_and_enter_runs_the_command(palette):
     QTest.keyClicks(field(palette), "y alo")
-    assert palette.found() == ["Along Y"]
+    assert palette.titles() == ["Along Y"]
     QTest.keyClick(field(palette), Qt.Key.Key_Return)
-    assert palette.carried_out == ["Along Y"]
+    assert palette.executed == ["Along Y"]
     assert not palette.isVisible()
 
 
-def test_arrow_keys_walk_while_one_types(palette):
+def test_arrow_keys_move_in_the_list_while_the_field_has_the_focus(palette):
     QTest.keyClicks(field(palette), "along")
     QTest.keyClick(field(palette), Qt.Key.Key_Down)
     QTest.keyClick(field(palette), Qt.Key.Key_Return)
-    assert palette.carried_out == ["Along Y"]
+    assert palette.executed == ["Along Y"]
 
 
-def test_what_is_not_there_is_said_and_nothing_is_carried_out(palette):
+def test_without_matches_enter_runs_nothing(palette):
     QTest.keyClicks(field(palette), "nonsense")
-    assert palette.found() == []
+    assert palette.titles() == []
     QTest.keyClick(field(palette), Qt.Key.Key_Return)
-    assert palette.carried_out == []
+    assert palette.executed == []
     assert palette.isVisible()
     QTest.keyClick(palette, Qt.Key.Key_Escape)
     assert not palette.isVisible()

@@ -1,4 +1,4 @@
-"""What the palette finds beside commands."""
+"""Entries of the command palette."""
 
 import pytest
 from PySide6.QtGui import QAction
@@ -8,7 +8,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES
 from hexmend.quality import METRICS
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel, PanelPlace
-from hexmend_app.shell.palette.palette_entries import choices, commands, panels_in
+from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.theme.style import set_help
 from hexmend_app.widgets.section import Section
@@ -25,7 +25,7 @@ def host(qtbot):
 
 @pytest.fixture
 def panel(qtbot):
-    """A panel with a check box in a folded section, one that is disabled and one that is hidden."""
+    """A panel with four check boxes: in a collapsed section, disabled, hidden, and plain."""
     widget = QWidget()
     boxes = {name: QCheckBox(name) for name in ("Folded", "Disabled", "Hidden", "Plain")}
     for name, box in boxes.items():
@@ -39,50 +39,50 @@ def panel(qtbot):
     return Panel(id="boxes", title="Boxes", widget=widget, place=PanelPlace.TOOLS, help="Some boxes.")
 
 
-def test_panels_and_what_is_set_in_them_are_found_and_gone_to(panel, shown):
+def test_panels_and_their_controls_have_entries_that_show_and_focus_them(panel, shown):
     other = Panel(id="other", title="Other", widget=QWidget(), place=PanelPlace.TOOLS, order=1)
     main = QMainWindow()
     docks = Docks(main)
     docks.add([panel, other])
     shown(main, 900, 500)
     docks.show_panel("other")
-    entries = {one.title: one for one in panels_in(docks, [panel, other])}
+    entries = {entry.title: entry for entry in panel_entries(docks, [panel, other])}
     assert list(entries) == ["Panel: Boxes", "Panel: Other", "In Boxes: Folded box", "In Boxes: Plain box"]
-    entries["In Boxes: Folded box"].do()
+    entries["In Boxes: Folded box"].run()
     box = next(one for one in panel.widget.findChildren(QCheckBox) if one.text() == "Folded")
     assert docks.in_front("boxes")
     assert box.isVisible()
     assert box.hasFocus()
-    entries["Panel: Other"].do()
+    entries["Panel: Other"].run()
     assert docks.in_front("other")
 
 
-def test_a_method_is_chosen_with_what_was_set_for_it(host):
-    order = host.session.run_setup
-    entries = {one.title: one for one in choices(host.session)}
+def test_choosing_a_method_keeps_its_last_parameters(host):
+    run_setup = host.session.run_setup
+    entries = {entry.title: entry for entry in choice_entries(host.session)}
     for method in METHODS.values():
-        entries[f"Method: {method.title}"].do()
-        assert order.method == method.name
-        assert order.smoother == order.smoother_of(method.name)
-        assert method.title in order.reason
+        entries[f"Method: {method.title}"].run()
+        assert run_setup.method == method.name
+        assert run_setup.smoother == run_setup.smoother_of(method.name)
+        assert method.title in run_setup.reason
 
 
-def test_a_metric_is_coloured_by(host, qtbot):
-    entries = {one.title: one for one in choices(host.session)}
+def test_choosing_a_metric_colours_by_it(host, qtbot):
+    entries = {entry.title: entry for entry in choice_entries(host.session)}
     for metric in (*METRICS.values(), *DISPLACEMENT_QUANTITIES.values()):
-        with qtbot.waitSignal(host.session.view.metric_wanted) as told:
-            entries[f"Colour by: {metric.title}"].do()
-        assert told.args == [metric.name]
+        with qtbot.waitSignal(host.session.view.metric_wanted) as signal:
+            entries[f"Colour by: {metric.title}"].run()
+        assert signal.args == [metric.name]
 
 
-def test_commands_that_cannot_be_carried_out_or_only_open_panels_are_left_out(qtbot):
-    done, actions = [], {}
+def test_disabled_commands_and_those_that_open_panels_have_no_entries(qtbot):
+    executed, actions = [], {}
     for id, enabled in (("fit", True), ("undo", False), ("panel_run", True), ("edges", True)):
         actions[id] = QAction(f"&{id.title()}")
         actions[id].setEnabled(enabled)
-        actions[id].triggered.connect(lambda _=False, id=id: done.append(id))
+        actions[id].triggered.connect(lambda _=False, id=id: executed.append(id))
     actions["edges"].setCheckable(True)
-    found = list(commands(actions))
-    assert [one.title for one in found] == ["Fit", "Edges: off"]
-    found[0].do()
-    assert done == ["fit"]
+    entries = list(command_entries(actions))
+    assert [entry.title for entry in entries] == ["Fit", "Edges: off"]
+    entries[0].run()
+    assert executed == ["fit"]

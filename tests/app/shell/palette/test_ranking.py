@@ -1,11 +1,11 @@
-"""What is typed finds what is meant, the best match first."""
+"""Ranking of the entries of the command palette for a typed text."""
 
 import pytest
 
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
 
 ENTRIES = [
-    PaletteEntry(name=name, do=print, help=help, kind=kind)
+    PaletteEntry(name=name, run=print, help=help, kind=kind)
     for name, help, kind in (
         ("Reset", "Put all nodes back; undo takes that back too.", ""),
         ("Redo", "Do again what undo took back.", ""),
@@ -22,7 +22,7 @@ ENTRIES = [
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "names"),
     [
         ("undo", ["Undo", "Reset", "Redo"]),
         ("mend", ["Mend", "Recommended smoothing"]),
@@ -35,9 +35,9 @@ ENTRIES = [
         ("nonsense", []),
     ],
 )
-def test_names_come_before_what_only_the_help_says(text, found):
-    assert [one.name for one in ranked(ENTRIES, text)] == found
+def test_matches_in_names_rank_before_matches_in_help(text, names):
+    assert [entry.name for entry in ranked(ENTRIES, text)] == names
 
 
-def test_nothing_typed_leaves_all_as_they_come():
+def test_an_empty_text_keeps_the_order():
     assert ranked(ENTRIES, " ") == ENTRIES

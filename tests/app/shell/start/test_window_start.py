@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hexmend_app.shell.features import first_names, names
-from hexmend_app.shell.start.window_start import Starting
+from hexmend_app.shell.start.window_start import WindowStart
 from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 def test_the_mesh_is_drawn_before_the_other_features_are_there(bare_window, qtbot, mesh_file):
     window, drawn_by = bare_window, []
-    Starting(window, mesh_file)
+    WindowStart(window, mesh_file)
     assert window.session is None  # what it takes is imported beside the window
     qtbot.waitUntil(lambda: window.canvas is not None, timeout=PATIENCE)
     window.canvas.interactor.frameSwapped.connect(
@@ -30,7 +30,7 @@ def test_the_mesh_is_drawn_before_the_other_features_are_there(bare_window, qtbo
 def test_panels_come_without_a_mesh_too_and_it_is_said_why(bare_window, qtbot, tmp_path):
     path = tmp_path / "none.vtk"
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
-        Starting(bare_window, path)
+        WindowStart(bare_window, path)
     assert not bare_window.session.document.is_open
     assert bare_window.messages.isVisible()
     assert bare_window.features["open"].welcome.isVisible()
@@ -38,7 +38,7 @@ def test_panels_come_without_a_mesh_too_and_it_is_said_why(bare_window, qtbot, t
 
 def test_the_view_comes_into_the_window_that_is_on_the_screen(bare_window, qtbot, mesh_file):
     before = bare_window.windowHandle().winId()
-    Starting(bare_window, mesh_file)
+    WindowStart(bare_window, mesh_file)
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
         pass
     qtbot.waitUntil(lambda: bare_window.canvas.isVisible(), timeout=PATIENCE)
