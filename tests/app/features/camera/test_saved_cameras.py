@@ -114,7 +114,9 @@ def type_name(dialog, row, text):
 def test_the_dialog_renames(window, saved, dialog, qtbot):
     camera = window.session.saved_cameras.all["top"]
     type_name(dialog, 1, "from above")
-    qtbot.waitUntil(lambda: names(dialog) == ["front & side", "from above"], timeout=PATIENCE)
+    # The list is refilled in the event loop, which closes an editor: wait for it before the next name.
+    item_name = Qt.ItemDataRole.UserRole
+    qtbot.waitUntil(lambda: dialog.list.item(1).data(item_name) == "from above", timeout=PATIENCE)
     assert window.session.saved_cameras.all["from above"] == camera
     type_name(dialog, 0, "from above")
     problem = next(one for one in dialog.findChildren(QLabel) if one.accessibleName() == "Error")
