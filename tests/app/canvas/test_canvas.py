@@ -1,4 +1,4 @@
-"""The 3D view as a widget: what the mouse and the keys do, and where the camera has been."""
+"""3D view as a widget: mouse, keys and history of camera poses."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ MESH = grid(4)
 FIGURES = measure(MESH.points, MESH.hexes)
 RIGHT = Qt.MouseButton.RightButton
 
-#: Canvases of tests that are over: garbage, they would take along what VTK draws with.
+#: Canvases of finished tests; collecting them would release graphics resources of VTK that are in use.
 CLOSED = []
 
 
@@ -50,7 +50,7 @@ def pose(canvas):
 
 
 def rested(qtbot, canvas):
-    """Wait until the camera rests, and draw what is seen now."""
+    """Wait until the camera is at rest, and draw a frame."""
     qtbot.waitUntil(lambda: canvas.travel.at_rest, timeout=PATIENCE)
     canvas.interactor.grabFramebuffer()
 
@@ -60,7 +60,7 @@ def middle(canvas):
 
 
 def double_click(canvas, place):
-    """What Qt sends as the user clicks twice."""
+    """Send the events of a double click."""
     view = canvas.interactor
     QTest.mouseClick(view, LEFT, pos=place)
     QTest.mouseDClick(view, LEFT, pos=place)
@@ -68,15 +68,15 @@ def double_click(canvas, place):
 
 
 @pytest.mark.slow
-def test_views_are_gone_back_and_forward_through(canvas, qtbot):
+def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
     home = pose(canvas)
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
-    told = []
-    canvas.views_changed.connect(lambda: told.append((canvas.can_go_back, canvas.can_go_forward)))
+    changes = []
+    canvas.views_changed.connect(lambda: changes.append((canvas.can_go_back, canvas.can_go_forward)))
     canvas.look_along("+x")
     rested(qtbot, canvas)
     side = pose(canvas)
-    assert told[-1] == (True, False)
+    assert changes[-1] == (True, False)
     drag(canvas.interactor, QPoint(60, 60), QPoint(140, 90))
     rested(qtbot, canvas)
     turned = pose(canvas)
@@ -85,7 +85,7 @@ def test_views_are_gone_back_and_forward_through(canvas, qtbot):
         canvas.back_view()
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
-    assert told[-1] == (False, True)
+    assert changes[-1] == (False, True)
     for expected in (side, turned):
         canvas.forward_view()
         rested(qtbot, canvas)
@@ -97,7 +97,7 @@ def test_views_are_gone_back_and_forward_through(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_going_back_at_once_leads_to_where_the_camera_was(canvas, qtbot):
+def test_going_back_immediately_returns_to_the_previous_pose(canvas, qtbot):
     home = pose(canvas)
     canvas.look_along("+x")
     side = pose(canvas)
@@ -110,7 +110,7 @@ def test_going_back_at_once_leads_to_where_the_camera_was(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
+def test_successive_key_strokes_are_one_entry_of_the_history(canvas, qtbot):
     home = pose(canvas)
     for _ in range(4):
         QTest.keyClick(canvas.interactor, Qt.Key.Key_Right)
@@ -122,7 +122,7 @@ def test_strokes_of_keys_in_a_row_are_one_view(canvas, qtbot):
     assert not canvas.can_go_back
 
 
-def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
+def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
     assert canvas.travel.active
@@ -131,7 +131,7 @@ def test_a_key_that_says_nothing_does_not_end_a_flight(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
+def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
     home = pose(canvas)
     for h in (3, 60):  # from one to the next
         canvas.remember_pose()
@@ -147,7 +147,7 @@ def test_after_an_excursion_the_camera_comes_back(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
+def test_a_pose_bookmarked_during_a_flight_is_the_goal_of_the_flight(canvas, qtbot):
     canvas.fly_to(3)
     canvas.remember_pose()
     canvas.fly_to(60)
@@ -158,7 +158,7 @@ def test_an_excursion_begun_on_the_way_ends_where_the_way_led(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
+def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
     clicks = []
     canvas.clicked.connect(clicks.append)
     before = pose(canvas)
@@ -167,7 +167,7 @@ def test_a_double_click_sets_what_the_camera_turns_about(canvas, qtbot):
     qtbot.waitUntil(lambda: canvas.travel.active, timeout=PATIENCE)
     rested(qtbot, canvas)
     after = pose(canvas)
-    assert len(clicks) == 1  # the first of both chooses
+    assert len(clicks) == 1  # the first click selects
     focal = np.array(after.focal)
     on = np.isclose(focal, 0, atol=1e-6) | np.isclose(focal, 4, atol=1e-6)
     assert on.any()  # on the skin
@@ -192,7 +192,7 @@ def test_two_clicks_with_ctrl_dig_twice(canvas):
     assert not canvas.travel.active
 
 
-def test_a_right_click_asks_for_a_menu_and_a_right_drag_zooms(canvas, qtbot):
+def test_a_right_click_requests_a_menu_and_a_right_drag_zooms(canvas, qtbot):
     asked, clicks = [], []
     canvas.menu_requested.connect(lambda hit, place: asked.append((hit, place)))
     canvas.clicked.connect(clicks.append)
@@ -217,8 +217,8 @@ def test_a_right_click_asks_for_a_menu_and_a_right_drag_zooms(canvas, qtbot):
     assert not clicks
 
 
-def test_a_menu_may_wait_for_an_answer(canvas, qtbot):
-    """What hears of the click may run an event loop of its own: VTK has let go of the button by then."""
+def test_a_menu_may_block(canvas, qtbot):
+    """A receiver of the signal may run an event loop, because VTK has handled the release of the button."""
     before = pose(canvas)
     moved = []
 
@@ -234,7 +234,7 @@ def test_a_menu_may_wait_for_an_answer(canvas, qtbot):
     assert moved[0].looks_like(before)
 
 
-def test_up_and_projection_are_told(canvas):
+def test_vertical_axis_and_projection_can_be_set(canvas):
     assert (canvas.up, canvas.parallel) == ("z", False)
     canvas.set_up("y")
     canvas.set_parallel(True)
@@ -246,7 +246,7 @@ def test_up_and_projection_are_told(canvas):
 
 
 @pytest.mark.slow
-def test_a_plane_is_flown_to(canvas, qtbot):
+def test_the_camera_flies_to_face_a_plane(canvas, qtbot):
     canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
     assert canvas.travel.active
     rested(qtbot, canvas)
@@ -254,14 +254,14 @@ def test_a_plane_is_flown_to(canvas, qtbot):
 
 
 @pytest.mark.slow
-def test_the_view_keeps_a_least_size(canvas):
+def test_the_view_has_a_minimum_size(canvas):
     canvas.resize(50, 50)
     assert canvas.interactor.width() >= 320
     assert canvas.interactor.height() >= 240
 
 
 @pytest.mark.slow
-def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
+def test_the_colour_bar_does_not_cover_close_buttons(canvas, qtbot):
     others = [(MESH, FIGURES)] * 3
     for size in ((600, 500), (900, 700), (420, 320)):
         canvas.resize(*size)
@@ -277,7 +277,7 @@ def test_the_colour_bar_keeps_off_what_closes_views(canvas, qtbot):
         assert canvas.interactor.rect().contains(bar)
 
 
-def test_the_colour_bar_keeps_off_the_knob_of_a_wipe(canvas):
+def test_the_colour_bar_does_not_cover_the_knob_of_a_wipe(canvas):
     canvas.show_side_by_side([(MESH, FIGURES)], Wipe(0, 1, 0.5))
     home = canvas.colour_bar.geometry()
     edge = canvas.findChild(WipeHandle)

@@ -1,4 +1,4 @@
-"""The colour bar, read back from its pixels."""
+"""Colour bar, checked by its pixels."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from hexmend_app.scene.colour.ticks import nice_ticks
 
 @pytest.fixture
 def ramp():
-    """A table in which each entry is its own number."""
+    """A colour table in which each entry encodes its row number."""
     k = np.arange(256, dtype=np.uint8)
     return np.column_stack([k, 255 - k, np.full(256, 60, np.uint8)])
 
@@ -42,7 +42,7 @@ def test_the_gradient_shows_the_whole_table_in_order(shown, ramp):
 
 
 @pytest.mark.parametrize("colour", ["#12ab34", (0x12, 0xAB, 0x34), QColor("#12ab34")])
-def test_inverted_elements_have_a_swatch_of_their_colour(shown, ramp, colour):
+def test_inverted_hexes_have_a_swatch_of_their_colour(shown, ramp, colour):
     bar = ColourBar()
     bar.set_table(ramp)
     bar.set_special([("inverted", 3, colour)])
@@ -77,7 +77,7 @@ def test_an_empty_range_has_no_ticks(shown):
 
 
 @given(st.floats(-1e7, 1e7), st.floats(-1e7, 1e7), st.floats(10, 2000))
-def test_both_ends_are_among_the_ticks_and_numbers_leave_each_other_room(low, high, length):
+def test_ticks_include_both_ends_and_labels_do_not_overlap(low, high, length):
     assume(high - low > 1e-6 * max(abs(low), abs(high), 1e-3))
     bar = ColourBar()
     bar.set_range(low, high)
@@ -94,7 +94,7 @@ def test_the_label_is_the_quantity(shown):
     assert "Edge ratio from 1.02 to 5.76" in bar.accessibleDescription()
 
 
-def test_several_kinds_set_apart_have_a_swatch_each_below_the_gradient(shown, ramp):
+def test_each_special_colour_has_a_swatch_below_the_gradient(shown, ramp):
     bar = ColourBar()
     bar.set_table(ramp)
     bar.set_range(-0.25, 0.25)
@@ -110,7 +110,7 @@ def test_several_kinds_set_apart_have_a_swatch_each_below_the_gradient(shown, ra
     assert [one.isVisible() for one in bar.swatches] == [True, False, False]
 
 
-def test_a_swatch_asks_for_its_elements_by_mouse_and_keys_while_there_are_some(shown):
+def test_a_swatch_can_be_clicked_by_mouse_and_keys_unless_its_count_is_zero(shown):
     bar = ColourBar()
     bar.set_special([("newly inverted", 3, "#12ab34"), ("still inverted", 0, "#ab1234")])
     shown(bar, 130)
@@ -125,7 +125,7 @@ def test_a_swatch_asks_for_its_elements_by_mouse_and_keys_while_there_are_some(s
     assert not bar.swatches[1].isEnabled()
 
 
-def test_the_width_holds_still_while_counts_and_colours_change(shown):
+def test_the_width_does_not_change_with_counts(shown):
     bar = ColourBar()
     bar.set_special([("inverted", 1, "#12ab34")])
     shown(bar)
@@ -135,7 +135,7 @@ def test_the_width_holds_still_while_counts_and_colours_change(shown):
         assert bar.sizeHint() == before
 
 
-def test_it_can_be_read_in_a_low_view(shown):
+def test_it_fits_into_a_low_view(shown):
     bar = ColourBar("Displacement since the mesh was opened")
     shown(bar, bar.sizeHint().width(), 150)
     assert bar.swatches[0].geometry().bottom() < 150

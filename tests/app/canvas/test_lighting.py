@@ -1,4 +1,4 @@
-"""Light on the mesh comes beside the window, once nothing moves."""
+"""Shading is computed in the background when nothing moves."""
 
 import numpy as np
 import pytest
@@ -10,20 +10,20 @@ pytestmark = pytest.mark.slow
 
 
 def rested(window, qtbot):
-    """Wait until the view has its light."""
+    """Wait until the view is shaded, and return its mesh layer."""
     window.canvas.rest()
     body = window.canvas.viewport.body
     qtbot.waitUntil(lambda: body.light is not None and not window.canvas.lighting.active, timeout=PATIENCE)
     return body
 
 
-def test_a_view_that_rests_is_shaded(window, qtbot):
+def test_a_view_at_rest_is_shaded(window, qtbot):
     body = rested(window, qtbot)
     assert body.needs_shading is None
     assert body.light.min() < 1
 
 
-def test_a_change_calls_for_other_light(window, qtbot):
+def test_a_change_computes_the_shading_again(window, qtbot):
     body = rested(window, qtbot)
     before = body.light
     heard = []
@@ -33,7 +33,7 @@ def test_a_change_calls_for_other_light(window, qtbot):
     assert body.light is not before
 
 
-def test_without_shading_nothing_is_worked_out(window, qtbot):
+def test_nothing_is_computed_without_shading(window, qtbot):
     rested(window, qtbot)
     window.session.view.change(shading=False, dug=frozenset({3}))
     qtbot.waitUntil(lambda: window.canvas.viewport.frame.look == window.session.view.look, timeout=PATIENCE)
@@ -43,7 +43,7 @@ def test_without_shading_nothing_is_worked_out(window, qtbot):
     assert window.session.view.look == Look(shading=False, dug=frozenset({3}))
 
 
-def test_closing_ends_it(window):
+def test_shutting_down_ends_the_computation(window):
     window.canvas.panes.still()
     window.canvas.lighting.start()
     window.canvas.lighting.shut_down()

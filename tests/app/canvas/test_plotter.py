@@ -1,4 +1,4 @@
-"""PyVista's plotter on the 3D view: what it adds is seen and saved, and nothing else is touched."""
+"""PyVista plotter of the 3D view: its actors are drawn and saved, and other props are not changed."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ MAGENTA = (255, 0, 255)
 
 @pytest.fixture
 def canvas(fresh_window):
-    """The view of a window with a mesh, large enough to be seen beside what is added."""
+    """The view of a window with a mesh."""
     return fresh_window.canvas
 
 
 def _add(canvas, **options):
-    """A sphere over the mesh, in a colour that nothing else has."""
+    """Add a sphere around the mesh, in a colour that nothing else has."""
     low, high = np.reshape(canvas.viewport.bounds, (3, 2)).T
     sphere = pv.Sphere(radius=np.linalg.norm(high - low), center=(low + high) / 2)
     return canvas.plotter.add_mesh(sphere, color=MAGENTA, lighting=False, **options)
@@ -38,7 +38,7 @@ def _saved(canvas):
     return canvas.sheet(canvas.scene(Page())).image().convert("RGB")
 
 
-def test_what_it_adds_is_on_the_screen_and_in_pictures(canvas):
+def test_its_actors_are_on_the_screen_and_in_pictures(canvas):
     before = canvas.viewport.layers[0].GetViewProps().GetNumberOfItems()
     assert isinstance(canvas.plotter, pv.Plotter)
     assert canvas.plotter is canvas.plotter
@@ -53,7 +53,7 @@ def test_what_it_adds_is_on_the_screen_and_in_pictures(canvas):
     assert canvas.viewport.layers[0].GetViewProps().GetNumberOfItems() == before
 
 
-def test_it_outlives_mesh_and_theme_and_clears_only_its_own(fresh_window, canvas):
+def test_its_actors_survive_changes_of_mesh_and_theme_and_clear_removes_only_them(fresh_window, canvas):
     _add(canvas, style="wireframe", line_width=3)
     before = canvas.viewport.layers[0].GetViewProps().GetNumberOfItems()
     fresh_window.session.document.replace(State.of(gallery.make("cube", size=64)), None)
@@ -69,7 +69,7 @@ def test_it_outlives_mesh_and_theme_and_clears_only_its_own(fresh_window, canvas
     assert _magenta(_saved(canvas)) == 0
 
 
-def test_both_cameras_are_one(canvas):
+def test_both_cameras_are_synchronised(canvas):
     plotter, view = canvas.plotter, canvas.viewport.camera
     canvas.look_along("+x")
     assert np.allclose(plotter.camera.position, view.GetPosition())
@@ -89,7 +89,7 @@ def test_points_text_scalar_bars_and_textures_are_in_pictures(canvas):
     assert np.abs(np.asarray(_saved(canvas), int) - without).max() > 100
 
 
-def test_a_plotter_that_is_closed_leaves_the_view(canvas):
+def test_closing_the_plotter_keeps_the_view_open(canvas):
     _add(canvas)
     canvas.plotter.close()
     assert canvas.plotter.render_window is None
@@ -97,7 +97,7 @@ def test_a_plotter_that_is_closed_leaves_the_view(canvas):
     assert not canvas.plotter.actors
 
 
-def test_further_windows_are_pyvistaqts(canvas, monkeypatch):
+def test_separate_windows_require_pyvistaqt(canvas, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyvistaqt", None)
     with pytest.raises(HexmendError, match="pip install"):
         module.open_window()

@@ -1,4 +1,4 @@
-"""Captions of views: each over its own, in whatever rows they stand."""
+"""Captions of views: each at the top of its view, in one or two rows."""
 
 import pytest
 from PySide6.QtCore import QPoint, QRect
@@ -32,7 +32,7 @@ def captions(count):
 
 
 def entries(view):
-    """Where each caption stands in the view, by its name."""
+    """Return the rectangle of each caption in the view, by its name."""
     found = {}
     for row in view.findChildren(CaptionRow):
         for part in row.findChildren(QWidget):
@@ -43,10 +43,10 @@ def entries(view):
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
-def test_each_caption_stands_at_the_top_of_its_view(framed, qtbot, count):
+def test_each_caption_is_at_the_top_of_its_view(framed, qtbot, count):
     frame, view, size = framed.frame, framed.view, framed.view.size()
     frame.set_captions(captions(count), None)
-    assert view.size() == size  # what is said of views takes nothing from them but the room that they leave
+    assert view.size() == size  # captions use the space that the views reserve
     found = entries(view)
     if count == 1:
         assert found == {}
@@ -59,7 +59,7 @@ def test_each_caption_stands_at_the_top_of_its_view(framed, qtbot, count):
         assert abs(place.right() + 1 - right * view.width()) <= 1
 
 
-def test_they_stay_there_as_the_view_grows_and_go_with_a_wipe(framed, qtbot):
+def test_captions_follow_a_resized_view_and_are_hidden_by_a_wipe(framed, qtbot):
     frame, view = framed.frame, framed.view
     frame.set_captions(captions(4), None)
     framed.resize(1001, 803)
@@ -69,10 +69,10 @@ def test_they_stay_there_as_the_view_grows_and_go_with_a_wipe(framed, qtbot):
     assert entries(view) == {}
 
 
-def test_a_cross_in_the_lower_row_closes_its_view(framed, qtbot):
+def test_a_close_button_in_the_lower_row_closes_its_view(framed, qtbot):
     frame, view = framed.frame, framed.view
     frame.set_captions(captions(4), None)
     cross = next(one for one in view.findChildren(QToolButton) if one.accessibleName() == "Close the view of view 2")
-    with qtbot.waitSignal(frame.view_closed) as told:
+    with qtbot.waitSignal(frame.view_closed) as closed:
         QTest.mouseClick(cross, LEFT)
-    assert told.args == [2]
+    assert closed.args == [2]

@@ -1,4 +1,4 @@
-"""Keys that lead the camera."""
+"""Keys that move the camera."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def pressed(key, held=PLAIN):
 
 
 @pytest.mark.parametrize("up", UPS)
-def test_arrows_turn_about_what_is_up_and_with_shift_they_shift(up):
+def test_arrows_rotate_about_the_vertical_axis_and_pan_with_shift(up):
     camera = vtkCamera()
     look_from(camera, "iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
@@ -43,5 +43,5 @@ def test_plus_and_minus_zoom_and_undo_each_other():
 
 
 @pytest.mark.parametrize("event", [(Qt.Key.Key_N,), (Qt.Key.Key_Left, ALT), (Qt.Key.Key_Shift, SHIFT)])
-def test_other_keys_say_nothing(event):
+def test_other_keys_are_not_bound(event):
     assert move_of(pressed(*event), "z") is None

@@ -1,4 +1,4 @@
-"""CGNS files of the ADF kind, written by the CGNS library that comes with VTK."""
+"""CGNS files based on ADF, written by the CGNS library that is part of VTK."""
 
 import ctypes
 import tomllib
@@ -30,12 +30,12 @@ def library():
 
 @pytest.fixture
 def joined(monkeypatch):
-    """The reader joins, whatever the environment has been told of it."""
+    """Register the format, independent of installed entry points."""
     monkeypatch.setattr(files, "plugin_formats", lambda: (FORMAT,))
 
 
 def write_adf(library, path, mesh):
-    """One unstructured zone of hexes, and a structured one of eight beside it."""
+    """Write an unstructured zone with the hexes of a mesh, and a structured zone of eight hexes next to it."""
 
     def call(name, *words):
         assert getattr(library, f"vtkcgns_cg_{name}")(*words) == 0, name
@@ -63,7 +63,7 @@ def write_adf(library, path, mesh):
     call("close", file)
 
 
-def test_a_file_of_that_kind_is_read(library, joined, tmp_path):
+def test_an_adf_file_is_read(library, joined, tmp_path):
     mesh = grid(3)
     write_adf(library, tmp_path / "old.cgns", mesh)
     assert b"ADF Database" in (tmp_path / "old.cgns").read_bytes()[:64]
@@ -74,7 +74,7 @@ def test_a_file_of_that_kind_is_read(library, joined, tmp_path):
     assert any("Boundary conditions" in note for note in found.notes)
 
 
-def test_a_damaged_file_ends_no_process_but_its_own(library, joined, tmp_path):
+def test_a_damaged_file_crashes_the_subprocess_only(library, joined, tmp_path):
     write_adf(library, tmp_path / "old.cgns", grid(3))
     data = bytearray((tmp_path / "old.cgns").read_bytes())
     (tmp_path / "bad.cgns").write_bytes(data[: len(data) // 2])
@@ -83,7 +83,7 @@ def test_a_damaged_file_ends_no_process_but_its_own(library, joined, tmp_path):
 
 
 @pytest.mark.parametrize("other", [b"other.cgns", b"/dev/null", b""])
-def test_a_link_to_another_file_is_refused_and_one_inside_the_file_is_not(other, library, joined, tmp_path):
+def test_a_link_to_another_file_is_rejected_but_an_internal_link_is_not(other, library, joined, tmp_path):
     path, file = tmp_path / "linked.cgns", ctypes.c_int()
     for name in ("linked.cgns", "other.cgns"):
         write_adf(library, tmp_path / name, grid(2))
@@ -98,7 +98,7 @@ def test_a_link_to_another_file_is_refused_and_one_inside_the_file_is_not(other,
         assert io.read(path).n_hexes == 16
 
 
-def test_a_file_on_hdf5_is_not_taken_for_one_of_that_kind(joined, tmp_path):
+def test_an_hdf5_file_is_not_read_as_adf(joined, tmp_path):
     h5py = pytest.importorskip("h5py")
     path = tmp_path / "both.cgns"
     with h5py.File(path, "w", userblock_size=512) as file:
@@ -109,7 +109,7 @@ def test_a_file_on_hdf5_is_not_taken_for_one_of_that_kind(joined, tmp_path):
         io.read(path)
 
 
-def test_without_the_app_it_is_said_what_reads_it(library, monkeypatch, tmp_path):
+def test_without_the_app_the_error_names_the_package_that_reads_it(library, monkeypatch, tmp_path):
     monkeypatch.setattr(files, "plugin_formats", tuple)
     write_adf(library, tmp_path / "old.cgns", grid(1))
     with pytest.raises(FileError, match=r"pip install hexmend\[app\] reads it") as caught:
@@ -117,7 +117,7 @@ def test_without_the_app_it_is_said_what_reads_it(library, monkeypatch, tmp_path
     assert "damaged" not in str(caught.value)
 
 
-def test_the_distribution_announces_it():
+def test_the_entry_point_is_registered():
     data = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())
     (value,) = data["project"]["entry-points"]["hexmend.formats"].values()
     assert EntryPoint("cgns-adf", value, "hexmend.formats").load() is FORMAT

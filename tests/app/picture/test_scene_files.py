@@ -1,4 +1,4 @@
-"""Scenes as TOML: what is written is read again, and what is wrong is said with its place."""
+"""Scenes as TOML: written scenes are read, and errors are reported with their position."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ from hexmend_app.picture import (
 )
 from hexmend_app.picture.appearance import Structure, Traces
 
-STAND = Camera(position=(0.1, -2.0, 3e-7), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=1 / 3, parallel=True)
+POSE = Camera(position=(0.1, -2.0, 3e-7), focal=(0.0, 0.0, 0.0), view_up=(0.0, 0.0, 1.0), scale=1 / 3, parallel=True)
 FULL = Scene(
-    camera=STAND,
+    camera=POSE,
     cameras={"a b": Camera("+x", up="y"), "side": Camera((1.0, 2.0, 3.0))},
     panels=(PicturePanel("side", 2, 'quoted " \\ $x$ ×', WipeLayout(1, 0.25)), PicturePanel()),
     cut=Cut((Plane((1, 1, 0), 0.3), Plane((0, 0, 1), point=(0.1, 0.2, 0.3))), style=CutStyle.SMOOTH, notch=True),
@@ -62,14 +62,14 @@ FULL = Scene(
         Scene(cut=Cut((Plane(),), hexes="0-7, 9, 20-2000000000")),
     ],
 )
-def test_what_is_written_is_read_again(scene, tmp_path):
+def test_written_scenes_are_read(scene, tmp_path):
     assert from_toml(to_toml(scene)) == scene
     write_scene(tmp_path / "scene.toml", scene)
     assert read_scene(tmp_path / "scene.toml") == scene
 
 
 @pytest.mark.parametrize("scene", [Scene(), FULL])
-def test_what_is_as_in_any_scene_can_be_left_out(scene):
+def test_default_values_can_be_omitted(scene):
     short = to_toml(scene, whole=False)
     assert len(short) < len(to_toml(scene))
     assert from_toml(short) == scene
@@ -80,7 +80,7 @@ def test_every_key_has_a_default():
     assert from_toml("[page]\nwidth = 85") == Scene(page=Page(width=85))
 
 
-@pytest.mark.parametrize("camera", [Camera(), STAND, Camera((1.0, 0.0, -2.5), up="x")])
+@pytest.mark.parametrize("camera", [Camera(), POSE, Camera((1.0, 0.0, -2.5), up="x")])
 def test_a_camera_is_one_line(camera):
     text = camera_text(camera)
     assert "\n" not in text
@@ -88,7 +88,7 @@ def test_a_camera_is_one_line(camera):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("[bar]\ntick = 3", "[bar] has an unknown key 'tick': expected place, ticks, title"),
         ("bars = 1", "the scene has an unknown key 'bars': expected format, camera"),
@@ -134,17 +134,17 @@ def test_a_camera_is_one_line(camera):
         ("[bar", "is not TOML: expected"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_place(text, said, tmp_path):
+def test_errors_are_reported_with_their_position(text, message, tmp_path):
     with pytest.raises(ParameterError) as error:
         from_toml(text)
-    assert said in str(error.value)
+    assert message in str(error.value)
     (tmp_path / "scene.toml").write_text(text)
     with pytest.raises(FileError, match=r"scene\.toml: "):
         read_scene(tmp_path / "scene.toml")
 
 
 @pytest.mark.parametrize("text", ["", "iso", "{", "{ from = 'iso' }\nx = 1", "{ a = 1 }", "[1]"])
-def test_what_is_no_camera_is_refused(text):
+def test_invalid_cameras_are_rejected(text):
     with pytest.raises(ParameterError):
         camera_from(text)
 
@@ -162,7 +162,7 @@ KEYS = [f"{table}.{key}" for table in ("page", "cut", "show", "camera", "bar", "
 
 @example({"bar.ticks": []})
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=4))
-def test_whatever_stands_in_a_file_gives_a_scene_or_an_error_of_ours(data):
+def test_any_file_gives_a_scene_or_a_parameter_error(data):
     import tomli_w
 
     tables = {}

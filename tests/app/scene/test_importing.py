@@ -1,4 +1,4 @@
-"""What draws does not bring what plots."""
+"""Drawing does not import plotting libraries."""
 
 import subprocess
 import sys

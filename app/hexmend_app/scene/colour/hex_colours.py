@@ -74,7 +74,5 @@ class HexColours:
     def special_counts(self) -> list[tuple[str, int, tuple[int, int, int]]]:
         """Name, number of hexes and colour of each special colour."""
         counts = np.bincount(self.kinds, minlength=len(self.colouring.special_colours) + 1)
-        return [
-            (special.name, int(count), special.colour)
-            for special, count in zip(self.colouring.special_colours, counts[1:], strict=False)
-        ]
+        pairs = zip(self.colouring.special_colours, counts[1:], strict=False)
+        return [(special.name, int(count), special.colour) for special, count in pairs]

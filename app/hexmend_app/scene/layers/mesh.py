@@ -44,9 +44,7 @@ class MeshLayer:
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         self.skin, self.section = Surface(pane.renderer, pixel_ratio), Surface(pane.renderer, pixel_ratio)
-        self._outlines = [
-            (surface, InvertedOutline(pane.renderer, pixel_ratio)) for surface in (self.skin, self.section)
-        ]
+        self._outlines = [(s, InvertedOutline(pane.renderer, pixel_ratio)) for s in (self.skin, self.section)]
         self._coarse: pv.PolyData | None = None  # decimated skin, drawn while the camera moves
         self._steady = False  # True if only the camera has moved since the last fine frame
         self._shading = True

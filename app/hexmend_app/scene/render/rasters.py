@@ -113,20 +113,20 @@ class _Views:
             view = Viewport(Pane(stage.window), axes=False, filters=filters, pixel_ratio=pixel_ratio)
             view.set_dark(layout.scene.page.dark)
             view.set_background(self._background or _TRANSPARENT)
-            view.draw(first if number == 1 else self._further_frame(layout.meshes[number - 1], first))
+            view.draw(first if number == 1 else self._frame_of_other(layout.meshes[number - 1], first))
             self.all[number] = view
             filters = self.all[1].filters
             for layer in view.layers:
                 stage.window.RemoveRenderer(layer)
         self._share_colour_range(look)
 
-    def _further_frame(self, further: PageMesh, first: Frame) -> Frame:
-        """Return the frame of a mesh after the first, with the look of the first if their hexes are equal."""
-        if same_hexes(first.mesh, further.mesh):
-            return Frame(further.mesh, further.figures).matching(first)
+    def _frame_of_other(self, other: PageMesh, first: Frame) -> Frame:
+        """Return the frame of another mesh than the first, with the look of the first if their hexes are equal."""
+        if same_hexes(first.mesh, other.mesh):
+            return Frame(other.mesh, other.figures).matching(first)
         scene = self._layout.scene
         scene = replace(scene, cut=replace(scene.cut, hexes=""))  # hex numbers apply to the first mesh only
-        return Frame(further.mesh, further.figures, look=scene.look(further.mesh))
+        return Frame(other.mesh, other.figures, look=scene.look(other.mesh))
 
     def _share_colour_range(self, look: Look) -> None:
         """Extend a fitted colour range to the values of all views."""

@@ -1,4 +1,4 @@
-"""The camera of views, brought to where it sees what it is to see."""
+"""Camera of views: fitting, directions, projections and flights."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def panes():
 
 
 def seen(panes, places, aspect=1.5):
-    """Where places lie in the picture, which reaches from -1 to 1; (k, 2)."""
+    """Return the positions of points in the picture, from -1 to 1, (k, 2)."""
     matrix = pv.array_from_vtkmatrix(panes.eye.camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1))
     projected = np.column_stack([places, np.ones(len(places))]) @ matrix.T
     return projected[:, :2] / projected[:, 3:]
@@ -43,7 +43,7 @@ def seen(panes, places, aspect=1.5):
 
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("look", LOOKS)
-def test_what_is_shown_fills_the_picture(panes, look, parallel):
+def test_fit_fills_the_picture_with_the_shown_hexes(panes, look, parallel):
     panes.eye.set_parallel(parallel)
     panes.draw(Frame(MESH, FIGURES, look=look))
     panes.eye.fit()
@@ -69,7 +69,7 @@ def test_a_look_or_moved_nodes_leave_the_camera(panes):
     assert pose_of(panes.eye.camera) == before
 
 
-def test_where_nothing_is_left_the_mesh_is_fitted(panes):
+def test_fit_uses_the_whole_mesh_if_nothing_is_shown(panes):
     whole = pose_of(panes.eye.camera)
     panes.draw(Frame(MESH, FIGURES, look=Look(dug=frozenset(range(MESH.n_hexes)))))
     panes.eye.fit()
@@ -77,7 +77,7 @@ def test_where_nothing_is_left_the_mesh_is_fitted(panes):
 
 
 @pytest.mark.parametrize("wipe", [None, Wipe(0, 1, 0.4)])
-def test_what_is_shown_in_any_view_is_in_the_picture(panes, wipe):
+def test_fit_includes_the_hexes_of_all_views(panes, wipe):
     wide = MESH.with_points(MESH.points * (2, 1, 1))
     panes.show([(wide, measure(wide.points, wide.hexes))], wipe)
     panes.eye.fit()
@@ -86,7 +86,7 @@ def test_what_is_shown_in_any_view_is_in_the_picture(panes, wipe):
     assert np.abs(seen(panes, MESH.points, aspect)).max() < 0.96
 
 
-def test_a_view_that_is_fitted_stays_so_in_a_window_of_another_size(panes):
+def test_a_fitted_view_is_fitted_again_when_the_window_is_resized(panes):
     window = panes.first.layers[0].GetRenderWindow()
     window.Render()
     far = panes.eye.camera.GetDistance()
@@ -100,7 +100,7 @@ def test_a_view_that_is_fitted_stays_so_in_a_window_of_another_size(panes):
     assert panes.eye.camera.GetDistance() == far  # the user has come nearer
 
 
-def test_directions_follow_what_is_up(panes):
+def test_directions_depend_on_the_vertical_axis(panes):
     eye = panes.eye
     for axis, up in (("y", (0, 1, 0)), ("x", (1, 0, 0)), ("z", (0, 0, 1))):
         eye.set_up(axis)
@@ -123,7 +123,7 @@ def test_the_picture_rolls_counter_clockwise(panes):
     np.testing.assert_allclose(eye.camera.GetViewUp(), (1, 0, 0), atol=1e-9)  # what was right is up
 
 
-def test_what_is_looked_at_stays_as_large_in_the_other_projection(panes):
+def test_objects_keep_their_size_in_the_other_projection(panes):
     eye = panes.eye
     eye.flight_to(MESH.points[MESH.hexes[[0]]]).at(1.0)
     focal, up = np.array(eye.camera.GetFocalPoint()), np.array(eye.camera.GetViewUp())
@@ -138,7 +138,7 @@ def test_what_is_looked_at_stays_as_large_in_the_other_projection(panes):
 
 
 @pytest.mark.parametrize("normal", [(1, 0, 0), (0, 0, -1), (1, 2, 3)])
-def test_a_plane_is_faced_from_where_it_is_open(panes, normal):
+def test_a_plane_is_viewed_from_the_removed_side(panes, normal):
     clip = PlaneClip.at(normal, (3, 3, 3), False)
     panes.draw(Frame(MESH, FIGURES, look=Look(clip=clip)))
     panes.eye.flight_along(clip.planes[0].normal).at(1.0)
@@ -148,7 +148,7 @@ def test_a_plane_is_faced_from_where_it_is_open(panes, normal):
 
 
 @pytest.mark.parametrize("parallel", [False, True])
-def test_the_camera_turns_about_a_place_without_coming_nearer(panes, parallel):
+def test_a_flight_around_a_point_preserves_the_distance(panes, parallel):
     eye = panes.eye
     eye.set_parallel(parallel)
     before, place = pose_of(eye.camera), np.array([6.0, 0.0, 6.0])
@@ -163,7 +163,7 @@ def test_the_camera_turns_about_a_place_without_coming_nearer(panes, parallel):
 
 
 @pytest.mark.parametrize("parallel", [False, True])
-def test_an_element_is_seen_among_its_neighbours(panes, parallel):
+def test_a_flight_to_a_hex_shows_its_neighbours(panes, parallel):
     panes.eye.set_parallel(parallel)
     corners = MESH.points[MESH.hexes[[100]]]
     panes.eye.flight_to(corners).at(1.0)
@@ -171,7 +171,7 @@ def test_an_element_is_seen_among_its_neighbours(panes, parallel):
     assert 0.2 < np.abs(places).max() < 0.6
 
 
-def test_whatever_is_near_or_far_is_drawn(panes):
+def test_the_clipping_range_includes_the_outline(panes):
     panes.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((1, 0, 0), (1.2, 3, 3)))))
     panes.eye.fit()  # of the outline of the whole too, which is larger
     depth = (MESH.points - panes.eye.camera.GetPosition()) @ panes.eye.camera.GetDirectionOfProjection()

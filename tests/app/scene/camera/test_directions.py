@@ -1,4 +1,4 @@
-"""Where to look from, and what is up."""
+"""View directions and the vertical axis."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from hexmend_app.scene.camera.directions import UPS, VIEWS, look_from, up_in
 
 @pytest.mark.parametrize("up", UPS)
 @pytest.mark.parametrize("name", VIEWS)
-def test_from_each_direction_the_axis_is_up_that_is_to_be(name, up):
+def test_the_vertical_axis_is_up_in_all_views_not_along_it(name, up):
     camera = vtkCamera()
     look_from(camera, name, up)
     ahead, upwards = np.array(camera.GetDirectionOfProjection()), np.array(camera.GetViewUp())
@@ -27,7 +27,7 @@ def test_from_each_direction_the_axis_is_up_that_is_to_be(name, up):
 
 
 @pytest.mark.parametrize("up", UPS)
-def test_a_vector_along_what_is_up_has_something_else_up(up):
+def test_a_view_along_the_vertical_axis_has_another_up_vector(up):
     axis = np.array(UPS[up][0])
     assert up_in(tuple(3 * axis), up) == UPS[up][1]
     assert up_in(tuple(-axis), up) == UPS[up][1]

@@ -1,4 +1,4 @@
-"""The camera that a box just fills the picture of."""
+"""Fitting of a camera to a box."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SIZES = st.tuples(*[st.floats(0.01, 100)] * 3)
 
 
 def corners_seen(direction, size, aspect, parallel):
-    """Where the corners of a box lie in the picture, which reaches from -1 to 1, after `fit`; (8, 2)."""
+    """Return the positions of the corners of a box in the picture after `fit`, from -1 to 1, (8, 2)."""
     low = np.array([3.0, -7.0, 11.0])
     camera = vtkCamera()
     camera.SetFocalPoint(low + np.array(size) / 2)
@@ -30,7 +30,7 @@ def corners_seen(direction, size, aspect, parallel):
 
 
 @given(DIRECTIONS, SIZES, st.floats(0.2, 5), st.booleans())
-def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, aspect, parallel):
+def test_the_whole_box_is_visible_and_reaches_two_opposite_sides(direction, size, aspect, parallel):
     seen = corners_seen(direction, size, aspect, parallel)
     assert np.abs(seen).max() == pytest.approx(0.96, abs=1e-4)
     tight = np.isclose(np.abs(seen).max(axis=0), 0.96, atol=1e-4)
@@ -38,7 +38,7 @@ def test_the_box_is_seen_whole_and_reaches_two_opposite_sides(direction, size, a
     np.testing.assert_allclose(ends, [[-0.96, 0.96]] * len(ends), atol=1e-4)
 
 
-def test_a_point_comes_into_the_middle_from_as_far_as_before():
+def test_a_point_is_centred_at_the_same_distance():
     camera = vtkCamera()
     far = camera.GetDistance()
     fit(camera, np.array([[1.0, 2.0, 3.0]] * 3), 1.5)

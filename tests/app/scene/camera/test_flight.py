@@ -1,4 +1,4 @@
-"""The camera's way from one pose to another."""
+"""Flights of the camera between poses."""
 
 import numpy as np
 import pytest
@@ -15,14 +15,14 @@ VECTORS = st.tuples(*[st.floats(-10, 10)] * 3)
 
 @st.composite
 def poses(draw):
-    """Poses that look somewhere, with something up that is not there."""
-    focal, way, up = draw(VECTORS), draw(VECTORS), draw(VECTORS)
-    across = np.linalg.norm(np.cross(way, up))
-    if np.linalg.norm(way) < 0.1 or across < 0.1 * np.linalg.norm(way):
-        way, up = (1.0, 2.0, 3.0), (0.0, 0.0, 1.0)
-    up = np.cross(way, np.cross(up, way))  # at a right angle, as a camera has it after a drag
+    """Generate poses with an up vector that is not along the view direction."""
+    focal, offset, up = draw(VECTORS), draw(VECTORS), draw(VECTORS)
+    across = np.linalg.norm(np.cross(offset, up))
+    if np.linalg.norm(offset) < 0.1 or across < 0.1 * np.linalg.norm(offset):
+        offset, up = (1.0, 2.0, 3.0), (0.0, 0.0, 1.0)
+    up = np.cross(offset, np.cross(up, offset))  # at a right angle, as a camera has it after a drag
     up = tuple(float(c) for c in up / np.linalg.norm(up))
-    position = tuple(float(c) for c in np.add(focal, way))
+    position = tuple(float(c) for c in np.add(focal, offset))
     return CameraPose(position, focal, up, False, draw(st.floats(0.1, 10)), "z")
 
 
@@ -33,7 +33,7 @@ def camera_in(pose):
 
 
 @given(poses(), poses())
-def test_a_flight_begins_where_the_camera_is_and_ends_in_the_very_pose(start, goal):
+def test_a_flight_starts_at_the_current_pose_and_ends_at_the_goal(start, goal):
     camera = camera_in(start)
     flight = Flight(camera, goal)
     flight.at(0.0)
@@ -44,7 +44,7 @@ def test_a_flight_begins_where_the_camera_is_and_ends_in_the_very_pose(start, go
 
 
 @given(poses(), poses(), st.floats(0.05, 0.95))
-def test_on_its_way_it_is_between_both_and_stays_a_camera(start, goal, share):
+def test_poses_during_a_flight_are_valid_and_between_start_and_goal(start, goal, share):
     camera = camera_in(start)
     Flight(camera, goal).at(share)
     far = camera.GetDistance()
@@ -56,7 +56,7 @@ def test_on_its_way_it_is_between_both_and_stays_a_camera(start, goal, share):
     assert (camera.GetFocalPoint() <= high + 1e-6).all()
 
 
-def test_it_turns_the_shorter_way_round():
+def test_a_flight_takes_the_shorter_rotation():
     start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     goal = CameraPose((0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     camera = camera_in(start)
@@ -64,7 +64,7 @@ def test_it_turns_the_shorter_way_round():
     np.testing.assert_allclose(camera.GetPosition(), (0.5**0.5, -(0.5**0.5), 0), atol=1e-9)
 
 
-def test_the_projection_is_that_of_the_goal():
+def test_a_flight_has_the_projection_of_the_goal():
     start = CameraPose((1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), False, 1.0, "z")
     camera = camera_in(start)
     Flight(camera, CameraPose(start.position, start.focal, start.up, True, 4.0, "z")).at(0.5)

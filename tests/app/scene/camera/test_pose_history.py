@@ -1,4 +1,4 @@
-"""The views that there have been."""
+"""History of camera poses."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ from hexmend_app.scene.camera.pose_history import PoseHistory
 
 
 def pose(k):
-    """One of a row of poses."""
+    """Return the k-th of a sequence of poses."""
     return CameraPose((float(k), 0.0, 1.0), (float(k), 0.0, 0.0), (0.0, 1.0, 0.0), False, 1.0, "z")
 
 
@@ -21,20 +21,20 @@ def three():
     return poses
 
 
-def test_at_first_there_is_nowhere_to_go():
+def test_a_new_history_is_empty():
     poses = PoseHistory()
     assert (poses.can_go_back, poses.can_go_forward) == (False, False)
     assert (poses.back(), poses.forward()) == (None, None)
 
 
-def test_one_goes_back_to_the_first_and_forward_to_the_last(three):
+def test_back_ends_at_the_first_pose_and_forward_at_the_last(three):
     assert [three.back(), three.back(), three.back()] == [pose(1), pose(0), None]
     assert not three.can_go_back
     assert [three.forward(), three.forward(), three.forward()] == [pose(1), pose(2), None]
     assert not three.can_go_forward
 
 
-def test_another_view_ends_what_was_ahead(three):
+def test_a_new_pose_drops_the_poses_ahead(three):
     three.back()
     three.back()
     assert three.add(pose(7))
@@ -42,7 +42,7 @@ def test_another_view_ends_what_was_ahead(three):
     assert [three.back(), three.back()] == [pose(0), None]
 
 
-def test_the_view_of_now_is_not_taken_twice_though_it_is_rounded(three):
+def test_the_current_pose_is_not_added_again_despite_rounding(three):
     three.back()
     nearly = dataclasses.replace(pose(1), position=(1.0 + 1e-9, 0.0, 1.0))
     assert not three.add(nearly)
@@ -51,14 +51,14 @@ def test_the_view_of_now_is_not_taken_twice_though_it_is_rounded(three):
         assert not dataclasses.replace(pose(1), **other).looks_like(pose(1))
 
 
-def test_of_many_the_oldest_are_forgotten():
+def test_the_oldest_of_many_poses_are_dropped():
     poses = PoseHistory(most=4)
     for k in range(10):
         poses.add(pose(k))
     assert [poses.back() for _ in range(4)] == [pose(8), pose(7), pose(6), None]
 
 
-def test_all_are_forgotten(three):
+def test_clear_drops_all_poses(three):
     three.clear()
     assert not three.can_go_back
     assert three.add(pose(2))

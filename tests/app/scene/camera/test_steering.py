@@ -1,4 +1,4 @@
-"""A camera led by steps."""
+"""Stepwise camera movements."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from hexmend_app.scene.camera.steering import turn
 
 
 @pytest.mark.parametrize("up", UPS)
-def test_steps_to_the_right_lead_around_upright_and_come_back(up):
+def test_steps_to_the_right_keep_the_picture_upright_and_complete_a_turn(up):
     camera = vtkCamera()
     look_from(camera, "iso", up)
     axis, before = np.array(UPS[up][0]), np.array(camera.GetPosition())
@@ -21,7 +21,7 @@ def test_steps_to_the_right_lead_around_upright_and_come_back(up):
     np.testing.assert_allclose(camera.GetPosition(), before, atol=1e-9)
 
 
-def test_to_the_right_what_is_in_front_goes_right():
+def test_a_step_to_the_right_moves_the_front_to_the_right():
     camera = vtkCamera()
     look_from(camera, "+x", "z")
     right = np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp())
@@ -31,7 +31,7 @@ def test_to_the_right_what_is_in_front_goes_right():
     assert near @ now > near @ right + 0.1
 
 
-def test_on_its_head_right_is_right_too():
+def test_right_is_right_in_an_upside_down_picture_too():
     camera = vtkCamera()
     look_from(camera, "+x", "z")
     camera.Roll(180)
@@ -40,7 +40,7 @@ def test_on_its_head_right_is_right_too():
     assert near @ np.cross(camera.GetDirectionOfProjection(), camera.GetViewUp()) > 0.1
 
 
-def test_over_a_pole_and_all_around():
+def test_steps_upwards_pass_the_poles_and_complete_a_turn():
     camera = vtkCamera()
     look_from(camera, "+x", "z")
     before = np.array(camera.GetPosition())

@@ -1,4 +1,4 @@
-"""Colours of elements."""
+"""Colours of hexes."""
 
 import numpy as np
 import pytest
@@ -34,23 +34,23 @@ def test_a_map_is_that_of_matplotlib(name):
     np.testing.assert_allclose(COLOUR_MAPS[name].table / 255, colormaps[name](np.arange(256))[:, :3], atol=0.501 / 255)
 
 
-def test_ends_beyond_and_between():
+def test_values_outside_the_range_have_the_colour_of_the_nearest_end():
     got = colouring(0.2, 0.8).colours(np.array([-1, 0.2, 0.8, 2, np.inf, -np.inf]), np.zeros(6, bool))
     np.testing.assert_array_equal(got, COLOUR_MAPS["viridis"].table[[0, 0, 255, 255, 255, 0]])
 
 
-def test_inverted_elements_have_their_own_colour_whatever_their_value():
+def test_inverted_hexes_have_a_special_colour_independent_of_their_value():
     got = colouring(0, 1).colours(np.array([0.0, np.nan, 1.0]), np.array([True, True, False]))
     assert got.tolist() == [list(INVERTED), list(INVERTED), COLOUR_MAPS["viridis"].table[255].tolist()]
 
 
-def test_an_unknown_map_is_said():
+def test_an_unknown_map_is_an_error():
     with pytest.raises(ParameterError, match="no colour map"):
         COLOUR_MAPS["jet"]
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_declared_ranges_are_taken_where_they_end(name):
+def test_finite_declared_ranges_are_used(name):
     for mode, declared in (
         (RangeMode.FULL, METRICS[name].full_range),
         (RangeMode.ACCEPTABLE, METRICS[name].acceptable),
@@ -60,7 +60,7 @@ def test_declared_ranges_are_taken_where_they_end(name):
         assert (got.low, got.high) == (declared if np.isfinite(declared).all() else (0.2, 0.9))
 
 
-def test_a_range_is_fitted_to_what_is_finite_and_not_inverted():
+def test_a_range_is_fitted_to_finite_values_of_hexes_that_are_not_inverted():
     fitted = ColourScale(mode=RangeMode.FITTED)
     got = resolve(fitted, VALUES, NONE)
     assert (got.low, got.high) == (0.2, 0.9)
@@ -79,7 +79,7 @@ def test_equal_values_have_a_colour_from_the_middle(value):
     assert got.colours(np.full(4, value), NONE)[0].tolist() in COLOUR_MAPS["viridis"].table[127:129].tolist()
 
 
-def test_a_pinned_range_is_as_it_was_set():
+def test_a_pinned_range_is_used_as_set():
     got = resolve(ColourScale(mode=RangeMode.PINNED, pinned=(-2, 3)), VALUES, NONE)
     assert (got.low, got.high) == (-2, 3)
 

@@ -1,4 +1,4 @@
-"""The smooth cut against areas known by formula."""
+"""Smooth cuts, compared with areas from formulas."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_the_section_has_the_area_of_the_cut(normal, origin, area, cells):
 
 
 @pytest.mark.parametrize("x", [1, 2, 3, 4])
-def test_a_plane_through_nodes_shows_the_elements_that_are_kept(x):
+def test_a_plane_through_nodes_shows_the_remaining_hexes(x):
     got = cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (x, 0, 0)), COLOURS)
     assert got.area == pytest.approx(6)
     hexes = got.cell_data["colours"][:, 0] // 3
@@ -38,7 +38,7 @@ def test_a_plane_through_nodes_shows_the_elements_that_are_kept(x):
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 3))
-def test_a_plane_through_nodes_is_whole_however_their_places_are_rounded(seed, x):
+def test_the_section_by_a_plane_through_nodes_is_complete_despite_rounding(seed, x):
     turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     turn *= np.linalg.det(turn)  # a rotation, not a mirror image
     shift = np.random.default_rng(seed).normal(size=3) * 10
@@ -55,18 +55,18 @@ def test_each_polygon_has_the_colour_of_its_hex():
         assert colour.tolist() == COLOURS[h].tolist()
 
 
-def test_hidden_elements_are_not_cut():
+def test_hidden_hexes_are_not_cut():
     keep = np.zeros(24, dtype=bool)
     keep[1] = True
     got = cut.sections(MESH.points, MESH.hexes, keep, PlaneClip.at((1, 0, 0), (1.5, 0, 0)), COLOURS)
     assert got.area == pytest.approx(1)
 
 
-def test_a_plane_beside_the_mesh_cuts_nothing():
+def test_a_plane_outside_the_mesh_cuts_nothing():
     assert cut.sections(MESH.points, MESH.hexes, None, PlaneClip.at((1, 0, 0), (9, 0, 0)), COLOURS).n_cells == 0
 
 
-def test_behind_the_plane_is_the_rest_of_the_skin():
+def test_the_remaining_skin_lies_in_front_of_the_plane():
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
     rest = cut.remaining_skin(skin, PlaneClip.at((1, 0, 0), (1.5, 0, 0), False))
@@ -89,7 +89,7 @@ BOX = ((0.5, 0.5, 0.5), (2.5, 1.5, 1.25))
         (BoxClip((2, 0, 0), (4, 3, 2), False, notch=True), 2 * 2 * 3 + 2 * 2 * 2 + 3 * 2, 3 * 2),
     ],
 )
-def test_several_planes_leave_what_geometry_says(clip, skin_area, section_area):
+def test_several_planes_leave_the_expected_areas(clip, skin_area, section_area):
     faces = Skin(MESH).visible()
     skin = quads(MESH.points[faces.nodes], faces.quads, COLOURS[faces.hexes], faces.hexes)
     assert cut.remaining_skin(skin, clip).area == pytest.approx(skin_area)
@@ -100,7 +100,7 @@ def test_several_planes_leave_what_geometry_says(clip, skin_area, section_area):
     st.lists(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda n: np.linalg.norm(n) > 0.1), min_size=1, max_size=4),
     st.booleans(),
 )
-def test_whole_elements_are_kept_by_their_centres(normals, notch):
+def test_a_cut_by_whole_hexes_depends_on_their_centres(normals, notch):
     clip = PlaneClip(tuple(ClipPlane(normal, (2, 1.5, 1)) for normal in normals), True, notch)
     kept = Filters(MESH).kept(Frame(MESH, measure(MESH.points, MESH.hexes), look=Look(clip=clip)))
     beyond = np.array([plane.signed_distance(MESH.points[MESH.hexes].mean(axis=1)) for plane in clip.planes])

@@ -1,4 +1,4 @@
-"""Polygons cut off at planes, by their areas."""
+"""Clipping of polygons by planes, checked by areas."""
 
 import numpy as np
 from hypothesis import given
@@ -10,23 +10,23 @@ HEXAGON = np.array([[np.cos(t), np.sin(t), 0] for t in np.arange(6) * np.pi / 3]
 
 
 def polygons(shift):
-    """A triangle, a square and a hexagon, each moved in its plane."""
+    """Return a triangle, a square and a hexagon, each shifted in its plane."""
     parts = [HEXAGON[::2], HEXAGON[[0, 1, 3, 4]], HEXAGON]
     points = np.concatenate([part + [*move, 0] for part, move in zip(parts, shift, strict=True)])
     return Polygons(points, np.array([0, 3, 7, 13]), np.arange(13), np.array([7, 3, 5]))
 
 
 def areas(of):
-    """Area of each polygon that is left, by its owner."""
-    answer = {}
+    """Return the area of each polygon by its owner."""
+    area_of = {}
     for i, owner in enumerate(of.owner):
         x, y, _ = of.points[of.places[of.start[i] : of.start[i + 1]]].T
-        answer[int(owner)] = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
-    return answer
+        area_of[int(owner)] = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+    return area_of
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 3))
-def test_what_is_before_a_plane_and_what_is_beyond_make_the_whole(seed, planes):
+def test_parts_in_front_of_and_beyond_planes_add_up_to_the_whole(seed, planes):
     random = np.random.default_rng(seed)
     whole = polygons(random.uniform(-1, 1, (3, 2)))
     normals, offsets = random.normal(size=(planes, 3)), random.uniform(-1, 1, planes)
@@ -46,18 +46,18 @@ def test_what_is_before_a_plane_and_what_is_beyond_make_the_whole(seed, planes):
     assert left.start[-1] == len(left.points) == len(left.places)
 
 
-def test_a_plane_through_corners_leaves_what_is_before_it():
+def test_a_plane_through_corners_leaves_the_part_in_front():
     square = Polygons(
         np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([0, 4]), np.arange(4), np.array([2])
     )
     half = square.before(np.array([[1.0, -1, 0]]), np.zeros(1))
     assert areas(half) == {2: 0.5}
     assert {tuple(point) for point in half.points} == {(0, 0, 0), (1, 1, 0), (0, 1, 0)}
-    beside = square.before(np.array([[1.0, 0, 0]]), np.array([-2.0]))
-    assert len(beside) == len(beside.points) == 0
-    assert beside.start.tolist() == [0]
+    outside = square.before(np.array([[1.0, 0, 0]]), np.array([-2.0]))
+    assert len(outside) == len(outside.points) == 0
+    assert outside.start.tolist() == [0]
 
 
-def test_no_polygons_are_left_of_none():
+def test_clipping_no_polygons_returns_none():
     none = Polygons(np.empty((0, 3)), np.zeros(1, np.int64), np.empty(0, np.int64), np.empty(0, np.int64))
     assert len(none.before(np.eye(3), np.ones(3))) == 0

@@ -1,4 +1,4 @@
-"""Light from all around, against what can be worked out by hand."""
+"""Ambient occlusion, compared with analytical results."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from tests.core.grids import grid, scrambled
 
 
 def faces(mesh, keep=None):
-    """The visible faces of a mesh, as polygons, and the hex of each."""
+    """Return the visible faces of a mesh as polygons, and the hex of each."""
     found = Skin(mesh).visible(keep)
     k = len(found.quads)
     places = found.quads.ravel().astype(np.int64)
@@ -19,16 +19,16 @@ def faces(mesh, keep=None):
 
 
 def centres(polygons):
-    """The middle of each quad, (k, 3)."""
+    """Return the centres of quads, (k, 3)."""
     return polygons.points[polygons.places].reshape(-1, 4, 3).mean(axis=1)
 
 
 def of_faces(answer):
-    """The mean of each quad's corners, (k,)."""
+    """Return the mean value of the corners of each quad, (k,)."""
     return answer.reshape(-1, 4).mean(axis=1)
 
 
-def test_directions_are_all_around():
+def test_directions_are_distributed_evenly():
     all_around = directions(64)
     np.testing.assert_allclose(np.linalg.norm(all_around, axis=1), 1)
     np.testing.assert_allclose(all_around.mean(axis=0), 0, atol=0.02)
@@ -36,12 +36,12 @@ def test_directions_are_all_around():
     np.testing.assert_allclose(all_around.T @ all_around / 64, np.eye(3) / 3, atol=0.02)
 
 
-def test_nothing_is_before_a_convex_body():
+def test_a_convex_body_is_fully_exposed():
     np.testing.assert_array_equal(light(faces(grid(4, 3, 2))[0]), 1)
 
 
-def test_a_floor_before_a_wall_has_less_light_the_nearer_it_is():
-    """An endless wall of height h takes (1 - d / sqrt(d² + h²)) / 2 of the light from a floor at the distance d."""
+def test_a_floor_has_less_light_near_a_wall():
+    """An infinite wall of height h blocks (1 - d / sqrt(d² + h²)) / 2 of the light of a floor at distance d."""
     mesh = grid(12, 60, 7)
     middle = mesh.points[mesh.hexes].mean(axis=1)
     keep = (middle[:, 0] < 1) | (middle[:, 2] < 1)  # a floor of height 1, a wall of height 6 over it
@@ -56,7 +56,7 @@ def test_a_floor_before_a_wall_has_less_light_the_nearer_it_is():
     assert nearest < 0.6 < 0.8 < furthest
 
 
-def test_no_light_comes_into_a_cavity():
+def test_an_enclosed_cavity_has_no_light():
     mesh = grid(3, 3, 3)
     keep = np.ones(27, bool)
     keep[13] = False
@@ -69,7 +69,7 @@ def test_no_light_comes_into_a_cavity():
 
 
 @pytest.mark.parametrize(("size", "far"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e4)])
-def test_light_knows_neither_unit_nor_origin(size, far):
+def test_light_is_invariant_under_scaling_and_translation(size, far):
     mesh = grid(5, 5, 5)
     keep = np.random.default_rng(0).random(mesh.n_hexes) < 0.6
     here, there = faces(mesh, keep)[0], faces(mesh.with_points(size * mesh.points + far), keep)[0]
@@ -78,7 +78,7 @@ def test_light_knows_neither_unit_nor_origin(size, far):
     assert np.abs(difference).mean() < 0.01
 
 
-def test_threads_do_not_matter():
+def test_the_result_does_not_depend_on_the_number_of_threads():
     mesh = grid(6, 6, 6)
     polygons, _ = faces(scrambled(mesh, 0.3, 1), np.random.default_rng(1).random(mesh.n_hexes) < 0.5)
     before, answers = threads(), []
@@ -91,14 +91,14 @@ def test_threads_do_not_matter():
     assert all((answer == answers[0]).all() for answer in answers)
 
 
-def test_work_ends_when_the_answer_is_not_wanted():
+def test_the_computation_can_be_cancelled():
     asked = []
     polygons, _ = faces(grid(2, 2, 2))
     assert light(polygons, lambda: asked.append(1) or len(asked) < 3) is None
     assert len(asked) == 3
 
 
-def test_nothing_needs_no_light():
+def test_no_polygons_give_empty_results():
     nothing = Polygons(np.zeros((0, 3)), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64))
     assert light(nothing).shape == (0,)
     assert normals(nothing).shape == (0, 3)
@@ -117,6 +117,6 @@ def test_a_polygon_without_an_area_has_no_normal():
     np.testing.assert_array_equal(light(one), 1)
 
 
-def test_colours_stay_apart_in_the_dark():
+def test_dark_colours_remain_distinguishable():
     np.testing.assert_allclose(brightness(np.array([0.0, 1.0])), [DARKEST, 1.0])
     assert DARKEST >= 0.4

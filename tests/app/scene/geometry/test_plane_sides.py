@@ -1,4 +1,4 @@
-"""On which side of planes elements lie, against plain NumPy."""
+"""Sides of planes on which hexes lie, compared with NumPy."""
 
 import numpy as np
 from hypothesis import given
@@ -16,7 +16,7 @@ def heights(points, normals):
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6), st.booleans(), st.booleans())
-def test_planes_cut_what_they_cut(seed, planes, notch, along_axes):
+def test_results_agree_with_numpy(seed, planes, notch, along_axes):
     random = np.random.default_rng(seed)
     points = MESH.points if along_axes else scrambled(MESH, 0.2, seed).points
     # Along axes planes go through nodes, and through centres.
@@ -38,7 +38,7 @@ def test_planes_cut_what_they_cut(seed, planes, notch, along_axes):
     )
 
 
-def test_no_planes_and_no_elements_cut_nothing():
+def test_no_planes_or_no_hexes_give_empty_results():
     none, normals, offsets = np.empty((0, 8), np.int32), np.eye(3), np.ones(3)
     assert touched(MESH.points, none, normals, offsets, False).shape == (0, 3)
     assert centres_kept(MESH.points, none, normals, offsets, False).shape == (0,)

@@ -1,4 +1,4 @@
-"""The skin against brute force, and as a closed surface that faces outwards."""
+"""Skin, compared with brute force, and checked as a closed surface that faces outwards."""
 
 from collections import Counter
 
@@ -23,7 +23,7 @@ def visible_faces(mesh, keep):
 
 
 @given(SIZES)
-def test_all_kept_is_the_boundary(size):
+def test_the_skin_of_the_whole_mesh_is_its_boundary(size):
     mesh = grid(*size)
     _, quads = visible_faces(mesh, None)
     boundary = {frozenset(face) for face in mesh.topology.boundary_faces.tolist()}
@@ -51,7 +51,7 @@ def test_any_mask_leaves_a_closed_surface_that_faces_outwards(size, seed):
 
 
 @given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([0, 10, 10_000]), st.booleans())
-def test_shrunk_hexes_have_nodes_of_their_own_nearer_to_their_mean(size, seed, whole, fine):
+def test_shrunk_hexes_have_separate_nodes_nearer_to_their_mean(size, seed, whole, fine):
     mesh, shrink = grid(*size), 0.3
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.7
     few = keep.sum() <= whole
@@ -74,7 +74,7 @@ def test_shrunk_hexes_have_nodes_of_their_own_nearer_to_their_mean(size, seed, w
 
 
 @given(SIZES, st.integers(0, 2**32 - 1))
-def test_edges_are_kept_with_a_hex_that_has_them(size, seed):
+def test_edges_of_kept_hexes_are_kept(size, seed):
     mesh = grid(*size)
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.4
     rows, edges = mesh.topology.node_corners, mesh.topology.edges
@@ -84,14 +84,14 @@ def test_edges_are_kept_with_a_hex_that_has_them(size, seed):
     assert {frozenset(edge) for edge in edges[kept].tolist()} == expected
 
 
-def test_nothing_kept_is_nothing_seen():
+def test_no_kept_hexes_give_no_faces():
     mesh = grid(2)
     faces, _ = visible_faces(mesh, np.zeros(8, dtype=bool))
     assert len(faces.quads) == len(faces.nodes) == 0
 
 
 @given(SIZES, st.integers(0, 2**32 - 1), st.sampled_from([None, "in sight", "all", "fine"]))
-def test_a_face_is_opened_where_the_mesh_goes_on_behind_it(size, seed, shrunk):
+def test_a_face_is_opened_if_it_is_inside_the_mesh(size, seed, shrunk):
     mesh = grid(*size)
     keep = np.random.default_rng(seed).random(mesh.n_hexes) < 0.6
     with pytest.MonkeyPatch.context() as patch:
@@ -106,7 +106,7 @@ def test_a_face_is_opened_where_the_mesh_goes_on_behind_it(size, seed, shrunk):
     np.testing.assert_array_equal(one.opened(faces, keep), np.array(expected, bool))
 
 
-def test_what_does_not_fit_the_mesh_is_refused_before_a_kernel_sees_it():
+def test_invalid_arrays_are_rejected_before_the_kernel_is_called():
     mesh = grid(2)
     with pytest.raises(MeshError, match=r"keep has shape \(7,\): expected \(8,\)"):
         Skin(mesh).visible(np.ones(7, bool))

@@ -1,4 +1,4 @@
-"""Arrows of what has moved."""
+"""Arrows of nodes that have moved."""
 
 import dataclasses
 
@@ -51,20 +51,20 @@ def look_at(viewport, look):
     viewport.draw(dataclasses.replace(viewport.frame, look=look))
 
 
-def test_an_arrow_ends_where_its_way_ends_and_its_head_is_no_longer_than_allowed():
+def test_an_arrow_ends_at_the_end_of_its_path_and_the_length_of_its_head_is_limited():
     rng = np.random.default_rng(2)
-    start, way = rng.normal(size=(2, 50, 3))
-    way[0], way[1] = (0, 0, 2), (1e-7, 0, 0)
-    points = layer.arrows(start, way, 0.25).reshape(-1, 7, 3)
+    start, path = rng.normal(size=(2, 50, 3))
+    path[0], path[1] = (0, 0, 2), (1e-7, 0, 0)
+    points = layer.arrows(start, path, 0.25).reshape(-1, 7, 3)
     np.testing.assert_array_equal(points[:, 0], start)
-    np.testing.assert_allclose(points[:, 6], start + way, atol=1e-15)
-    head, length = np.linalg.norm(points[:, 6] - points[:, 1], axis=1), np.linalg.norm(way, axis=1)
+    np.testing.assert_allclose(points[:, 6], start + path, atol=1e-15)
+    head, length = np.linalg.norm(points[:, 6] - points[:, 1], axis=1), np.linalg.norm(path, axis=1)
     assert (head <= np.minimum(0.25, length) + 1e-12).all()
-    across = np.einsum("kci,ki->kc", points[:, 2:6] - points[:, 1:2], way) / length[:, None]
+    across = np.einsum("kci,ki->kc", points[:, 2:6] - points[:, 1:2], path) / length[:, None]
     np.testing.assert_allclose(across, 0, atol=1e-12)
 
 
-def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
+def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     move(viewport)
     assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
@@ -82,7 +82,7 @@ def test_nodes_that_have_moved_have_arrows_those_in_sight_or_all(viewport):
     assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
 
 
-def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
+def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
     monkeypatch.setattr(layer, "MOST", 20)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
@@ -92,7 +92,7 @@ def test_of_many_the_longest_are_drawn(viewport, monkeypatch):
     np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
 
 
-def test_arrows_are_seen_follow_the_nodes_and_go(viewport, drawn):
+def test_arrows_are_drawn_move_with_the_nodes_and_are_removed(viewport, drawn):
     without = drawn()
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT, factor=1)))
     plain = drawn()
@@ -106,7 +106,7 @@ def test_arrows_are_seen_follow_the_nodes_and_go(viewport, drawn):
     assert (one != plain).any()
 
 
-def test_colours_of_a_change_set_the_newly_inverted_and_the_mended_apart(viewport):
+def test_colours_of_a_change_distinguish_newly_inverted_and_mended_hexes(viewport):
     look_at(viewport, Look(scale=ColourScale("q-change", mode=RangeMode.FITTED)))
     bad = scrambled(MESH, 1.2).points
     figures = measure(bad, MESH.hexes)

@@ -1,4 +1,4 @@
-"""Edges of polygons in the picture: lighter on dark colours, gone where the polygons are small."""
+"""Edges of polygons: lighter on dark colours, and faded out on small polygons."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from hexmend_app.scene.views.pane import Pane
 
 
 def board(side, colour, size=320, pen=1.0):
-    """The inner pixels, as brightness, of a board of so many squares a side that fills a picture."""
+    """Return the brightness of the inner pixels of a picture filled by a board of side × side squares."""
     x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
     points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()]) / side
     low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
@@ -38,7 +38,7 @@ def test_edges_are_dark_on_bright_colours_and_light_on_dark_ones():
 
 
 @pytest.mark.parametrize("colour", [BRIGHT, DARK])
-def test_edges_fade_before_they_are_all_that_is_seen(colour):
+def test_edges_fade_out_on_small_polygons(colour):
     face = np.median(board(4, colour))
     large, small, smallest = (np.abs(board(side, colour) - face).mean() for side in (80, 160, 250))
     assert large > 10  # 4 pixels a square: lines
@@ -48,8 +48,8 @@ def test_edges_fade_before_they_are_all_that_is_seen(colour):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("pen", [2.0, 4.0])
-def test_edges_grow_with_the_pen(pen):
-    """In a picture so many times as large lines take the same share."""
+def test_edges_scale_with_the_pixel_ratio(pen):
+    """Lines cover the same fraction of an enlarged picture."""
     face = np.median(board(8, BRIGHT))
     drawn, large, thin = (
         (face - board(8, BRIGHT, round(320 * times), width)).mean() for times, width in ((1, 1), (pen, pen), (pen, 1))

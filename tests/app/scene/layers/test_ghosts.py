@@ -1,4 +1,4 @@
-"""Elements around what is isolated stand as ghosts, through which it is seen."""
+"""Hexes around isolated hexes are drawn as ghosts, which do not hide them."""
 
 from types import SimpleNamespace
 
@@ -39,7 +39,7 @@ def viewport(stage):
 
 
 @pytest.mark.parametrize("rings", [0, 1, 2])
-def test_rings_around_what_is_isolated_are_ghosts(viewport, rings):
+def test_rings_around_isolated_hexes_are_ghosts(viewport, rings):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), rings)))
     assert viewport.shown == 1
     assert set(viewport.body.faces.hexes) == {MIDDLE}
@@ -51,7 +51,7 @@ def test_rings_around_what_is_isolated_are_ghosts(viewport, rings):
         np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 2 * rings + 1)
 
 
-def test_what_is_dug_or_cut_away_is_no_ghost(viewport):
+def test_hexes_dug_out_or_cut_away_are_no_ghosts(viewport):
     viewport.draw(
         frame(isolation=Isolation((MIDDLE,), 1), dug=frozenset({61}), clip=PlaneClip.at((0, 0, 1), (0, 0, 3)))
     )
@@ -60,14 +60,14 @@ def test_what_is_dug_or_cut_away_is_no_ghost(viewport):
     assert not ghosts[61]
 
 
-def test_nothing_isolated_leaves_no_ghosts(viewport):
+def test_there_are_no_ghosts_without_isolation(viewport):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), 1)))
     viewport.draw(frame())
     assert viewport.filters.ghosts(viewport.frame) is None
     np.testing.assert_allclose(np.ptp(viewport.places, axis=0), 5)
 
 
-def test_what_was_looked_for_is_seen_through_its_ghosts(stage, viewport):
+def test_an_isolated_hex_is_visible_through_its_ghosts(stage, viewport):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), 1), outline=False))
     apply_pose(viewport.camera, CameraPose((7, -5, 7), (2.5, 2.5, 2.5), (0, 0, 1), False, 1.0, "z"))
     viewport.layers[0].ResetCameraClippingRange()

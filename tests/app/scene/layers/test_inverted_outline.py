@@ -1,4 +1,4 @@
-"""Outlines of inverted elements, and of the regions that they form."""
+"""Outlines of inverted hexes, and of the regions that they form."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ WHITE = np.array([255, 255, 255])
 
 
 def board(side, chosen, own_points=False):
-    """A board of unit squares in which some, by (column, row), are inverted."""
+    """Return a board of unit squares in which those at the given (column, row) are inverted."""
     x, y = np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0))
     points = np.column_stack([x.ravel(), y.ravel(), 0 * x.ravel()])
     low = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
@@ -28,7 +28,7 @@ def board(side, chosen, own_points=False):
 
 
 @pytest.mark.parametrize("own_points", [False, True], ids=["shared points", "own points"])
-def test_the_rim_of_a_region_is_what_one_of_its_elements_alone_has(own_points):
+def test_the_outline_of_a_region_consists_of_edges_of_a_single_polygon(own_points):
     chosen = [(1, 1), (2, 1), (1, 2), (2, 2)]
     poly = board(4, chosen, own_points)
     marked = np.isin(np.arange(16), [row * 4 + column for column, row in chosen])
@@ -40,13 +40,13 @@ def test_the_rim_of_a_region_is_what_one_of_its_elements_alone_has(own_points):
 
 
 def white_inside(side, size):
-    """White pixels in the middle third of a picture of a board, all of it inverted."""
+    """Count the white pixels in the middle third of a picture of an inverted board."""
     prepare_off_screen()
     with Stage((size, size)) as stage:
         pane = Pane(stage.window)
         poly = board(side, [(c, r) for c in range(side) for r in range(side)])
-        halo = InvertedOutline(pane.renderer)
-        halo.outline(poly)
+        outline = InvertedOutline(pane.renderer)
+        outline.outline(poly)
         pane.camera.SetPosition(0, 0, 1)
         pane.renderer.ResetCamera()
         seen = stage.picture().astype(int)
@@ -54,6 +54,6 @@ def white_inside(side, size):
     return int((np.abs(seen[third:-third, third:-third] - WHITE).sum(axis=2) < 30).sum())
 
 
-def test_elements_are_outlined_where_there_is_room_and_their_region_where_not():
+def test_large_hexes_are_outlined_individually_and_small_ones_by_region():
     assert white_inside(8, 300) > 200
     assert white_inside(80, 300) == 0

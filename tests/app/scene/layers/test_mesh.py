@@ -1,4 +1,4 @@
-"""Fine frames: the light in them is worked out once, and stays until something else is drawn."""
+"""Fine frames: their shading is computed once, and used until something else is drawn."""
 
 import numpy as np
 import pytest
@@ -33,18 +33,18 @@ def draw(viewport, look=STEP, mesh=MESH):
 
 
 def drawn(viewport):
-    """The skin as it is drawn."""
+    """Return the polygons of the skin that are drawn."""
     return pv.wrap(viewport.body.skin.actor.GetMapper().GetInput())
 
 
 def shades(viewport):
-    """How bright the corners are drawn, by what their elements' colours are."""
+    """Return the brightness of the drawn corners relative to the colours of their polygons."""
     poly = drawn(viewport)
     own = np.repeat(colours_of(poly), 4, axis=0).astype(float)
     return np.asarray(poly.point_data["shaded"]).astype(float).sum(axis=1) / own.sum(axis=1)
 
 
-def test_a_step_is_darker_within_once_its_light_is_known(viewport):
+def test_the_inner_edge_of_a_step_is_darker_after_shading(viewport):
     draw(viewport)
     np.testing.assert_allclose(shades(viewport), 1)
     viewport.shade()
@@ -53,7 +53,7 @@ def test_a_step_is_darker_within_once_its_light_is_known(viewport):
     assert shades(viewport)[within].min() < 0.85
 
 
-def test_light_that_is_known_or_not_wanted_is_not_worked_out(viewport):
+def test_shading_that_is_known_or_switched_off_is_not_computed(viewport):
     assert viewport.body.needs_shading is None  # nothing is drawn
     draw(viewport)
     assert viewport.body.needs_shading is not None
@@ -64,7 +64,7 @@ def test_light_that_is_known_or_not_wanted_is_not_worked_out(viewport):
     np.testing.assert_allclose(shades(viewport), 1)
 
 
-def test_other_colours_are_under_the_same_light(viewport):
+def test_other_colours_have_the_same_shading(viewport):
     draw(viewport)
     viewport.shade()
     before = shades(viewport)
@@ -73,7 +73,7 @@ def test_other_colours_are_under_the_same_light(viewport):
     np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
 
 
-def test_light_is_dropped_as_nodes_move(viewport):
+def test_shading_is_dropped_when_nodes_move(viewport):
     draw(viewport)
     viewport.shade()
     moved = MESH.with_points(MESH.points + 0.1 * MESH.free[:, None])
@@ -82,7 +82,7 @@ def test_light_is_dropped_as_nodes_move(viewport):
     np.testing.assert_allclose(shades(viewport), 1)
 
 
-def test_light_for_a_scene_that_is_gone_is_not_taken(viewport):
+def test_shading_of_an_outdated_scene_is_rejected(viewport):
     draw(viewport)
     scene = viewport.body.needs_shading
     light = occlusion.light(scene)
@@ -91,7 +91,7 @@ def test_light_for_a_scene_that_is_gone_is_not_taken(viewport):
     np.testing.assert_allclose(shades(viewport), 1)
 
 
-def test_light_stays_as_the_camera_turns(viewport, monkeypatch):
+def test_shading_remains_while_the_camera_moves(viewport, monkeypatch):
     draw(viewport)
     viewport.shade()
     fine = drawn(viewport)
@@ -105,7 +105,7 @@ def test_light_stays_as_the_camera_turns(viewport, monkeypatch):
     assert len(np.unique(colours_of(coarse), axis=0)) > len(np.unique(colours_of(fine), axis=0))
 
 
-def test_a_fine_quad_has_one_normal_and_every_corner_its_own(viewport):
+def test_a_fine_quad_has_one_normal_and_its_own_corners(viewport):
     mesh = MESH.with_points(MESH.points + 0.2 * np.random.default_rng(0).random(MESH.points.shape))
     draw(viewport, Look(), mesh)
     poly = drawn(viewport)
@@ -117,7 +117,7 @@ def test_a_fine_quad_has_one_normal_and_every_corner_its_own(viewport):
     np.testing.assert_allclose(normals[:, 0], across / np.linalg.norm(across, axis=1, keepdims=True), atol=1e-6)
 
 
-def test_sections_of_a_smooth_cut_face_who_looks_into_them(viewport):
+def test_sections_of_a_smooth_cut_face_the_removed_side(viewport):
     draw(viewport, Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2.5), False)))
     section = pv.wrap(viewport.body.section.actor.GetMapper().GetInput())
     np.testing.assert_allclose(section.point_normals, np.tile([0, 0, 1], (section.n_points, 1)), atol=1e-6)
@@ -125,7 +125,7 @@ def test_sections_of_a_smooth_cut_face_who_looks_into_them(viewport):
     assert viewport.body.needs_shading is None
 
 
-def test_a_neutral_look_comes_and_goes(viewport):
+def test_a_neutral_look_can_be_switched_on_and_off(viewport):
     draw(viewport)
     coloured = colours_of(viewport.body.whole).copy()
     draw(viewport, Look(dug=STEP.dug, neutral=True))

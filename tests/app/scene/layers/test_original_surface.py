@@ -1,4 +1,4 @@
-"""The boundary as it was opened: seen where the mesh has left it, and nowhere else."""
+"""Original surface: visible where the boundary of the mesh has moved, and nowhere else."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def frame(points, look=ON):
 
 @pytest.fixture
 def drawn():
-    """A function that draws a frame and gives its pixels, and the viewport."""
+    """A function that draws a frame and returns its pixels; its attribute `viewport` is the view."""
     stage = Stage((240, 180))
     viewport = Viewport(Pane(stage.window))
 
@@ -44,11 +44,11 @@ def differ(one, other):
     return int((np.abs(one - other).sum(axis=2) > 20).sum())
 
 
-def test_it_is_not_seen_where_the_boundary_still_is(drawn):
+def test_it_is_hidden_where_the_boundary_is_unchanged(drawn):
     assert differ(drawn(frame(MESH.points, OFF)), drawn(frame(MESH.points))) < 40  # a rim
 
 
-def test_it_is_seen_around_a_mesh_that_has_shrunk(drawn):
+def test_it_is_visible_around_a_shrunk_mesh(drawn):
     centre = MESH.points.mean(axis=0)
     shrunk = centre + 0.7 * (MESH.points - centre)
     drawn(frame(MESH.points))
@@ -67,7 +67,7 @@ def test_it_stays_while_the_nodes_move(drawn):
     assert not drawn.viewport.extras.optional["original"].shown
 
 
-def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
+def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
     drawn(frame(MESH.points))
     assert len(drawn.viewport.extras.optional["original"].places) == MESH.topology.boundary.sum()
@@ -79,9 +79,9 @@ def test_of_hexes_that_are_hidden_nothing_is_drawn(drawn):
     assert drawn.viewport.extras.optional["original"].shown
 
 
-def test_beside_it_stands_too_where_the_hexes_are_the_same():
+def test_other_views_show_it_if_their_hexes_are_equal():
     first = frame(MESH.points)
-    beside = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).matching(first)
-    assert beside.original is first.original
+    other_view = Frame(MESH.with_points(MESH.points * 2), measure(MESH.points * 2, MESH.hexes)).matching(first)
+    assert other_view.original is first.original
     other = grid(2)
     assert Frame(other, measure(other.points, other.hexes)).matching(first).original is None

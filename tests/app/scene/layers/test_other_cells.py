@@ -1,4 +1,4 @@
-"""Cells beside the hexes: their outside is drawn, and nothing that hexes or others of them share."""
+"""Non-hexahedral cells: their outer faces are drawn, but no faces that they share with other cells."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ OFF = Look(structure=Structure(others=False))
 
 
 def hybrid() -> Mesh:
-    """Two by two hexes, on two of which a pyramid stands, with two tetrahedra between these."""
+    """Return a mesh of 2 × 2 hexes with a pyramid on two of them, and a tetrahedron between the pyramids."""
     bare = grid(2, 2, 1)
     top = bare.hexes[:2, 4:]
     tips = bare.points[top].mean(axis=1) + [0, 0, 1]
@@ -39,7 +39,7 @@ def frame(mesh, look=None):
 
 @pytest.fixture
 def drawn():
-    """A function that draws a frame and gives its pixels, and the viewport."""
+    """A function that draws a frame and returns its pixels; its attribute `viewport` is the view."""
     stage = Stage((240, 180))
     viewport = Viewport(Pane(stage.window))
 
@@ -54,24 +54,24 @@ def drawn():
     stage.close()
 
 
-def test_every_kind_of_cell_that_fills_space_is_closed():
+def test_the_faces_of_each_cell_type_are_closed():
     for faces in FACES.values():
         edges = [frozenset(pair) for face in faces for pair in zip(face, (*face[1:], face[0]), strict=True)]
         assert all(edges.count(edge) == 2 for edge in edges)
 
 
-def test_what_cells_share_is_inside():
+def test_shared_faces_are_omitted():
     triangles, quads = outer_faces(hybrid())
     assert len(quads) == 0  # the pyramids stand on hexes
     assert len(triangles) == 2 * 4 + 4 - 2 * 2
 
 
-def test_a_clip_takes_cells_away_by_their_centres():
+def test_a_cut_removes_cells_by_their_centres():
     triangles, _ = outer_faces(hybrid(), PlaneClip.at((1, 0, 0), (0.7, 0, 0)))
     assert len(triangles) == 4
 
 
-def test_they_are_seen_unless_they_are_switched_off(drawn):
+def test_they_are_drawn_unless_switched_off(drawn):
     mesh = hybrid()
     seen = drawn(frame(mesh))
     assert drawn.viewport.extras.optional["others"].shown
@@ -91,7 +91,7 @@ def test_they_move_with_their_nodes(drawn):
     assert drawn.viewport.extras.optional["others"].places[:, 2].max() == 5
 
 
-def test_a_mesh_of_hexes_alone_has_none(drawn):
+def test_nothing_is_drawn_for_a_mesh_of_hexes_only(drawn):
     drawn(frame(hybrid()))
     drawn(frame(grid(2)))
     assert not drawn.viewport.extras.optional["others"].shown

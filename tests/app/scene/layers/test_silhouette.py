@@ -1,4 +1,4 @@
-"""Sharp edges, and whether a body can be recognised by them."""
+"""Sharp edges, and the decision whether they show the shape of a body."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def test_a_box_has_twelve_sharp_lines(size):
     assert form_lines(edges)
 
 
-def test_the_angle_decides():
+def test_sharp_edges_depend_on_the_angle():
     mesh = grid(2, 1, 1)
     points = mesh.points.copy()
     points[points[:, 0] == 2, 2] += np.tan(np.radians(40))
@@ -31,7 +31,7 @@ def test_the_angle_decides():
     assert len(sharp_edges(points, faces, 39)) == len(sharp_edges(points, faces, 41)) + 2
 
 
-def test_a_ball_is_not_drawn_by_lines():
+def test_sharp_edges_of_a_ball_do_not_form_lines():
     mesh = grid(6)
     p = mesh.points / 3 - 1
     size = np.linalg.norm(p, axis=1, keepdims=True)
@@ -39,7 +39,7 @@ def test_a_ball_is_not_drawn_by_lines():
     assert not form_lines(sharp_edges(ball, mesh.topology.boundary_faces))
 
 
-def test_splinters_do_not_form_lines():
+def test_isolated_edges_do_not_form_lines():
     assert not form_lines(np.array([[0, 1], [5, 6], [8, 9]]))
     assert form_lines(np.array([[0, 1], [1, 2], [2, 0]]))
 

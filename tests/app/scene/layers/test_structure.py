@@ -1,4 +1,4 @@
-"""The structure over a mesh, off screen: its colours, what the filters leave of it, and that it follows the nodes."""
+"""Layers of the mesh structure: colours, filters and moving nodes."""
 
 import dataclasses
 
@@ -34,7 +34,7 @@ from tests.core.mesh.test_structure import tetrahedron
 
 
 def five_blocks(segments, layers):
-    """A pentagonal prism of five blocks that meet in the axis, as high as 1.5."""
+    """Return a pentagonal prism of height 1.5 with five blocks around its axis."""
     plane, quads = subdivide(*fan(), segments)
     height = np.repeat(np.linspace(0, 1.5, layers + 1), len(plane))
     points = np.column_stack([np.tile(plane, (layers + 1, 1)), height])
@@ -47,7 +47,7 @@ BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
 
 @pytest.fixture
 def draw():
-    """A function that draws a mesh under a look and gives its pixels, and the viewport."""
+    """A function that draws a mesh with a look and returns its pixels; its attribute `viewport` is the view."""
     stage = Stage((400, 300))
     viewport = Viewport(Pane(stage.window))
 
@@ -67,11 +67,11 @@ def draw():
 
 
 def count(image, colour):
-    """Pixels of exactly this colour: marks are not shaded."""
+    """Count the pixels of exactly this colour; marks are not shaded."""
     return int((image == np.frombuffer(bytes.fromhex(colour[1:]), np.uint8)).all(axis=2).sum())
 
 
-def test_irregular_edges_are_seen_through_the_mesh_in_the_colour_of_their_valence(draw):
+def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_valence(draw):
     assert count(draw(FIVE, Structure()), VALENCES[5]) == 0
     image = draw(FIVE, Structure(irregular=True))
     assert count(image, VALENCES[5]) > 100
@@ -82,13 +82,13 @@ def test_irregular_edges_are_seen_through_the_mesh_in_the_colour_of_their_valenc
     assert count(image, IRREGULAR_NODE) > 5
 
 
-def test_what_nothing_hides_is_thicker(draw):
+def test_visible_edges_are_thicker_than_hidden_ones(draw):
     through = count(draw(FIVE, Structure(irregular=True)), VALENCES[5])
     draw.viewport.body.skin.actor.SetVisibility(False)
     assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
 
 
-def test_sharp_edges_and_irregular_ones_of_a_smooth_boundary(draw):
+def test_sharp_edges_and_irregular_edges_of_a_smooth_boundary(draw):
     assert count(draw(grid(3), Structure(sharp=True)), SHARP) > 300
     mesh = grid(8)
     assert count(draw(mesh, Structure(boundary=True)), OTHER) == 0  # the edges of a box are sharp
@@ -98,7 +98,7 @@ def test_sharp_edges_and_irregular_ones_of_a_smooth_boundary(draw):
     assert count(draw(ball, Structure(boundary=True)), OTHER) > 100
 
 
-def test_nodes_have_the_colour_of_what_becomes_of_them(draw):
+def test_nodes_have_the_colour_of_their_kind(draw):
     mesh = grid(4)
     pinned = np.zeros(mesh.n_nodes, bool)
     pinned[[62, 0]] = True  # the centre, and a corner, which is on the boundary anyway
@@ -114,7 +114,7 @@ def test_nodes_have_the_colour_of_what_becomes_of_them(draw):
     assert count(image, FREE) == 0  # none is in sight
 
 
-def test_nodes_of_locked_elements(draw):
+def test_nodes_of_locked_hexes_are_marked(draw):
     mesh = grid(3)
     points = mesh.points.copy()
     assert count(draw(mesh, Structure(locked=True)), LOCKED) == 0
@@ -135,7 +135,7 @@ def test_nodes_of_locked_elements(draw):
         BoxClip((-2, -2, 0.7), (2, 2, 2), False, notch=True),
     ],
 )
-def test_only_what_is_shown_has_marks(draw, clip):
+def test_only_shown_hexes_have_marks(draw, clip):
     wanted = Structure(irregular=True, sharp=True, fixed=True)
     draw(FIVE, wanted, clip=clip)
     layers = draw.viewport.extras.structure
@@ -149,7 +149,7 @@ def test_only_what_is_shown_has_marks(draw, clip):
     assert not layers.nodes.shown
 
 
-def test_marks_follow_the_nodes_shrunk_elements_too(draw):
+def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
     draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
     draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
@@ -162,7 +162,7 @@ def test_marks_follow_the_nodes_shrunk_elements_too(draw):
         assert np.abs(shrunk - point).max(axis=1).min() < 1e-6
 
 
-def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
+def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
     draw(FIVE, Structure(irregular=True))
     layers = draw.viewport.extras.structure
@@ -174,13 +174,13 @@ def test_many_marks_are_drawn_in_full_in_fine_frames_alone(draw, monkeypatch):
     assert not layers.layer.GetDraw()
 
 
-def test_valences_without_a_colour_of_their_own_share_one():
+def test_valences_without_a_separate_colour_share_one():
     colours = valence_colours(np.array([1, 2, 3, 4, 5, 6, 7, 40]))
     expected = [VALENCES.get(n, OTHER) for n in (1, 2, 3, 4, 5, 6, 7, 40)]
     assert colours.tolist() == [list(bytes.fromhex(colour[1:])) for colour in expected]
 
 
-def test_nodes_of_the_boundary_have_colours_by_what_they_may_do(draw):
+def test_boundary_nodes_have_the_colour_of_their_class(draw):
     mesh = grid(3)
     image = draw(mesh, Structure(kinds=True))
     assert count(image, KINDS[NodeClass.CORNER]) > 100
@@ -193,7 +193,7 @@ def test_nodes_of_the_boundary_have_colours_by_what_they_may_do(draw):
     assert count(draw(mesh, Structure(kinds=True, fixed=True)), BOUNDARY) == 0
 
 
-def test_kinds_that_are_told_are_drawn(draw):
+def test_given_classes_are_drawn(draw):
     mesh = grid(3)
     kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
     look = Look(edges=False, outline=False, structure=Structure(kinds=True))

@@ -1,4 +1,4 @@
-"""Pages: sizes, formats, paper, and what is written on them."""
+"""Pages: sizes, formats, backgrounds and texts."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ from tests.core.grids import grid, scrambled
 BARE = {"bar": ColourBarStyle(TextPlace.NONE), "axes": AxesStyle(show=False)}
 
 
-def subjects(*meshes):
+def page_meshes(*meshes):
     return [PageMesh.of(mesh, name) for mesh, name in zip(meshes, "abcd", strict=False)]
 
 
 def drawn(*meshes, scene=None, **tables):
     scene = Scene(**tables) if scene is None else scene
-    return draw_page(scene, subjects(*meshes))
+    return draw_page(scene, page_meshes(*meshes))
 
 
 def pixels(sheet):
@@ -85,7 +85,7 @@ def test_the_same_page_is_the_same_file(tmp_path, name):
 
 
 @pytest.mark.slow
-def test_vectors_have_the_size_in_millimetres_and_texts_that_stay_texts(tmp_path):
+def test_vector_files_have_the_size_in_millimetres_and_contain_texts(tmp_path):
     sheet = drawn(grid(2), grid(2), page=Page(170, 80), bar=ColourBarStyle(title="quality $x_1$ <b>"))
     sheet.write(tmp_path / "p.svg")
     text = (tmp_path / "p.svg").read_text()
@@ -117,7 +117,7 @@ def test_the_gradient_of_the_bar_has_no_seams(place):
     assert len(np.unique(run.argmin(axis=1))) > 250
 
 
-def test_transparent_paper_lies_under_what_is_drawn_unchanged():
+def test_a_transparent_picture_over_a_background_equals_the_opaque_picture():
     on, off = (drawn(scrambled(grid(3), 0.5), page=Page(pixels=(400, 250), background=ground)).image()
                for ground in ("#e0a080", "transparent"))  # fmt: skip
     assert off.mode == "RGBA"
@@ -146,7 +146,7 @@ def test_a_margin_stays_free():
 
 
 @pytest.mark.slow
-def test_edges_are_as_thick_as_asked_whatever_the_resolution():
+def test_edges_have_the_specified_width_at_all_resolutions():
     shares = []
     for edges, dpi in ((0.0, 300), (0.5, 150), (0.5, 300), (1.0, 300)):
         page = Page(100, 60, dpi=dpi, shading=False)
@@ -158,7 +158,7 @@ def test_edges_are_as_thick_as_asked_whatever_the_resolution():
 
 
 @pytest.mark.slow
-def test_axes_stand_in_the_corner_that_is_asked_for():
+def test_axes_are_drawn_in_the_specified_corner():
     colours = {}
     for corner in Corner:
         bare = {
@@ -205,9 +205,9 @@ def test_panels_share_a_range_that_is_fitted():
 
 
 @pytest.mark.slow
-def test_what_has_moved_is_drawn_from_the_first_mesh_on():
+def test_movement_is_drawn_since_the_first_mesh():
     before, after = grid(3), scrambled(grid(3), 0.4)
-    first, second = subjects(before, after)
+    first, second = page_meshes(before, after)
     then = ReferenceState(before.points, first.figures, "before")
     first = PageMesh("a", before, first.figures, Displacement(before, then, before.points, first.figures))
     scene = Scene(
@@ -217,7 +217,7 @@ def test_what_has_moved_is_drawn_from_the_first_mesh_on():
     assert np.abs(pixels(draw_page(scene, [first, second])) - pixels(draw_page(still, [first, second]))).mean() > 0.1
 
 
-def test_hexes_that_the_mesh_has_not_are_refused():
+def test_hexes_that_do_not_exist_are_an_error():
     with pytest.raises(ParameterError, match="names hex 8: expected one of the mesh, below 8"):
         drawn(grid(2), show=Show(hidden=(3, 8)))
     with pytest.raises(ParameterError, match="panel 1 shows mesh 2, but there are 1"):
@@ -226,7 +226,7 @@ def test_hexes_that_the_mesh_has_not_are_refused():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["a" * 300, "$x^2$ \\alpha {", "‮×", ""])
-def test_a_name_is_written_as_it_is_and_never_beyond_its_panel(name):
+def test_a_name_is_drawn_verbatim_and_stays_within_its_panel(name):
     page = Page(pixels=(500, 260))
     plain, other = (draw_page(Scene(page=page, **BARE), [PageMesh.of(grid(2), "b"), PageMesh.of(grid(2), text)])
                     for text in ("", name))  # fmt: skip

@@ -1,4 +1,4 @@
-"""Pictures without a window: what is shown, hidden and coloured, seen in the pixels."""
+"""Off-screen pictures: shown and hidden hexes and colours, checked by pixels."""
 
 import argparse
 import json
@@ -27,7 +27,7 @@ from hexmend_app.scene.page.page_renderer import draw_page
 from hexmend_app.state.mesh.metric_cache import metric_values
 from tests.core.grids import grid, scrambled
 
-#: Runs the commands that it is sent, a line each, and answers with their exit status, whatever they say.
+#: Program that runs commands from its standard input, one a line, and prints their exit status.
 COMMANDS = """
 import contextlib, io, json, sys
 from hexmend.cli.main import main
@@ -40,7 +40,7 @@ for line in sys.stdin:
 
 @pytest.fixture(scope="module")
 def pictures(tmp_path_factory):
-    """Pictures of one mesh under several looks, drawn in a process that has no display."""
+    """A function that draws a mesh with options of the command, in a process without a display."""
     folder = tmp_path_factory.mktemp("pictures")
     mesh = scrambled(grid(5), 0.7)
     write(folder / "mesh.vtu", mesh)
@@ -63,7 +63,7 @@ def pictures(tmp_path_factory):
 
 
 def ink(image):
-    """Share of the view, colour bar left out, that is not background."""
+    """Return the fraction of coloured pixels of the view, without the colour bar."""
     view = image[: int(image.shape[0] * 0.85), 60:]
     return np.mean(view.max(axis=2) - view.min(axis=2) > 40)
 
@@ -136,7 +136,7 @@ def test_a_metric_other_than_q_is_drawn(pictures):
         (["--view", "0,0,0"], "a direction that is not zero"),
     ],
 )
-def test_wrong_words_are_said(words, message, tmp_path, capsys):
+def test_invalid_options_are_reported(words, message, tmp_path, capsys):
     from hexmend.cli.main import main
 
     write(tmp_path / "mesh.vtu", grid(2))
@@ -177,7 +177,7 @@ def test_a_figure_has_the_size_asked_for(size):
     assert sheet(grid(2), grid(3), pixels=size).image().size == size
 
 
-def test_words_that_begin_with_a_minus_are_values():
+def test_values_may_begin_with_a_minus():
     parser = argparse.ArgumentParser(allow_abbrev=False)
     command.arguments(parser)
     args = parser.parse_args(["a.vtk", "-o", "a.png", "--view", "-x", "--clip", "-1,0,0:0.4", "--no-bar"])
@@ -229,7 +229,7 @@ def test_looks_are_values():
         ClipPlane((0, 0, 0))
 
 
-def test_a_picture_is_written_as_what_it_is(tmp_path, capsys):
+def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
     from hexmend.cli.main import main
 
     write(tmp_path / "mesh.vtu", grid(2))

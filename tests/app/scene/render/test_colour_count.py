@@ -1,4 +1,4 @@
-"""Colours are counted as rows of numbers would be."""
+"""Counts of colours, compared with those of rows."""
 
 import numpy as np
 from hypothesis import given
@@ -11,7 +11,7 @@ from hexmend_app.scene.render.colour_count import count_colours
 @given(
     arrays(np.uint8, st.tuples(st.integers(0, 9), st.integers(1, 9), st.just(3)), elements=st.sampled_from([0, 1, 255]))
 )
-def test_colours_are_the_rows_that_there_are_and_as_many(pixels):
+def test_counts_agree_with_those_of_unique_rows(pixels):
     colours, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     found = count_colours(pixels)
     np.testing.assert_array_equal(found[0], colours)

@@ -1,4 +1,4 @@
-"""Missing graphics are said, with the package that brings them, and nothing crashes."""
+"""Missing graphics libraries are reported with the package that contains them, without a crash."""
 
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 from hexmend.io import write
 from tests.core.grids import grid
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere the system brings OpenGL")
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems include OpenGL")
 
 
 def render(folder, **environment):

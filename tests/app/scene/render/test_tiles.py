@@ -1,4 +1,4 @@
-"""Pictures too large to be drawn at once: the tiles fit together without a seam."""
+"""Pictures that are too large to be rendered at once: tiles are joined without seams."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from hexmend_app.scene.render.rasters import rasters
 from hexmend_app.scene.render.tiles import AT_ONCE, Tiles
 from tests.core.grids import grid, scrambled
 
-#: Pixels at once, of which the pictures have more.
+#: Number of pixels at once, smaller than that of the pictures.
 FEW = 2**17
 
-SUBJECTS = [PageMesh.of(scrambled(grid(6), share), name) for share, name in ((0.7, "a"), (0.2, "b"))]
+MESHES = [PageMesh.of(scrambled(grid(6), share), name) for share, name in ((0.7, "a"), (0.2, "b"))]
 
 
 def images(scene, **how):
-    found = rasters(Layout.of(scene, SUBJECTS[: 1 + bool(scene.panels)]), **how).images
+    found = rasters(Layout.of(scene, MESHES[: 1 + bool(scene.panels)]), **how).images
     return [np.asarray(image).astype(int) for image in found]
 
 
@@ -38,7 +38,7 @@ def images(scene, **how):
     ],
 )
 @pytest.mark.parametrize("background", ["white", "transparent"])
-def test_a_picture_in_tiles_is_the_one_drawn_at_once(tables, background, supersampling):
+def test_a_picture_in_tiles_equals_the_one_rendered_at_once(tables, background, supersampling):
     scene = Scene(page=Page(pixels=(601, 400), supersampling=supersampling, background=background), **tables)
     (whole,), (parts,) = (images(scene, **how) for how in ({}, {"at_once": FEW}))
     assert parts.shape == whole.shape

@@ -1,4 +1,4 @@
-"""What is to be seen, as one value; and that what two of them share is not drawn again."""
+"""Frames, and updates of a view, which draws only differences between frames."""
 
 import dataclasses
 
@@ -23,7 +23,7 @@ MOVED_FIGURES = measure(MOVED.points, MOVED.hexes)
 
 @pytest.fixture
 def watched(monkeypatch):
-    """A viewport, and a function that draws a frame and says what was done for it."""
+    """A function that draws a frame and returns the names of the called methods, and the viewport."""
     stage = Stage((80, 60))
     viewport = Viewport(Pane(stage.window))
     done = []
@@ -50,7 +50,7 @@ def watched(monkeypatch):
     stage.close()
 
 
-def test_another_mesh_is_drawn_from_its_skin_on(watched):
+def test_another_mesh_is_drawn_from_scratch(watched):
     draw, _ = watched
     assert draw(Frame(MESH, FIGURES)) == {"set_mesh", "rebuild", "measure"}
     copy = Mesh(MESH.points, MESH.hexes)  # as when the same file is opened again
@@ -66,7 +66,7 @@ def test_the_same_frame_costs_nothing(watched):
     assert viewport.frame is not frame
 
 
-def test_nodes_elsewhere_are_moved(watched):
+def test_moved_nodes_update_positions_only(watched):
     draw, viewport = watched
     draw(Frame(MESH, FIGURES))
     faces = viewport.body.faces
@@ -85,7 +85,7 @@ def test_another_movement_is_measured(watched):
     assert draw(Frame(MESH, FIGURES, movement, look)) == set()
 
 
-def test_another_look_is_built_and_measured_only_where_its_colours_are_others(watched):
+def test_another_look_is_measured_only_if_its_colours_differ(watched):
     draw, _ = watched
     draw(Frame(MESH, FIGURES))
     assert draw(Frame(MESH, FIGURES, look=Look(edges=False))) == {"rebuild"}
@@ -102,7 +102,7 @@ def test_other_pins_are_drawn(watched):
     assert draw(Frame(viewport.frame.mesh, FIGURES, look=look)) == set()
 
 
-def test_hexes_are_the_same_wherever_the_nodes_are():
+def test_equality_of_hexes_does_not_depend_on_positions():
     assert same_hexes(MESH, MOVED)
     assert same_hexes(MESH, Mesh(MOVED.points, MESH.hexes))
     assert not same_hexes(MESH, grid(3))
@@ -111,7 +111,7 @@ def test_hexes_are_the_same_wherever_the_nodes_are():
     assert not Frame(MESH, FIGURES).is_of(None)
 
 
-def test_beside_another_frame_the_look_and_the_moment_are_the_same():
+def test_a_matching_frame_has_the_same_look_and_reference_state():
     movement = Displacement(MESH, ReferenceState(MOVED.points, MOVED_FIGURES, "then"), MESH.points, FIGURES)
     first = Frame(MESH, FIGURES, movement, Look(edges=False))
     other = Frame(MESH.with_points(MESH.points * 2), FIGURES).matching(first)

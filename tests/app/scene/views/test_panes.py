@@ -1,4 +1,4 @@
-"""Several views in one window, off screen: what is where, seen in the pixels."""
+"""Several views in an off-screen window, checked by pixels."""
 
 import numpy as np
 import pytest
@@ -28,7 +28,7 @@ def shown(mesh):
 
 
 def look_at(panes, look, movement=None):
-    """Draw the same mesh under another look."""
+    """Draw the same mesh with another look."""
     panes.draw(Frame(panes.first.frame.mesh, panes.first.frame.figures, movement, look))
 
 
@@ -78,7 +78,7 @@ def test_each_view_shows_its_mesh_as_it_would_alone(panes, pixels):
 
 
 @pytest.mark.parametrize("views", [1, 2, 4])
-def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes, views):
+def test_space_for_captions_is_reserved_above_each_of_several_views(panes, views):
     panes.reserve_captions(16)
     panes.show([shown(mesh) for mesh in OTHERS[: views - 1]])
     expected = [(left, low, right, high - (0.1 if views > 1 else 0)) for left, low, right, high in grid(views)]
@@ -89,7 +89,7 @@ def test_room_is_left_above_each_of_several_views_and_all_stay_of_one_size(panes
     assert panes.first.layers[0].GetViewport() == (0.0, 0.0, 0.5, 1.0)
 
 
-def test_one_camera_leads_all_views(panes, pixels):
+def test_all_views_share_a_camera(panes, pixels):
     panes.show([shown(mesh) for mesh in OTHERS])
     assert all(view.camera is panes.first.camera for view in panes.all)
     before = pixels()
@@ -157,7 +157,7 @@ def test_a_cut_leaves_the_same_elements_in_all_views(panes):
         np.testing.assert_array_equal(kept, first)
 
 
-def test_what_is_under_the_mouse_is_picked_in_the_view_there(panes, pixels):
+def test_picking_uses_the_view_under_the_pointer(panes, pixels):
     panes.show([shown(OTHERS[0])])
     pixels()
     assert panes.at(60, 80) is panes.first
@@ -205,9 +205,9 @@ def test_the_camera_fits_the_views_unless_the_user_has_moved_it(panes):
     assert panes.first.camera.GetPosition() == near
 
 
-def test_a_figure_holds_all_meshes_with_captions():
-    subjects = [PageMesh(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
-    four = np.asarray(draw_page(Scene(page=Page(pixels=(640, 480))), subjects).image()).astype(int)
+def test_a_page_shows_all_meshes_with_captions():
+    page_meshes = [PageMesh(name, *shown(mesh)) for name, mesh in zip("abcd", [MESH, *OTHERS], strict=True)]
+    four = np.asarray(draw_page(Scene(page=Page(pixels=(640, 480))), page_meshes).image()).astype(int)
     assert four.shape == (480, 640, 3)
     assert (four[:25].max(axis=2) < 90).any(axis=0)[:160].any()  # what is written above the first
     colourful = four.max(axis=2) - four.min(axis=2) > 60
@@ -216,7 +216,7 @@ def test_a_figure_holds_all_meshes_with_captions():
             assert colourful[rows, across].mean() > 0.1
 
 
-def test_views_beside_the_first_compare_with_the_same_moment(panes):
+def test_all_views_have_the_same_reference_state(panes):
     first, second = (measure(one.points, MESH.hexes) for one in (MESH, OTHERS[0]))
     look = Look(scale=ColourScale("moved-most", mode=RangeMode.FITTED), traces=Traces(arrows=Arrows.ALL))
     look_at(panes, look, Displacement(MESH, ReferenceState(MESH.points, first, "then"), MESH.points, first))

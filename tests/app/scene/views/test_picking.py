@@ -1,4 +1,4 @@
-"""What is under the pointer."""
+"""Picking of hexes and nodes."""
 
 import numpy as np
 import pytest
@@ -38,17 +38,17 @@ def test_a_hit_lies_on_its_hex_and_its_node_is_the_nearest(seen, place):
     assert hit.node == away.argmin()
 
 
-def test_beside_the_mesh_there_is_none(seen):
+def test_nothing_is_picked_outside_the_mesh(seen):
     assert seen.pick(1, 1) is None
 
 
-def test_on_a_cut_the_place_is_on_its_plane(seen):
+def test_the_picked_point_on_a_section_lies_on_the_plane(seen):
     seen.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((0, 0, 1), (2.5, 2.5, 2.3), False))))
     hit = seen.pick(100, 100)
     assert hit.place[2] == pytest.approx(2.3, abs=1e-6)
     assert MESH.points[MESH.hexes[hit.hex]][:, 2].tolist().count(2.0) == 4
 
 
-def test_before_a_mesh_is_drawn_there_is_none():
+def test_nothing_is_picked_before_a_mesh_is_drawn():
     with Stage((80, 60)) as stage:
         assert Viewport(Pane(stage.window)).pick(40, 30) is None

@@ -1,4 +1,4 @@
-"""The view of a mesh, off screen: what is drawn follows points, qualities and look."""
+"""Off-screen view of a mesh: the picture depends on points, quality and look."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def figures_of(mesh):
 
 
 def show(viewport, mesh=None, look=None):
-    """Draw another mesh under the same look, or the same under another."""
+    """Draw another mesh with the same look, or the same mesh with another look."""
     last = viewport.frame
     mesh = mesh or (last and last.mesh) or MESH
     viewport.draw(Frame(mesh, figures_of(mesh), look=look or (last.look if last else Look())))
@@ -44,7 +44,7 @@ def pane(stage):
 
 @pytest.fixture
 def seen(stage, pane):
-    """A viewport with a grid in it, seen from above, and a function that returns its pixels."""
+    """A viewport that shows a grid from above, and a function that returns its pixels."""
     viewport = Viewport(pane)
     show(viewport, MESH)
     viewport.view("+z")
@@ -52,7 +52,7 @@ def seen(stage, pane):
 
 
 def magenta(image):
-    """Number of pixels in the colour of inverted elements, shade aside."""
+    """Count the pixels in the colour of inverted hexes, independent of shading."""
     share = image / np.maximum(image.max(axis=2, keepdims=True), 1)
     return int((np.abs(share - np.array(INVERTED) / max(INVERTED)).max(axis=2) < 0.1).sum())
 
@@ -134,7 +134,7 @@ def test_the_same_picture_however_its_look_was_reached(seen):
 
 
 def white(image):
-    """Number of pixels in the colour of the outlines of inverted elements."""
+    """Count the pixels in the colour of the outlines of inverted hexes."""
     return int((image.min(axis=2) > 250).sum())
 
 
@@ -201,20 +201,20 @@ def test_nodes_that_no_hex_uses_do_not_count(seen):
     np.testing.assert_array_equal(pixels(), before)
 
 
-def test_setting_the_plane_is_no_wish_of_the_user(pane):
-    told = []
+def test_setting_the_plane_does_not_report_a_drag(pane):
+    dragged = []
     pane.window.Render()
-    widget = PlaneWidget(pane, told.append)
+    widget = PlaneWidget(pane, dragged.append)
     widget.set_bounds((0, 4, 0, 4, 0, 4))
     for plane in (INSIDE.planes[0], ClipPlane((1, 0, 0), (1, 0, 0)), None, INSIDE.planes[0]):
         widget.set(plane)
-    assert told == []
+    assert dragged == []
     widget.widget.InvokeEvent("InteractionEvent")  # what VTK does as the user drags
-    assert told == [INSIDE.planes[0]]
+    assert dragged == [INSIDE.planes[0]]
     widget.close()
 
 
-def test_what_is_picked_is_what_is_seen(seen):
+def test_picking_finds_the_visible_hex(seen):
     viewport, pixels = seen
     pixels()
     hit = viewport.pick(100, 75)
@@ -231,7 +231,7 @@ def test_what_is_picked_is_what_is_seen(seen):
     )
 
 
-def test_a_marked_element_is_seen_through_everything_and_its_figures_where_there_is_room(seen, pane):
+def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(seen, pane):
     viewport, pixels = seen
     plain = pixels()
     inner = 21
