@@ -13,7 +13,7 @@ def helps(kind: type) -> dict[str, str]:
 
     >>> from hexmend_app.picture import WipeLayout
     >>> helps(WipeLayout)["mesh"]
-    'Its number on the command line.'
+    'Number of the mesh on the command line, from 1.'
     """
     lines = inspect.getdoc(kind).splitlines()
     found: dict[str, str] = {}

@@ -257,5 +257,5 @@ class FeatureHexInspector(Feature):
         return self.host.try_and_report(
             "The list was not saved",
             lambda: self.session.commands.export(event),
-            f"{counted(len(self.worst_list.elements), 'hex')} saved to {path}",
+            f"{counted(len(self.worst_list.hexes), 'hex')} saved to {path}",
         )

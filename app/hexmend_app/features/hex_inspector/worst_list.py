@@ -153,7 +153,7 @@ class WorstList(QWidget):
         return self._isolate.isChecked()
 
     @property
-    def elements(self) -> np.ndarray:
+    def hexes(self) -> np.ndarray:
         """Numbers of the listed hexes, worst first: (k,) int64."""
         self._refresh_if_stale()
         return self._model.hexes
@@ -181,7 +181,7 @@ class WorstList(QWidget):
         return int(rows[0]) if len(rows) else None
 
     def _step(self, by: int) -> None:
-        hexes = self.elements
+        hexes = self.hexes
         if not len(hexes):
             return
         row = self._selected_row()

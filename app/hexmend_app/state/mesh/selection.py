@@ -74,7 +74,7 @@ class Selection(QObject):
     def worst_hexes(self) -> np.ndarray:
         """Return the worst hexes of the mesh as it is shown, (k,) int64, the worst first; the mesh is open."""
         now = self._document.now
-        return Worst.of(now.mesh, now.figures, self.worst_metric).elements
+        return Worst.of(now.mesh, now.figures, self.worst_metric).hexes
 
     def to_data(self) -> SelectionData:
         """Return the data for a session file."""

@@ -63,7 +63,7 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
     before = np.array(camera.GetFocalPoint())
     key(window, Qt.Key.Key_N)
     worst = window.session.selection.hex
-    assert worst == window.features["hex_inspector"].worst_list.elements[0]
+    assert worst == window.features["hex_inspector"].worst_list.hexes[0]
     middle = window.session.document.now.mesh.points[window.session.document.now.mesh.hexes[worst]].mean(axis=0)
     qtbot.waitUntil(lambda: np.allclose(camera.GetFocalPoint(), middle), timeout=5000)
     assert not np.allclose(before, middle)
@@ -97,13 +97,13 @@ def test_a_hex_stays_selected_during_a_run(window, qtbot):
     window.refresh()
     assert window.session.selection.hex == worst
     assert not window.session.document.now.figures.inverted[worst]
-    assert window.features["hex_inspector"].worst_list.elements[0] == window.session.document.now.figures.q.argmin()
+    assert window.features["hex_inspector"].worst_list.hexes[0] == window.session.document.now.figures.q.argmin()
 
 
 def test_the_list_of_the_worst_is_saved_or_an_error_is_shown(window, tmp_path):
     assert window.features["hex_inspector"].save(tmp_path / "worst.csv")
     lines = (tmp_path / "worst.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.elements)
+    assert len(lines) == 1 + len(window.features["hex_inspector"].worst_list.hexes)
     assert not window.features["hex_inspector"].save(tmp_path / "nowhere" / "worst.csv")
     assert window.messages.messages()[-1][0] == "error"
 
@@ -189,7 +189,7 @@ def test_commands_are_found_by_name_in_the_palette(window, qtbot):
     assert any("Isometric" in text for text in palette.titles())
     QTest.keyClicks(palette.findChild(QLineEdit), "next worst")
     QTest.keyClick(palette.findChild(QLineEdit), Qt.Key.Key_Return)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[0]
 
 
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".png", ".csv"])

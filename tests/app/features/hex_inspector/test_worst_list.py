@@ -44,7 +44,7 @@ def row_at(widget, row):
 def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData(name))
-    hexes, better = worst_list.elements, METRICS[name].better or 1
+    hexes, better = worst_list.hexes, METRICS[name].better or 1
     assert len(hexes) == min(MAX_LISTED, MESH.n_hexes) < MESH.n_hexes
     keys = better * METRICS[name].of(MESH.points, MESH.hexes, FIGURES)
     keys[np.isnan(keys)] = -np.inf
@@ -56,7 +56,7 @@ def test_the_list_is_bounded_and_sorted_by_its_metric(worst_list, name):
 
 
 def test_an_inverted_hex_with_good_q_is_listed_after_worse_hexes(worst_list):
-    hexes = worst_list.elements
+    hexes = worst_list.hexes
     q, inverted = FIGURES.q[hexes], FIGURES.inverted[hexes]
     assert inverted.any()
     assert q[inverted].max() > q[~inverted].min()
@@ -76,7 +76,7 @@ def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):
     viewport, place = row_at(worst_list, 2)
     with qtbot.waitSignal(worst_list.chosen) as chosen:
         QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
-    assert chosen.args == [worst_list.elements[2]]
+    assert chosen.args == [worst_list.hexes[2]]
 
 
 def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list):
@@ -85,17 +85,17 @@ def test_next_and_previous_step_from_the_selected_hex_and_wrap_around(worst_list
     worst_list.chosen.connect(worst_list.set_selected)
     for text in ("Next", "Next", "Previous", "Previous"):
         QTest.mouseClick(button(worst_list, text), Qt.MouseButton.LeftButton)
-    hexes = worst_list.elements.tolist()
+    hexes = worst_list.hexes.tolist()
     assert selected == [hexes[0], hexes[1], hexes[0], hexes[-1]]
 
 
 def test_the_selected_row_follows_its_hex_when_the_mesh_changes(worst_list):
-    hex = int(worst_list.elements[5])
+    hex = int(worst_list.hexes[5])
     worst_list.set_selected(hex)
     better = scrambled(grid(11), 0.5, 4)
     worst_list.set_figures(better, measure(better.points, better.hexes))
     row = worst_list.findChild(QTableView).currentIndex().row()
-    listed = worst_list.elements.tolist()
+    listed = worst_list.hexes.tolist()
     assert (listed[row] == hex) if hex in listed else row == -1
 
 
@@ -113,7 +113,7 @@ def test_the_saved_list_reads_back(worst_list, tmp_path):
     lines = (tmp_path / "worst.csv").read_text().splitlines()
     assert lines[0] == "hex,q,scaled-jacobian,state"
     number, q, jacobian, state = lines[1].split(",")
-    assert int(number) == worst_list.elements[0]
+    assert int(number) == worst_list.hexes[0]
     assert float(q) == FIGURES.q[int(number)]
     assert float(jacobian) == FIGURES.scaled_jacobian[int(number)]
     assert state == "inverted"
@@ -124,7 +124,7 @@ def test_without_a_mesh_nothing_can_be_saved_or_gone_to(qtbot):
     qtbot.addWidget(widget)
     assert not any(b.isEnabled() for b in widget.findChildren(QPushButton))
     widget.next()  # must not fail
-    assert not len(widget.elements)
+    assert not len(widget.hexes)
 
 
 def test_enter_and_a_double_click_select_the_row_again(worst_list):
@@ -132,7 +132,7 @@ def test_enter_and_a_double_click_select_the_row_again(worst_list):
     QTest.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place)
     selected = []
     worst_list.chosen.connect(selected.append)
-    hex = worst_list.elements[1]
+    hex = worst_list.hexes[1]
     QTest.keyClick(worst_list.findChild(QTableView), Qt.Key.Key_Return)
     assert selected == [hex]
     QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, pos=place)

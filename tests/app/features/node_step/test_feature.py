@@ -39,7 +39,7 @@ pytestmark = pytest.mark.slow
 def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
     window, step = node_window, shown_step(node_window)
     mesh = window.session.document.now.mesh
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[0]
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[0]
     assert window.session.selection.node in mesh.hexes[window.session.selection.hex]
     assert mesh.free[step.node]
     np.testing.assert_array_equal(step.after, explain(mesh, METHODS["local-sd"](), step.node).after)

@@ -244,10 +244,10 @@ def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):
     window.show_panel("worst")
     box = named(listed, QComboBox, "Worst by")
     walk_to(window, box, "volume")
-    elements = listed.elements.tolist()
+    elements = listed.hexes.tolist()
     path = saved(window, tmp_path)
     walk_to(window, box, "q")
     open_and_wait(qtbot, window, path)
     window.refresh()
     assert box.currentData() == "volume"
-    assert listed.elements.tolist() == elements
+    assert listed.hexes.tolist() == elements

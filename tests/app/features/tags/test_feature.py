@@ -77,7 +77,7 @@ def test_shown_or_listed_hexes_are_tagged_and_isolated(window, panel):
     name.lineEdit().selectAll()
     QTest.keyClicks(name.lineEdit(), "worst")
     press(button(panel, "Worst"))
-    assert tags(window)["worst"] == sorted(window.features["hex_inspector"].worst_list.elements.tolist())
+    assert tags(window)["worst"] == sorted(window.features["hex_inspector"].worst_list.hexes.tolist())
     table = panel.findChild(QTableWidget)
     QTest.mouseClick(table.viewport(), LEFT, pos=table.visualItemRect(table.item(1, 0)).center())
     press(button(panel, "Isolate"))

@@ -94,7 +94,7 @@ def test_everything_follows_the_slider(window, qtbot):
     assert state.summary.inverted == record.rows[3]["inverted"]
     assert np.abs(pixels(window) - picture).max() > 50
     assert named(window.statusBar(), QLabel, "Counts").text().endswith(f"{state.summary.inverted:,} inverted")
-    assert state.figures.inverted[window.features["hex_inspector"].worst_list.elements[0]]
+    assert state.figures.inverted[window.features["hex_inspector"].worst_list.hexes[0]]
     assert state is not newest
 
 

@@ -160,7 +160,7 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
     assert magenta[320:].sum() > 50
     for words, message in (
         ([paths[0]] * 13, "at most 12"),
-        ([*paths, "--captions", "a,b,c"], "2 names separated by commas"),
+        ([*paths, "--captions", "a,b,c"], "expected as many names as panels (2)"),
     ):
         assert main(["render", *words, "-o", str(tmp_path / "none.png")]) == 2
         assert message in capsys.readouterr().err

@@ -122,4 +122,4 @@ def test_a_method_is_found_by_typing_and_the_worst_hexes_are_still_gone_through(
     table.setFocus()
     table.setCurrentIndex(table.model().index(0, 0))
     QTest.keyClick(table, Qt.Key.Key_N)
-    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.elements[1]
+    assert window.session.selection.hex == window.features["hex_inspector"].worst_list.hexes[1]
