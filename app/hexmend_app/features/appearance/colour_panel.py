@@ -16,6 +16,7 @@ from hexmend_app.picture.appearance import ColourScale, RangeMode
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.value_range import better, declared_range
 from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.number_box import NumberBox
@@ -66,14 +67,16 @@ class ColourPanel(QWidget):
         self._metric.insertSeparator(len(METRICS))
         self._map = MapBox()
         self._reverse = QCheckBox("⇅")
-        set_help(self._reverse, "Reverse", "Reverse the colour map. By default the dark end marks the worst values.")
+        set_help(
+            self._reverse, tr("Reverse"), tr("Reverse the colour map. By default the dark end marks the worst values.")
+        )
         self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
-        set_help(self._low, "Lowest value", "Value of the first colour. Pin the range to set it.")
-        set_help(self._high, "Highest value", "Value of the last colour. Pin the range to set it.")
-        self._neutral, self._shading = QCheckBox("Neutral"), QCheckBox("Shading")
-        set_help(self._neutral, "Neutral", NEUTRAL)
-        set_help(self._shading, "Shading", SHADING)
+        set_help(self._low, tr("Lowest value"), tr("Value of the first colour. Pin the range to set it."))
+        set_help(self._high, tr("Highest value"), tr("Value of the last colour. Pin the range to set it."))
+        self._neutral, self._shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
+        set_help(self._neutral, tr("Neutral"), NEUTRAL)
+        set_help(self._shading, tr("Shading"), SHADING)
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -102,7 +105,7 @@ class ColourPanel(QWidget):
         self.setTabOrder(self._map, self._reverse)
         numbers = QHBoxLayout()
         numbers.setSpacing(8)
-        for widget in (self._low, QLabel("to"), self._high):
+        for widget in (self._low, QLabel(tr("to")), self._high):
             numbers.addWidget(widget, 0 if isinstance(widget, QLabel) else 1)
         grid.addLayout(numbers, 3, 0, 1, 3)
         options = QHBoxLayout()
@@ -199,7 +202,7 @@ class ColourPanel(QWidget):
     def _refresh(self) -> None:
         scale = self._scale
         self._metric.setCurrentIndex(self._metric.findData(scale.metric))
-        set_help(self._metric, "Metric", _description(scale.metric))
+        set_help(self._metric, tr("Metric"), _description(scale.metric))
         self._map.show_map(scale.map, change=scale.metric == "q-change")
         self._reverse.setChecked(scale.reverse)
         self._mode.set_value(scale.mode.value)
@@ -208,7 +211,7 @@ class ColourPanel(QWidget):
             ends, button = declared_range(scale.metric, mode), self._mode.button(mode.value)
             button.setEnabled(ends is not None)
             help = f"{help}: {_range_text(ends)}." if ends else f"{help}: unbounded for this metric."
-            set_help(button, f"Range: {text}", help)
+            set_help(button, tr("Range: {text}", text=text), help)
         for box in (self._low, self._high):
             box.setEnabled(scale.mode is RangeMode.PINNED)
         self._show_problem()

@@ -13,6 +13,7 @@ from hexmend_app.picture.appearance import Arrows, Look
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,19 +43,19 @@ class FeatureAppearance(Feature):
         return (
             Action(
                 id="edges",
-                text="&Edges",
+                text=tr("&Edges"),
                 menu="View",
                 part=1,
                 keys="E",
                 icon="grid",
-                help="Show the edges of the hexes.",
-                tool="Edges",
+                help=tr("Show the edges of the hexes."),
+                tool=tr("Edges"),
                 handle=lambda on: view.change(edges=on),
                 checked=lambda: view.look.edges,
             ),
             Action(
                 id="shading",
-                text="S&hading",
+                text=tr("S&hading"),
                 menu="View",
                 part=1,
                 help=SHADING,
@@ -63,7 +64,7 @@ class FeatureAppearance(Feature):
             ),
             Action(
                 id="neutral",
-                text="&Neutral colours",
+                text=tr("&Neutral colours"),
                 menu="View",
                 part=1,
                 help=NEUTRAL,
@@ -77,11 +78,11 @@ class FeatureAppearance(Feature):
         return (
             Panel(
                 id="look",
-                title="Look",
+                title=tr("Look"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 order=20,
-                help="Metric, colour map and range of the colours.",
+                help=tr("Metric, colour map and range of the colours."),
             ),
         )
 

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from hexmend_app.picture.colour_map import CHANGE_MAP, COLOUR_MAPS, value_maps
 from hexmend_app.theme.style import LINE, on_theme_change, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import let_shrink
 
 _SWATCH = QSize(48, 12)
@@ -44,7 +45,7 @@ class MapBox(QComboBox):
                 self.setItemData(at, COLOUR_MAPS[key].help, Qt.ItemDataRole.ToolTipRole)
             self._paint_swatches()
         self.setCurrentIndex(max(self.findData(name), 0))
-        set_help(self, "Colour map", COLOUR_MAPS[CHANGE_MAP].help if change else _VALUE_MAPS_HELP)
+        set_help(self, tr("Colour map"), COLOUR_MAPS[CHANGE_MAP].help if change else _VALUE_MAPS_HELP)
 
     def _on_activated(self) -> None:
         if self.currentData() in value_maps():

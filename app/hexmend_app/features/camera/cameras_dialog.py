@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from hexmend.errors import ParameterError
 from hexmend_app.state.view.saved_cameras import SavedCameras
 from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.translation import tr
 
 _NAME = Qt.ItemDataRole.UserRole
 
@@ -39,13 +40,15 @@ class CamerasDialog(QDialog):
 
     def __init__(self, cameras: SavedCameras, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Saved cameras")
+        self.setWindowTitle(tr("Saved cameras"))
         self._cameras = cameras
         self.list = QListWidget()
-        set_help(self.list, "Saved cameras", "Double-click to apply a camera, F2 to rename it, Delete to delete it.")
+        set_help(
+            self.list, tr("Saved cameras"), tr("Double-click to apply a camera, F2 to rename it, Delete to delete it.")
+        )
         self.list.setEditTriggers(QListWidget.EditTrigger.EditKeyPressed)
         self._problem = note("", WORSE)
-        self._problem.setAccessibleName("Error")
+        self._problem.setAccessibleName(tr("Error"))
         self._buttons = [QPushButton(text) for text in ("&Go to", "&Rename", "&Delete")]
         for button, act in zip(self._buttons, (self._go, self._edit, self._delete), strict=True):
             button.setAutoDefault(False)

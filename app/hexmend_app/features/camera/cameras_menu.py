@@ -6,6 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
 from hexmend_app.state.view.saved_cameras import SavedCameras
+from hexmend_app.translation import tr
 
 
 class CamerasMenu(QMenu):
@@ -38,5 +39,5 @@ class CamerasMenu(QMenu):
         for number, name in enumerate(self._cameras.all, start=1):
             mnemonic = f"&{number % 10}  " if number <= 10 else "     "
             action = self.addAction(mnemonic + name.replace("&", "&&"))
-            action.setStatusTip(f"Apply the camera “{name}”.")
+            action.setStatusTip(tr("Apply the camera “{name}”.", name=name))
             action.triggered.connect(lambda _=False, name=name: self.chosen.emit(name))

@@ -14,6 +14,7 @@ from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
 from hexmend_app.picture.cut_planes import PlaneClip
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
 
 if TYPE_CHECKING:
@@ -52,12 +53,12 @@ class FeatureCamera(Feature):
         return (
             Action(
                 id="fit",
-                text="&Fit",
+                text=tr("&Fit"),
                 menu="View",
                 keys="F",
                 icon="fit-to-page-outline",
-                help="Fit the visible mesh to the view.",
-                tool="Fit",
+                help=tr("Fit the visible mesh to the view."),
+                tool=tr("Fit"),
                 handle=lambda: self.canvas.fit(),
                 enabled=self._ready,
                 in_view=True,
@@ -76,9 +77,9 @@ class FeatureCamera(Feature):
             *(
                 Action(
                     id=f"up_{axis}",
-                    text=f"{axis.upper()} &up" if axis == "z" else f"{axis.upper()} up",
+                    text=tr("{upper} &up", upper=axis.upper()) if axis == "z" else tr("{upper} up", upper=axis.upper()),
                     menu="View/Up",
-                    help=f"Use the {axis.upper()} axis as the vertical axis of the standard views.",
+                    help=tr("Use the {upper} axis as the vertical axis of the standard views.", upper=axis.upper()),
                     handle=lambda on, axis=axis: self.canvas.set_up(axis),
                     enabled=self._ready,
                     checked=lambda axis=axis: self.canvas is not None and self.canvas.up == axis,
@@ -92,11 +93,11 @@ class FeatureCamera(Feature):
             *self._saved(),
             Action(
                 id="parallel",
-                text="&Parallel projection",
+                text=tr("&Parallel projection"),
                 menu="View/Camera",
                 part=3,
                 keys="P",
-                help="Use parallel instead of perspective projection.",
+                help=tr("Use parallel instead of perspective projection."),
                 handle=lambda on: self.canvas.set_parallel(on),
                 enabled=self._ready,
                 checked=lambda: self.canvas is not None and self.canvas.parallel,
@@ -112,7 +113,9 @@ class FeatureCamera(Feature):
                 menu="View/Camera",
                 keys=keys,
                 icon=icon,
-                help=f"Look at the mesh from {'a corner' if name == 'iso' else name.replace('-', '−')}.",
+                help=tr(
+                    "Look at the mesh from {place}.", place="a corner" if name == "iso" else name.replace("-", "−")
+                ),
                 tool=tool,
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
@@ -125,22 +128,22 @@ class FeatureCamera(Feature):
         return (
             Action(
                 id="keep_camera",
-                text="&Save camera as…",
+                text=tr("&Save camera as…"),
                 menu="View/Camera",
                 part=2,
                 keys="Ctrl+Shift+K",
                 icon="camera-plus-outline",
-                help="Save the camera under a name, for views, pictures and the session.",
+                help=tr("Save the camera under a name, for views, pictures and the session."),
                 handle=self.ask_name,
                 enabled=lambda: self._draws,
                 submenu=self._menu,
             ),
             Action(
                 id="cameras",
-                text="Saved ca&meras…",
+                text=tr("Saved ca&meras…"),
                 menu="View/Camera",
                 part=2,
-                help="Apply, rename or delete a saved camera.",
+                help=tr("Apply, rename or delete a saved camera."),
                 handle=self.show_cameras,
                 enabled=lambda: self._draws and bool(self._cameras.all),
             ),
@@ -192,14 +195,14 @@ class FeatureCamera(Feature):
     def copy(self) -> None:
         """Copy the camera to the clipboard in the format of `hexmend render --camera`."""
         QGuiApplication.clipboard().setText(camera_text(Camera.at(self.canvas.pose)))
-        self.host.messages.show_info("Camera copied. Paste it in another window or after hexmend render --camera.")
+        self.host.messages.show_info(tr("Camera copied. Paste it in another window or after hexmend render --camera."))
 
     def paste(self) -> None:
         """Apply the camera from the clipboard, or show an error."""
         try:
             camera = camera_from(QGuiApplication.clipboard().text())
         except ParameterError as error:
-            self.host.messages.show_error("Camera not pasted", f"{error}.")
+            self.host.messages.show_error(tr("Camera not pasted"), f"{error}.")
             return
         self._apply(camera)
 
@@ -213,7 +216,7 @@ class FeatureCamera(Feature):
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
         success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
-        self.host.try_and_report("Camera not saved", lambda: self._cameras.keep(name, camera), success)
+        self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.keep(name, camera), success)
 
     def go(self, name: str) -> None:
         """Apply a saved camera."""

@@ -14,6 +14,7 @@ from hexmend_app.codec.checks import check_known
 from hexmend_app.features.compare.comparison_table import INITIAL, KEYS, METHOD, VIEW, ComparisonModel, ComparisonRow
 from hexmend_app.theme.palette import CHOSEN, FRAME, ON_CHOSEN
 from hexmend_app.theme.style import MUTED, icon, on_theme_change, set_help, smaller, tabular, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.tables.hex_table import shape_table
 
@@ -77,22 +78,22 @@ class ComparePanel(QWidget):
         self._model = ComparisonModel(ticks, self)
         self._model.view_toggled.connect(self.view_toggled)
         self._model.ticked.connect(self._enable)
-        self._run = QPushButton(icon("play"), "Run")
-        set_help(self._run, "Run comparison", "Run the selected methods in turn. The mesh does not change.")
-        self._cancel = QPushButton(icon("stop"), "Cancel")
-        set_help(self._cancel, "Cancel comparison", "Stop after the current iteration and keep the results.")
-        self._wipe = QPushButton(icon("compare"), "Wipe")
+        self._run = QPushButton(icon("play"), tr("Run"))
+        set_help(self._run, tr("Run comparison"), tr("Run the selected methods in turn. The mesh does not change."))
+        self._cancel = QPushButton(icon("stop"), tr("Cancel"))
+        set_help(self._cancel, tr("Cancel comparison"), tr("Stop after the current iteration and keep the results."))
+        self._wipe = QPushButton(icon("compare"), tr("Wipe"))
         self._wipe.setCheckable(True)
-        set_help(self._wipe, "Wipe", "Show two views in one, with an edge between them to drag (W).")
+        set_help(self._wipe, tr("Wipe"), tr("Show two views in one, with an edge between them to drag (W)."))
         self._wipe.toggled.connect(self._paint_wipe)
         on_theme_change(self._wipe, self._paint_wipe)
-        self._use = QPushButton("Use result")
-        set_help(self._use, "Use result", "Replace the mesh by the result of the selected row. Can be undone.")
+        self._use = QPushButton(tr("Use result"))
+        set_help(self._use, tr("Use result"), tr("Replace the mesh by the result of the selected row. Can be undone."))
         self._save = QPushButton(icon("content-save-outline"), "")
-        set_help(self._save, "Save table", "Save the table as CSV, Markdown, LaTeX or JSON.")
+        set_help(self._save, tr("Save table"), tr("Save the table as CSV, Markdown, LaTeX or JSON."))
         self._status = ElidingLabel()
         self._status.setFont(tabular(smaller(self._status.font())))
-        self._status.setAccessibleName("Comparison progress")
+        self._status.setAccessibleName(tr("Comparison progress"))
         tint(self._status, MUTED)
         self._table = self._make_table()
         self._lay_out()

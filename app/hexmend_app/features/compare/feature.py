@@ -20,6 +20,7 @@ from hexmend_app.features.compare.comparison_table import INITIAL, ComparisonRow
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.comparison import MethodResult
 from hexmend_app.state.session.user_events import TableExported
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import TableDialog, answer
 from hexmend_app.widgets.wording import counted
 
@@ -54,21 +55,21 @@ class FeatureCompare(Feature):
         return (
             Action(
                 id="compare",
-                text="&Run comparison",
+                text=tr("&Run comparison"),
                 menu="Compare",
                 keys="F6",
                 icon="play",
-                help="Run the methods selected in the panel in turn. The mesh does not change.",
+                help=tr("Run the methods selected in the panel in turn. The mesh does not change."),
                 handle=self.panel.run,
                 enabled=lambda: self.panel.can_run,
             ),
             Action(
                 id="cancel_comparison",
-                text="&Cancel comparison",
+                text=tr("&Cancel comparison"),
                 menu="Compare",
                 keys="Shift+F6",
                 icon="stop",
-                help="Stop the comparison after the current iteration and keep the results.",
+                help=tr("Stop the comparison after the current iteration and keep the results."),
                 handle=self._comparison.cancel,
                 enabled=lambda: self._comparison.busy and not self._comparison.ending,
             ),
@@ -85,11 +86,11 @@ class FeatureCompare(Feature):
         return (
             Panel(
                 id="compare",
-                title="Compare",
+                title=tr("Compare"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=20,
-                help="Results of each method in a table and in views.",
+                help=tr("Results of each method in a table and in views."),
             ),
         )
 
@@ -135,12 +136,24 @@ class FeatureCompare(Feature):
         if progress is None:
             interrupted = ", interrupted" if comparison.interrupted else ""
             count = len(comparison.results)
-            self.panel.set_status(f"{counted(count, 'method')} compared{interrupted}" if count else "")
+            self.panel.set_status(
+                tr("{count} compared{interrupted}", count=counted(count, "method"), interrupted=interrupted)
+                if count
+                else ""
+            )
         elif comparison.ending:
-            self.panel.set_status(f"Stopping {title_of(progress.method)} after this iteration…")
+            self.panel.set_status(tr("Stopping {title} after this iteration…", title=title_of(progress.method)))
         else:
             step = f"iteration {progress.iteration:,}, {progress.seconds:.1f} s" if progress.iteration else "preparing…"
-            self.panel.set_status(f"{title_of(progress.method)} ({progress.at + 1} of {progress.of}): {step}")
+            self.panel.set_status(
+                tr(
+                    "{title} ({number} of {of}): {step}",
+                    title=title_of(progress.method),
+                    number=progress.at + 1,
+                    of=progress.of,
+                    step=step,
+                )
+            )
 
     # Requests of the user
 
@@ -195,9 +208,9 @@ class FeatureCompare(Feature):
         """Write the table of methods as CSV, Markdown, LaTeX or JSON, by the suffix; return True on success."""
         names, title = (None, None) if style is None else (style.names, style.title)
         saved = self.host.try_and_report(
-            "Table not saved",
+            tr("Table not saved"),
             lambda: write_comparison(Path(path), self._comparison.to_data().record(), names, title),
-            f"Table of {counted(len(self._comparison.results), 'method')} saved to {path}",
+            tr("Table of {count} saved to {path}", count=counted(len(self._comparison.results), "method"), path=path),
         )
         if saved:
             self.session.user_event.emit(TableExported(Path(path), names, title))

@@ -15,6 +15,7 @@ from hexmend_app.features.console.interpreter import Interpreter, is_complete
 from hexmend_app.features.console.panel import ConsolePanel
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.tasks.task import Task
+from hexmend_app.translation import tr
 
 #: Milliseconds between two updates of the output.
 _PERIOD = 50
@@ -45,11 +46,11 @@ class FeatureConsole(Feature):
         return (
             Action(
                 id="console",
-                text="Python conso&le",
+                text=tr("Python conso&le"),
                 menu="Edit",
                 keys="Ctrl+`",
                 icon="console",
-                help="Open a Python console that uses and changes the open mesh.",
+                help=tr("Open a Python console that uses and changes the open mesh."),
                 handle=self.show,
                 needs_mesh=False,
             ),
@@ -60,11 +61,11 @@ class FeatureConsole(Feature):
         return (
             Panel(
                 id="console",
-                title="Console",
+                title=tr("Console"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=80,
-                help="Python console that uses and changes the open mesh.",
+                help=tr("Python console that uses and changes the open mesh."),
             ),
         )
 

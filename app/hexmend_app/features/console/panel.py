@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, 
 
 from hexmend_app.theme.palette import MUTED, TEXT, WORSE
 from hexmend_app.theme.style import BLUE, LINE, icon, on_theme_change, set_help
+from hexmend_app.translation import tr
 
 _WELCOME = (
     "Python with mesh, result, session, plotter and hx. Assign to mesh to change the open mesh; this can be undone.\n"
@@ -38,20 +39,22 @@ class ConsolePanel(QWidget):
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         self.output = QPlainTextEdit(readOnly=True, maximumBlockCount=_MAX_LINES, font=font)
         self.output.setUndoRedoEnabled(False)
-        set_help(self.output, "Console output", "Output and values of commands.")
+        set_help(self.output, tr("Console output"), tr("Output and values of commands."))
         self.input = QPlainTextEdit(font=font, tabChangesFocus=True)
         self.input.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAsNeeded)
         self.input.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         set_help(
-            self.input, "Python command", "Press Enter to run, Shift+Enter for a new line, Tab to complete a name."
+            self.input,
+            tr("Python command"),
+            tr("Press Enter to run, Shift+Enter for a new line, Tab to complete a name."),
         )
         self.input.installEventFilter(self)
         self.input.textChanged.connect(self._fit)
-        self._interrupt = QPushButton(icon("stop"), "Interrupt")
-        set_help(self._interrupt, "Interrupt command", "Stop the running command (Ctrl+C).")
+        self._interrupt = QPushButton(icon("stop"), tr("Interrupt"))
+        set_help(self._interrupt, tr("Interrupt command"), tr("Stop the running command (Ctrl+C)."))
         self._interrupt.clicked.connect(self.interrupt_requested)
-        clear = QPushButton(icon("eraser"), "Clear")
-        set_help(clear, "Clear output", "Clear the output of the console.")
+        clear = QPushButton(icon("eraser"), tr("Clear"))
+        set_help(clear, tr("Clear output"), tr("Clear the output of the console."))
         clear.clicked.connect(self.output.clear)
         self._prompt = QLabel(">>>", font=font)
         on_theme_change(self, self._apply_theme)

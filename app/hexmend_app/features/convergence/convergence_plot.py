@@ -18,6 +18,7 @@ from hexmend_app.features.convergence.point_texts import reason_if_blank, titled
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import TEXT
 from hexmend_app.theme.style import note, on_theme_change, set_help, smaller
+from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
 
 _STYLES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine)
@@ -90,14 +91,14 @@ class ConvergencePlot(QWidget):
         self.view = _PickView()
         self.plot = calm_plot(self.view)
         self.plot.setMinimumHeight(_MIN_HEIGHT)
-        self.plot.setAccessibleName(f"Chart of {chart.title}")
+        self.plot.setAccessibleName(tr("Chart of {title}", title=chart.title))
         self.plot.setAccessibleDescription(f"{chart.help} {_HELP}")
         self.plot.setWhatsThis(f"{chart.help} {_HELP}")
         self.title = note()
         self.title.setWordWrap(False)
         set_help(self.title, chart.title, f"{chart.help} {_HELP}")
         self._blank = note()
-        self._blank.setAccessibleName(f"Reason why the chart of {chart.title} is empty")
+        self._blank.setAccessibleName(tr("Reason why the chart of {title} is empty", title=chart.title))
         self._blank.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._blank.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         QVBoxLayout(self.plot).addWidget(self._blank)

@@ -16,6 +16,7 @@ from hexmend_app.features.convergence.panel import ConvergencePanel
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Values of all runs (*.csv)"
@@ -61,11 +62,11 @@ class FeatureConvergence(Feature):
         return (
             Panel(
                 id="convergence",
-                title="Convergence",
+                title=tr("Convergence"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=10,
-                help="Convergence of each run, iteration by iteration.",
+                help=tr("Convergence of each run, iteration by iteration."),
             ),
         )
 
@@ -133,9 +134,9 @@ class FeatureConvergence(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the charts, or the values of all runs if the suffix is .csv; return True on success."""
         return self.host.try_and_report(
-            "Charts not saved",
+            tr("Charts not saved"),
             lambda: self.session.commands.export(self._report(Path(path), style)),
-            f"Convergence saved to {path}",
+            tr("Convergence saved to {path}", path=path),
         )
 
     def _report(self, path: Path, style: ChartStyle | None = None) -> FileExported:

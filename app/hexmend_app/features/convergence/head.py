@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 from hexmend_app.features.convergence.chart_settings import ChartSettings
 from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS
 from hexmend_app.theme.style import icon, smaller
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
 
@@ -49,8 +50,8 @@ class ConvergenceHead(QWidget):
         }
         for action in self.charts.values():
             action.toggled.connect(self.charts_changed)
-        charts = MenuButton("Charts", "Select the charts.")
-        charts.setText("Charts ▾")
+        charts = MenuButton(tr("Charts"), tr("Select the charts."))
+        charts.setText(tr("Charts ▾"))
         charts.menu().addActions(list(self.charts.values()))
         charts.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.log = self._action("Logarithmic axes", _LOG, True)
@@ -59,7 +60,7 @@ class ConvergenceHead(QWidget):
         self.from_zero.toggled.connect(self.from_zero_changed)
         self.save = self._action("Save…", "Save the charts as SVG, PDF or PNG, or the values of all runs as CSV.")
         self.save.triggered.connect(self.save_requested)
-        options = MenuButton("Chart options", "Logarithmic axes, start of branches, save.")
+        options = MenuButton(tr("Chart options"), tr("Logarithmic axes, start of branches, save."))
         options.setIcon(icon("dots-vertical"))
         options.menu().addActions([self.log, self.from_zero, self.save])
         self.axis = Segmented(

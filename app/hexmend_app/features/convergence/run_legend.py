@@ -11,6 +11,7 @@ from hexmend_app.features.convergence.curves import Curve, colour_of
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.theme.palette import HOVER
 from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, smaller
+from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import counted
 
@@ -103,7 +104,17 @@ class RunRow(QWidget):
         self.box.setFont(font)
         branch = f", branched from {record.parent.name}" if record.parent is not None else ""
         current = " This is the current run." if curve.current else ""
-        set_help(self.box, record.name, f"Plot {record.title}: {counted(record.newest, 'iteration')}{branch}.{current}")
+        set_help(
+            self.box,
+            record.name,
+            tr(
+                "Plot {title}: {count}{branch}.{current}",
+                title=record.title,
+                count=counted(record.newest, "iteration"),
+                branch=branch,
+                current=current,
+            ),
+        )
         self.cross.setEnabled(not curve.running)
         help = "Stop the run to delete it." if curve.running else "Delete this run with its iterations and values."
-        set_help(self.cross, f"Delete {record.name}", help)
+        set_help(self.cross, tr("Delete {name}", name=record.name), help)

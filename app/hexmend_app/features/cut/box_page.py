@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from superqt import QRangeSlider
 
 from hexmend_app.theme.style import set_help, smaller, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.wording import position
 
@@ -37,7 +38,7 @@ class BoxPage(QWidget):
             slider.setPageStep(_TICKS // 20)
             slider.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             help = f"Extent of the box along {name}. Drag an end, or drag between the ends to move both."
-            set_help(slider, f"{name} extent of the box", help)
+            set_help(slider, tr("{name} extent of the box", name=name), help)
             slider.valueChanged.connect(lambda ticks, axis=axis: self._on_slider(axis, ticks))
             text = QLabel()
             text.setFont(tabular(smaller(text.font())))

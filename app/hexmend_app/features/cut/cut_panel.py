@@ -14,6 +14,7 @@ from hexmend_app.features.cut.plane_page import PlanePage
 from hexmend_app.features.cut.plane_row import PlaneRow
 from hexmend_app.picture.cut_planes import BoxClip, Clip, ClipPlane, PlaneClip
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 
@@ -55,8 +56,8 @@ class CutPanel(QWidget):
         self._planes = PlaneClip()
         self._box = BoxClip((0, 0, 0), (1, 1, 1))
         self._selected = 0
-        self._switch = QCheckBox("Cut")
-        set_help(self._switch, "Cut", "Cut the mesh open (C).")
+        self._switch = QCheckBox(tr("Cut"))
+        set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
         self._kind = Segmented(
             "Cut by",
             [
@@ -64,13 +65,13 @@ class CutPanel(QWidget):
                 ("box", "Box", "Cut along the six sides of a box."),
             ],
         )
-        self._handles = QCheckBox("Handles")
+        self._handles = QCheckBox(tr("Handles"))
         self._handles.setChecked(True)
-        set_help(self._handles, "Handles", "Show the plane or the box in the view to drag and rotate it.")
+        set_help(self._handles, tr("Handles"), tr("Show the plane or the box in the view to drag and rotate it."))
         self._plane_row = PlaneRow(_MAX_PLANES)
         self._plane_page = PlanePage()
         self._box_page = BoxPage()
-        self._hide_label = QLabel("Hide")
+        self._hide_label = QLabel(tr("Hide"))
         self._hide_planes = Segmented(
             "Hide",
             [

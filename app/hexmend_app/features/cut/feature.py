@@ -12,6 +12,7 @@ from hexmend_app.features.cut.cut_panel import CutPanel, CutPanelSettings
 from hexmend_app.features.cut.inside_panel import InsidePanel
 from hexmend_app.picture.cut_planes import CutLeft
 from hexmend_app.scene.views.frame import Frame
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -48,46 +49,46 @@ class FeatureCut(Feature):
         return (
             Action(
                 id="cut",
-                text="&Cut",
+                text=tr("&Cut"),
                 menu="View",
                 part=1,
                 keys="C",
                 icon="box-cutter",
-                help="Cut the mesh open along planes or a box.",
-                tool="Cut",
+                help=tr("Cut the mesh open along planes or a box."),
+                tool=tr("Cut"),
                 handle=self._switch,
                 checked=lambda: view.look.clip is not None,
                 in_view=True,
             ),
             Action(
                 id="isolate",
-                text="&Isolate hex",
+                text=tr("&Isolate hex"),
                 menu="Hex",
                 part=1,
                 keys="I",
-                help="Show only the selected hex and its neighbours.",
+                help=tr("Show only the selected hex and its neighbours."),
                 handle=lambda: view.isolate((selection.hex,)),
                 enabled=lambda: selection.hex is not None,
                 in_view=True,
             ),
             Action(
                 id="dig",
-                text="&Dig hex away",
+                text=tr("&Dig hex away"),
                 menu="Hex",
                 part=1,
                 keys="Delete",
-                help="Hide the selected hex to see behind it. Ctrl+click in the view does the same.",
+                help=tr("Hide the selected hex to see behind it. Ctrl+click in the view does the same."),
                 handle=lambda: self._dig(selection.hex),
                 enabled=lambda: selection.hex is not None,
                 in_view=True,
             ),
             Action(
                 id="undig",
-                text="&Undo dig",
+                text=tr("&Undo dig"),
                 menu="Hex",
                 part=1,
                 keys="Backspace",
-                help="Restore the hex that was dug away last.",
+                help=tr("Restore the hex that was dug away last."),
                 handle=view.undig_last,
                 enabled=lambda: bool(view.look.dug),
                 in_view=True,
@@ -103,21 +104,21 @@ class FeatureCut(Feature):
         return (
             Panel(
                 id="cut",
-                title="Cut",
+                title=tr("Cut"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                tab="Cut",
+                tab=tr("Cut"),
                 order=30,
-                help="Cut the mesh open with planes or a box.",
+                help=tr("Cut the mesh open with planes or a box."),
             ),
             Panel(
                 id="inside",
-                title="Inside",
+                title=tr("Inside"),
                 widget=self.inside,
                 place=PanelPlace.TOOLS,
-                tab="Cut",
+                tab=tr("Cut"),
                 order=31,
-                help="Peel, shrink, isolate and dig hexes.",
+                help=tr("Peel, shrink, isolate and dig hexes."),
             ),
         )
 

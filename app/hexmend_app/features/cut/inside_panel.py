@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpin
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.geometry.skin import WHOLE
 from hexmend_app.theme.style import icon, note, set_help, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.slider_box import SliderBox
 from hexmend_app.widgets.wording import counted
@@ -68,23 +69,25 @@ class InsidePanel(QWidget):
         self._rings.setRange(0, _MAX_RINGS)
         self._rings.setFont(tabular(self._rings.font()))
         self._rings.setFixedWidth(width)
-        set_help(self._rings, "Rings around isolated hexes", _RINGS)
+        set_help(self._rings, tr("Rings around isolated hexes"), _RINGS)
         self.isolated = QLabel()
-        self._all = QPushButton("All")
+        self._all = QPushButton(tr("All"))
         self._all.setFixedWidth(44)  # the style's minimum of 80 pixels is too wide
-        set_help(self._all, "Show all", "End the isolation and show all hexes.")
+        set_help(self._all, tr("Show all"), tr("End the isolation and show all hexes."))
         self.dug = QLabel()
         self._undo = QPushButton(icon("undo"), "")
-        set_help(self._undo, "Undo dig", "Restore the hex that was dug away last.")
+        set_help(self._undo, tr("Undo dig"), tr("Restore the hex that was dug away last."))
         self._restore = QPushButton(icon("restore"), "")
         for button in (self._undo, self._restore):
             button.setFixedWidth(34)
-        set_help(self._restore, "Restore all", "Restore all hexes that were dug away.")
-        self._outline = QCheckBox("Sharp edges and outline")
+        set_help(self._restore, tr("Restore all"), tr("Restore all hexes that were dug away."))
+        self._outline = QCheckBox(tr("Sharp edges and outline"))
         set_help(
             self._outline,
-            "Sharp edges and outline",
-            "Draw the sharp edges of the boundary, paler where hexes are hidden, and the shading of rounded bodies.",
+            tr("Sharp edges and outline"),
+            tr(
+                "Draw the sharp edges of the boundary, paler where hexes are hidden, and the shading of rounded bodies."
+            ),
         )
         self.shown = note()
         self.shown.setFont(tabular(self.shown.font()))
@@ -138,9 +141,13 @@ class InsidePanel(QWidget):
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)
         isolated = len(look.isolation.hexes) if look.isolation is not None else 0
-        self.isolated.setText(f"{counted(isolated, 'hex')} isolated" if isolated else "No hexes isolated")
+        self.isolated.setText(
+            tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
+        )
         self._all.setEnabled(look.isolation is not None)
-        self.dug.setText(f"{counted(len(look.dug), 'hex')} dug away" if look.dug else "No hexes dug away")
+        self.dug.setText(
+            tr("{count} dug away", count=counted(len(look.dug), "hex")) if look.dug else tr("No hexes dug away")
+        )
         for button in (self._undo, self._restore):
             button.setEnabled(bool(look.dug))
         self._outline.setChecked(look.outline)
@@ -148,4 +155,6 @@ class InsidePanel(QWidget):
     def set_shown(self, shown: int, total: int) -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""
         cut = ", then cut" if shown and self._cut_smoothly else ""
-        self.shown.setText(f"{shown:,} of {counted(total, 'hex')} shown{cut}" if total else "")
+        self.shown.setText(
+            tr("{shown:,} of {count} shown{cut}", shown=shown, count=counted(total, "hex"), cut=cut) if total else ""
+        )

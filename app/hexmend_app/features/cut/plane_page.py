@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QSlider, QWidget
 
 from hexmend_app.picture.cut_planes import ClipPlane
 from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.form_grid import form_grid
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import position
@@ -42,16 +43,20 @@ class PlanePage(QWidget):
         )
         self._flip = QPushButton(icon("swap-horizontal"), "")
         self._flip.setFixedWidth(34)
-        set_help(self._flip, "Flip", "Hide the opposite side of the plane.")
+        set_help(self._flip, tr("Flip"), tr("Hide the opposite side of the plane."))
         self._slider = QSlider(Qt.Orientation.Horizontal)
         self._slider.setRange(0, _TICKS)
         self._slider.setPageStep(_TICKS // 20)
-        set_help(self._slider, "Position", "Position of the plane; arrow keys move it by 1/1000 of the mesh's extent.")
+        set_help(
+            self._slider,
+            tr("Position"),
+            tr("Position of the plane; arrow keys move it by 1/1000 of the mesh's extent."),
+        )
         self._value = QLabel()
         self._value.setFont(tabular(self._value.font()))
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
-        set_help(self._value, "Position in mesh units", "Position along the plane's normal, in mesh units.")
+        set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
         grid = form_grid(self, "Position")
         for row, (text, widget, companion) in enumerate(
             (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))

@@ -6,6 +6,7 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QTabBar, QWidget
 
 from hexmend_app.theme.style import icon, set_help
+from hexmend_app.translation import tr
 
 _SNAP = "Align a plane with an axis when it is rotated close to the axis."
 
@@ -41,16 +42,16 @@ class PlaneRow(QWidget):
         self._tabs.setExpanding(False)
         self._tabs.setUsesScrollButtons(True)
         self._tabs.setMinimumWidth(64)  # its hint for one tab is twice as wide
-        set_help(self._tabs, "Plane", "Plane that is edited here and in the view.")
+        set_help(self._tabs, tr("Plane"), tr("Plane that is edited here and in the view."))
         self._add, self._remove = QPushButton(icon("plus"), ""), QPushButton(icon("minus"), "")
         for button in (self._add, self._remove):
             button.setFixedWidth(30)
-        set_help(self._add, "Add plane", "Add a cutting plane.")
-        set_help(self._remove, "Remove plane", "Remove this cutting plane.")
-        self._snap = QCheckBox("Snap")
+        set_help(self._add, tr("Add plane"), tr("Add a cutting plane."))
+        set_help(self._remove, tr("Remove plane"), tr("Remove this cutting plane."))
+        self._snap = QCheckBox(tr("Snap"))
         self._snap.setChecked(True)
-        set_help(self._snap, "Snap to axes", _SNAP)
-        label = QLabel("Plane")
+        set_help(self._snap, tr("Snap to axes"), _SNAP)
+        label = QLabel(tr("Plane"))
         label.setBuddy(self._tabs)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

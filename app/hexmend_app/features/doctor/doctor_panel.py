@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.doctor import PROBLEMS, Finding
 from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
 
 _CHECKING = "Checking the mesh…"
@@ -40,8 +41,8 @@ class DoctorPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._head = note(_CHECKING)
-        self._all = QPushButton(icon("bandage"), "Repair all")
-        set_help(self._all, "Repair all", "Repair all problems that can be repaired. Can be undone.")
+        self._all = QPushButton(icon("bandage"), tr("Repair all"))
+        set_help(self._all, tr("Repair all"), tr("Repair all problems that can be repaired. Can be undone."))
         self._all.clicked.connect(lambda: self.repair_requested.emit([]))
         self._rows = QGridLayout()
         self._rows.setColumnStretch(0, 1)
@@ -71,7 +72,9 @@ class DoctorPanel(QWidget):
             self._head.setText(problem or _CHECKING)
         else:
             count = len(findings)
-            self._head.setText(f"{count} finding{'s' * (count != 1)}:" if count else _HEALTHY)
+            self._head.setText(
+                tr("{findings}:", findings=counted(count, "finding")) if count else _HEALTHY
+            )
         for row, finding in enumerate(findings or ()):
             self._add(row, finding)
         self._all.setVisible(len(self._repair_buttons) > 1)
@@ -92,15 +95,15 @@ class DoctorPanel(QWidget):
         text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._rows.addWidget(text, row, 0)
         if location:
-            show = QPushButton(icon("eye-outline"), "Show")
+            show = QPushButton(icon("eye-outline"), tr("Show"))
             help = "Show only these hexes and their neighbours. Press Esc to show all."
-            set_help(show, f"Show: {problem.title}", help)
+            set_help(show, tr("Show: {title}", title=problem.title), help)
             show.clicked.connect(lambda: self.show_requested.emit(row))
             self._rows.addWidget(show, row, 1, Qt.AlignmentFlag.AlignTop)
         if finding.mendable:
-            repair = QPushButton(icon("bandage"), "Repair")
+            repair = QPushButton(icon("bandage"), tr("Repair"))
             action = f"{problem.action[:1].upper()}{problem.action[1:]}"
-            set_help(repair, f"Repair: {problem.title}", f"{action}. Can be undone.")
+            set_help(repair, tr("Repair: {title}", title=problem.title), tr("{action}. Can be undone.", action=action))
             repair.clicked.connect(lambda: self.repair_requested.emit([finding.kind]))
             self._rows.addWidget(repair, row, 2, Qt.AlignmentFlag.AlignTop)
             self._repair_buttons.append(repair)

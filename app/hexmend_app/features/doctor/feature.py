@@ -10,6 +10,7 @@ from hexmend.doctor import Finding
 from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.doctor.doctor_panel import DoctorPanel
+from hexmend_app.translation import tr
 
 
 class FeatureDoctor(Feature):
@@ -35,20 +36,20 @@ class FeatureDoctor(Feature):
         return (
             Action(
                 id="doctor",
-                text="&Doctor",
+                text=tr("&Doctor"),
                 menu="Edit",
                 part=1,
                 icon="stethoscope",
-                help="Find problems other than quality: numbering, unmerged blocks, duplicates.",
+                help=tr("Find problems other than quality: numbering, unmerged blocks, duplicates."),
                 handle=lambda: self.host.show_panel("doctor"),
             ),
             Action(
                 id="repair",
-                text="&Repair mesh",
+                text=tr("&Repair mesh"),
                 menu="Edit",
                 part=1,
                 icon="bandage",
-                help="Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone.",
+                help=tr("Repair numbering, unmerged blocks, duplicates and unused nodes. Can be undone."),
                 handle=lambda: self._repair([]),
                 enabled=lambda: self.session.editable,
             ),
@@ -59,11 +60,11 @@ class FeatureDoctor(Feature):
         return (
             Panel(
                 id="doctor",
-                title="Doctor",
+                title=tr("Doctor"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=60,
-                help="Problems other than quality, with their location and repair.",
+                help=tr("Problems other than quality, with their location and repair."),
             ),
         )
 
@@ -97,13 +98,15 @@ class FeatureDoctor(Feature):
 
     def _on_began(self) -> None:
         help = "Cancel the repair. The mesh does not change."
-        self.host.busy.show_work("repair", "Repairing mesh…", "Cancel", help, self.session.repairer.cancel)
+        self.host.busy.show_work("repair", tr("Repairing mesh…"), tr("Cancel"), help, self.session.repairer.cancel)
         self.host.refresh_soon()
 
     def _on_ended(self, repaired: tuple[Finding, ...]) -> None:
         self.host.busy.done("repair")
         messages = " ".join(finding.message for finding in repaired)
-        self.host.messages.show_info(f"Repaired: {messages}" if repaired else "Nothing to repair.")
+        self.host.messages.show_info(
+            tr("Repaired: {messages}", messages=messages) if repaired else tr("Nothing to repair.")
+        )
         self.host.refresh_soon()
 
     def _on_failed(self, error: Exception) -> None:
@@ -111,9 +114,9 @@ class FeatureDoctor(Feature):
         self.host.refresh_soon()
         if not isinstance(error, HexmendError):
             raise error
-        self.host.messages.show_error("Mesh not repaired", str(error))
+        self.host.messages.show_error(tr("Mesh not repaired"), str(error))
 
     def _on_cancelled(self) -> None:
         self.host.busy.done("repair")
-        self.host.messages.show_info("Repair cancelled.")
+        self.host.messages.show_info(tr("Repair cancelled."))
         self.host.refresh_soon()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend_app.feature import Action, Feature
+from hexmend_app.translation import tr
 
 
 class FeatureEdit(Feature):
@@ -18,24 +19,24 @@ class FeatureEdit(Feature):
         return (
             Action(
                 id="undo",
-                text="&Undo",
+                text=tr("&Undo"),
                 menu="Edit",
                 keys="Ctrl+Z",
                 icon="undo",
-                help="Undo the last change of the mesh.",
-                tool="Undo",
+                help=tr("Undo the last change of the mesh."),
+                tool=tr("Undo"),
                 handle=commands.undo,
                 enabled=lambda: self.session.editable and self._undo_title is not None,
                 title=lambda: f"&Undo {self._undo_title or ''}".strip(),
             ),
             Action(
                 id="redo",
-                text="&Redo",
+                text=tr("&Redo"),
                 menu="Edit",
                 keys="Ctrl+Shift+Z",
                 icon="redo",
-                help="Redo the change that was undone last.",
-                tool="Redo",
+                help=tr("Redo the change that was undone last."),
+                tool=tr("Redo"),
                 handle=commands.redo,
                 enabled=lambda: self.session.editable and self._redo_title is not None,
                 title=lambda: f"&Redo {self._redo_title or ''}".strip(),

@@ -9,6 +9,7 @@ from hexmend.errors import HexmendError
 from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.picture import Page
 from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_figures
 from hexmend_app.widgets.incremental_task import IncrementalTask
 
@@ -34,11 +35,11 @@ class FeatureFigures(Feature):
         return (
             Action(
                 id="figure_set",
-                text="E&xport figure set…",
+                text=tr("E&xport figure set…"),
                 menu="File",
                 part=1,
                 icon="image-multiple-outline",
-                help="Save pictures, distributions, convergence and a table, with captions and commands.",
+                help=tr("Save pictures, distributions, convergence and a table, with captions and commands."),
                 handle=self.ask,
                 enabled=lambda: self.canvas is not None and not self.session.run.busy and not self.going_on,
             ),
@@ -65,7 +66,7 @@ class FeatureFigures(Feature):
         try:
             self._begin(folder)
         except HexmendError as error:
-            self.host.messages.show_error("Figure set not exported", str(error))
+            self.host.messages.show_error(tr("Figure set not exported"), str(error))
 
     def cancel(self) -> None:
         """Cancel the export; files already written are kept."""
@@ -88,10 +89,12 @@ class FeatureFigures(Feature):
         self._drawing.begin(draw(*self._event.arguments), _progress_text)
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error("Figure set not exported", f"A figure could not be drawn: {error}")
+        self.host.messages.show_error(
+            tr("Figure set not exported"), tr("A figure could not be drawn: {error}", error=error)
+        )
 
     def _on_drawn(self) -> None:
-        self.host.messages.show_info(f"Figure set saved to {self._folder}")
+        self.host.messages.show_info(tr("Figure set saved to {folder}", folder=self._folder))
         self.session.user_event.emit(self._event)
 
 

@@ -14,6 +14,7 @@ from hexmend_app.picture import Page
 from hexmend_app.scene.film.film_frames import chosen_iterations, film_frames
 from hexmend_app.state.mesh.run_record import RecordedIteration, RunRecord
 from hexmend_app.state.session.user_events import FileExported, IterationsExported, displacement_since
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_film
 from hexmend_app.widgets.incremental_task import IncrementalTask
 
@@ -43,11 +44,11 @@ class FeatureFilm(Feature):
         return (
             Action(
                 id="film",
-                text="Save fil&m…",
+                text=tr("Save fil&m…"),
                 menu="Timeline",
                 part=2,
                 icon="movie-open-outline",
-                help="Save the iterations of the run as an animation, as shown in the view.",
+                help=tr("Save the iterations of the run as an animation, as shown in the view."),
                 handle=self.ask,
                 enabled=lambda: self.canvas is not None and self.session.timeline.record is not None,
             ),
@@ -87,7 +88,7 @@ class FeatureFilm(Feature):
         try:
             format_of(path)
         except HexmendError as error:
-            self.host.messages.show_error("Film not saved", str(error))
+            self.host.messages.show_error(tr("Film not saved"), str(error))
             return
         numbers = chosen_iterations(history, record, choice.frames)
         view = self.canvas.viewport
@@ -114,18 +115,20 @@ class FeatureFilm(Feature):
         """Cancel the film if its run was deleted."""
         if self.going_on and self._record not in self.session.history.records:
             self.cancel()
-            self.host.messages.show_error("Film not saved", "Its run was deleted before the last frame was drawn.")
+            self.host.messages.show_error(
+                tr("Film not saved"), tr("Its run was deleted before the last frame was drawn.")
+            )
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error("Film not saved", f"A frame could not be drawn: {error}.")
+        self.host.messages.show_error(tr("Film not saved"), tr("A frame could not be drawn: {error}.", error=error))
 
     def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.film.film import write_film
 
         saved = self.host.try_and_report(
-            "Film not saved",
+            tr("Film not saved"),
             lambda: write_film(self._path, frames, self._rate),
-            f"Film of {len(frames)} frames saved to {self._path}",
+            tr("Film of {count} frames saved to {path}", count=len(frames), path=self._path),
         )
         if saved:
             self.session.user_event.emit(self._event)

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend_app.theme.style import note, set_help
+from hexmend_app.translation import tr
 
 #: Widths to choose from, in pixels.
 WIDTHS = (640, 960, 1280, 1920, 2560)
@@ -69,34 +70,36 @@ class FilmDialog(QDialog):
 
     def __init__(self, choice: FilmChoice, view: tuple[int, int], iterations: int, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Save film")
+        self.setWindowTitle(tr("Save film"))
         self._size, self._rate, self._frames = QComboBox(), QSpinBox(), QSpinBox()
         for width in WIDTHS:
             self._size.addItem("{} × {} pixels".format(*FilmChoice(width).size(view)), width)
         self._size.setCurrentIndex(max(0, self._size.findData(choice.width)))
-        set_help(self._size, "Size", "Width and height of the film, including caption and colour bar.")
+        set_help(self._size, tr("Size"), tr("Width and height of the film, including caption and colour bar."))
         self._rate.setRange(1, 50)
-        self._rate.setSuffix(" frames per second")
+        self._rate.setSuffix(tr(" frames per second"))
         self._rate.setValue(choice.rate)
-        set_help(self._rate, "Rate", "Iterations shown per second.")
+        set_help(self._rate, tr("Rate"), tr("Iterations shown per second."))
         self._frames.setRange(2, 1000)
-        self._frames.setSuffix(" frames")
+        self._frames.setSuffix(tr(" frames"))
         self._frames.setValue(choice.frames)
-        set_help(self._frames, "Frames", "Largest number of frames. Longer runs are thinned out evenly.")
-        self._histogram = QCheckBox("Histogram next to the mesh")
+        set_help(self._frames, tr("Frames"), tr("Largest number of frames. Longer runs are thinned out evenly."))
+        self._histogram = QCheckBox(tr("Histogram next to the mesh"))
         self._histogram.setChecked(choice.histogram)
-        set_help(self._histogram, "Histogram", "Show the distribution of values next to the mesh.")
+        set_help(self._histogram, tr("Histogram"), tr("Show the distribution of values next to the mesh."))
         form = QFormLayout()
-        form.addRow("Size", self._size)
-        form.addRow("Rate", self._rate)
-        form.addRow("At most", self._frames)
+        form.addRow(tr("Size"), self._size)
+        form.addRow(tr("Rate"), self._rate)
+        form.addRow(tr("At most"), self._frames)
         form.addRow("", self._histogram)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        buttons.addButton("Save as…", QDialogButtonBox.ButtonRole.AcceptRole)
+        buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.AcceptRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
-        column.addWidget(note(f"{iterations + 1:,} iterations, with the cut, colours and arrows of the view."))
+        column.addWidget(
+            note(tr("{count:,} iterations, with the cut, colours and arrows of the view.", count=iterations + 1))
+        )
         column.addLayout(form)
         column.addWidget(buttons)
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from hexmend import __version__
 from hexmend_app.feature import Action, Feature
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import show_about
 
 
@@ -19,10 +20,10 @@ class FeatureHelp(Feature):
         return (
             Action(
                 id="about",
-                text="&About Hexmend",
+                text=tr("&About Hexmend"),
                 menu="Help",
                 part=1,
-                help="Show version, licence and sources.",
+                help=tr("Show version, licence and sources."),
                 needs_mesh=False,
                 handle=lambda: show_about(self.host.dialog_parent, __version__),
             ),

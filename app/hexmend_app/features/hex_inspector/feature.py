@@ -14,6 +14,7 @@ from hexmend_app.features.hex_inspector.worst_file import write_worst
 from hexmend_app.features.hex_inspector.worst_list import WorstList, WorstListSettings
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.state.tasks.boundary_classifier import WHISKER
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_list
 from hexmend_app.widgets.wording import counted
 
@@ -64,21 +65,21 @@ class FeatureHexInspector(Feature):
         return (
             Action(
                 id="next_worst",
-                text="&Next worst hex",
+                text=tr("&Next worst hex"),
                 menu="Hex",
                 keys="N",
                 icon="bullseye-arrow",
-                help="Go to the next hex in the list of the worst.",
-                tool="Worst",
+                help=tr("Go to the next hex in the list of the worst."),
+                tool=tr("Worst"),
                 handle=self.worst_list.next,
             ),
             Action(
                 id="previous_worst",
-                text="&Previous worst hex",
+                text=tr("&Previous worst hex"),
                 menu="Hex",
                 keys="Shift+N",
                 icon="chevron-up",
-                help="Go to the previous hex in the list of the worst.",
+                help=tr("Go to the previous hex in the list of the worst."),
                 handle=self.worst_list.previous,
             ),
         )
@@ -88,21 +89,21 @@ class FeatureHexInspector(Feature):
         return (
             Action(
                 id="visit",
-                text="&Zoom to hex",
+                text=tr("&Zoom to hex"),
                 menu="Hex",
                 keys="Shift+F",
-                help="Move the camera to the selected hex.",
+                help=tr("Move the camera to the selected hex."),
                 handle=lambda: self._selection.visit(self._selection.hex),
                 enabled=lambda: self._selection.hex is not None,
                 in_view=True,
             ),
             Action(
                 id="pin",
-                text="&Pin node",
+                text=tr("&Pin node"),
                 menu="Hex",
                 keys="Shift+P",
                 icon="pin-outline",
-                help="Pin the selected node so that no method moves it, or unpin it; undo reverts this.",
+                help=tr("Pin the selected node so that no method moves it, or unpin it; undo reverts this."),
                 handle=lambda on: session.commands.pin(self._selection.node, on),
                 enabled=lambda: session.editable and self._can_be_pinned(),
                 checked=self._is_pinned,
@@ -110,20 +111,22 @@ class FeatureHexInspector(Feature):
             ),
             Action(
                 id="free_isolated",
-                text="Pin &all but the isolated hexes",
+                text=tr("Pin &all but the isolated hexes"),
                 menu="Hex",
                 icon="pin-off-outline",
-                help="Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this.",
+                help=tr(
+                    "Pin all nodes except those of the isolated hexes and the rings around them; undo reverts this."
+                ),
                 handle=self._free_isolated,
                 enabled=lambda: session.editable and self._view.look.isolation is not None,
             ),
             Action(
                 id="back",
-                text="&End isolation or clear selection",
+                text=tr("&End isolation or clear selection"),
                 menu="Hex",
                 part=3,
                 keys="Esc",
-                help="End the isolation, then clear the selection.",
+                help=tr("End the isolation, then clear the selection."),
                 handle=self._back,
                 enabled=lambda: (
                     self.host.messages.isHidden()
@@ -155,19 +158,19 @@ class FeatureHexInspector(Feature):
         return (
             Panel(
                 id="worst",
-                title="Worst",
+                title=tr("Worst"),
                 widget=self.worst_list,
                 place=PanelPlace.DRAWER,
                 order=1,
-                help="The worst hexes by any metric.",
+                help=tr("The worst hexes by any metric."),
             ),
             Panel(
                 id="hex",
-                title="Hex",
+                title=tr("Hex"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=2,
-                help="Details of the selected hex and its nodes.",
+                help=tr("Details of the selected hex and its nodes."),
                 scrolls=True,
             ),
         )
@@ -255,7 +258,7 @@ class FeatureHexInspector(Feature):
         arguments = Path(path), self._document.now, self.worst_list.chosen_metric
         event = FileExported("worst hexes", write_worst, arguments)
         return self.host.try_and_report(
-            "The list was not saved",
+            tr("The list was not saved"),
             lambda: self.session.commands.export(event),
-            f"{counted(len(self.worst_list.hexes), 'hex')} saved to {path}",
+            tr("{count} saved to {path}", count=counted(len(self.worst_list.hexes), "hex"), path=path),
         )

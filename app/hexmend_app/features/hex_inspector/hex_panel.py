@@ -31,6 +31,7 @@ from hexmend_app.theme.style import (
     tabular,
     tint,
 )
+from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.wording import counted, figure
@@ -81,35 +82,39 @@ class HexPanel(QWidget):
         self._title.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._state = QLabel()
         tint(self._state, INVERTED_TEXT)
-        self._in_view = QCheckBox("Corner qualities in the view")
-        set_help(self._in_view, "Corner qualities in the view", "Show q(T) at the corners of the hex in the view.")
+        self._in_view = QCheckBox(tr("Corner qualities in the view"))
+        set_help(
+            self._in_view, tr("Corner qualities in the view"), tr("Show q(T) at the corners of the hex in the view.")
+        )
         self._in_view.toggled.connect(self.corners_toggled)
-        self._zoom = QPushButton(icon("target"), "Zoom to hex")
+        self._zoom = QPushButton(icon("target"), tr("Zoom to hex"))
         set_help(
             self._zoom,
-            "Zoom to hex",
-            "Move the camera to the hex; Enter or a double-click in the list of the worst does the same.",
+            tr("Zoom to hex"),
+            tr("Move the camera to the hex; Enter or a double-click in the list of the worst does the same."),
         )
         self._zoom.clicked.connect(self.zoom_requested)
         self._values = {name: self._number() for name in METRICS}
         self._corners = [(LinkLabel(), self._number(), self._number()) for _ in range(8)]
         self._neighbours = LinkLabel()
         self._neighbours.followed.connect(self.chosen)
-        set_help(self._neighbours, "Neighbours", "The hexes across the six faces; click one to select it.")
+        set_help(self._neighbours, tr("Neighbours"), tr("The hexes across the six faces; click one to select it."))
         self._node: NodeDetails | None = None
         self._about_node = QLabel()
         self._about_node.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         set_help(
             self._about_node,
-            "Node",
-            "The energy is the sum of η(H)² over the hexes of the node (3.3). The arrow in the view is the direction "
-            "of steepest descent; the gradient is given per mean edge length.",
+            tr("Node"),
+            tr(
+                "The energy is the sum of η(H)² over the hexes of the node (3.3). The arrow in the view is the direction "
+                "of steepest descent; the gradient is given per mean edge length."
+            ),
         )
-        self._pin = QCheckBox("Pinned")
-        set_help(self._pin, "Pinned", "Keep this node in place in every method, also on a sliding boundary.")
+        self._pin = QCheckBox(tr("Pinned"))
+        set_help(self._pin, tr("Pinned"), tr("Keep this node in place in every method, also on a sliding boundary."))
         self._pin.clicked.connect(lambda on: self.pin_toggled.emit(self._node.number, on))
         for corner, (node, _, _) in enumerate(self._corners):
-            node.setAccessibleName(f"Node at corner {corner}")
+            node.setAccessibleName(tr("Node at corner {corner}", corner=corner))
             _align_digits(node)
             node.followed.connect(self.node_chosen)
         self._lay_out(page)
@@ -180,7 +185,7 @@ class HexPanel(QWidget):
             return
         self._title.setText(f"Hex {details.number:,}" + (f": {', '.join(tags)}" if tags else ""))
         locked = "inverted, locked by its fixed nodes"
-        self._state.setText(locked if details.locked else "inverted" if details.inverted else "")
+        self._state.setText(locked if details.locked else tr("inverted") if details.inverted else "")
         for name, label in self._values.items():
             value = details.values[name]
             label.setText("∞" if value == np.inf else figure(value))
@@ -188,7 +193,7 @@ class HexPanel(QWidget):
         worst = int(details.corners.argmin()) if np.ptp(details.corners) > 1e-9 else -1
         for k, (node, kind, quality) in enumerate(self._corners):
             node.setText(f'&#8203;<a href="{details.nodes[k]}">{details.nodes[k]:,}</a>')
-            kind.setText("fixed" if details.fixed[k] else "free")
+            kind.setText(tr("fixed") if details.fixed[k] else tr("free"))
             tint(kind, MUTED)
             quality.setText(figure(float(details.corners[k]), 3))
             tint(quality, WORSE if details.corners[k] == 0 or k == worst else TEXT)
@@ -212,7 +217,7 @@ class HexPanel(QWidget):
         self._node = details
         self._pin.setVisible(details is not None)
         if details is None:
-            self._about_node.setText("Click near a corner or on a node number to select a node.")
+            self._about_node.setText(tr("Click near a corner or on a node number to select a node."))
             return
         kind = f"{details.kind}, pinned" if details.pinned and details.kind == "boundary" else details.kind
         parts = [f"Node {details.number:,}: {kind}", boundary_class, counted(details.ring.size, "hex")]

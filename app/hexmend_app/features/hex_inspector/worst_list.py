@@ -24,6 +24,7 @@ from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
 from hexmend_app.state.mesh.worst_hexes import Worst
 from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.metric_texts import described, metrics_offered
 from hexmend_app.widgets.tables.hex_table import shape_table
@@ -69,16 +70,22 @@ class WorstList(QWidget):
             self._metric.addItem(metric.title, metric.name)
             self._metric.setItemData(self._metric.count() - 1, described(metric), Qt.ItemDataRole.ToolTipRole)
         set_help(
-            self._metric, "Worst by", "Metric that sorts the list; hexes of equal value are sorted by scaled Jacobian."
+            self._metric,
+            tr("Worst by"),
+            tr("Metric that sorts the list; hexes of equal value are sorted by scaled Jacobian."),
         )
         self._metric.currentIndexChanged.connect(self._refresh)
         self._metric.currentIndexChanged.connect(lambda: self.metric_chosen.emit(self.chosen_metric))
-        self._isolate = QCheckBox("Isolate")
+        self._isolate = QCheckBox(tr("Isolate"))
         self._isolate.setChecked(True)
-        set_help(self._isolate, "Isolate", "Show only the selected hex and its neighbours; Esc shows all hexes again.")
+        set_help(
+            self._isolate,
+            tr("Isolate"),
+            tr("Show only the selected hex and its neighbours; Esc shows all hexes again."),
+        )
         self._previous, self._next = ActionButton("chevron-up"), ActionButton("chevron-down")
         self._save = QPushButton(icon("content-save-outline"), "")  # no text: the dock is narrow
-        set_help(self._save, "Save list", "Save the list as CSV, one line per hex.")
+        set_help(self._save, tr("Save list"), tr("Save the list as CSV, one line per hex."))
         self._save.clicked.connect(self.save_requested)
         self._model = WorstModel(self)
         self._table = self._make_table()
@@ -105,7 +112,7 @@ class WorstList(QWidget):
 
     def _lay_out(self) -> None:
         head = QHBoxLayout()
-        label = QLabel("Worst by")
+        label = QLabel(tr("Worst by"))
         label.setBuddy(self._metric)
         for widget in (label, self._metric):
             head.addWidget(widget)
@@ -192,7 +199,7 @@ class WorstList(QWidget):
         mesh, figures = self._mesh, self._figures
         self._save.setEnabled(mesh is not None)
         if mesh is None:
-            self._text.setText("No mesh is open.")
+            self._text.setText(tr("No mesh is open."))
             return
         metric = METRICS[self.chosen_metric]
         worst = Worst.of(mesh, figures, metric.name)
@@ -201,7 +208,15 @@ class WorstList(QWidget):
         self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)
         listed = "" if worst.hexes.size == mesh.n_hexes else f"The {worst.hexes.size:,} worst of "
         order = "" if metric.name == "scaled-jacobian" else "; ties sorted by scaled Jacobian"
-        self._text.setText(f"{listed}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
+        self._text.setText(
+            tr(
+                "{listed}{count}, {n_inverted:,} inverted{order}",
+                listed=listed,
+                count=counted(mesh.n_hexes, "hex"),
+                n_inverted=figures.n_inverted,
+                order=order,
+            )
+        )
         self._select_row()
 
     def _select_row(self) -> None:

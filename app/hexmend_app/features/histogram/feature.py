@@ -20,6 +20,7 @@ from hexmend_app.state.mesh.metric_cache import metric_values
 from hexmend_app.state.mesh.snapshots import Snapshot
 from hexmend_app.state.session.user_events import FileExported
 from hexmend_app.theme.palette import BLUE, GREY, KEPT
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.export_dialog import ChartDialog, answer
 
 _KINDS = "SVG figure (*.svg);;PDF figure (*.pdf);;PNG picture (*.png);;Counts (*.csv)"
@@ -67,11 +68,11 @@ class FeatureHistogram(Feature):
         return (
             Panel(
                 id="histogram",
-                title="Histogram",
+                title=tr("Histogram"),
                 widget=self.panel,
                 place=PanelPlace.FACTS,
                 order=10,
-                help="Distribution of a quality metric; drag over it to show only the hexes of a range.",
+                help=tr("Distribution of a quality metric; drag over it to show only the hexes of a range."),
             ),
         )
 
@@ -159,9 +160,9 @@ class FeatureHistogram(Feature):
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
         return self.host.try_and_report(
-            "The histogram was not saved",
+            tr("The histogram was not saved"),
             lambda: self.session.commands.export(self._export_event(Path(path), style)),
-            f"Histogram saved to {path}",
+            tr("Histogram saved to {path}", path=path),
         )
 
     def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:

@@ -12,6 +12,7 @@ from hexmend.quality import METRICS
 from hexmend_app.codec.checks import check_count
 from hexmend_app.features.histogram.bins import DEFAULT_BINS, MAX_BINS, MIN_BINS
 from hexmend_app.theme.style import icon, set_help, smaller, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.menu_button import MenuButton
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -100,11 +101,11 @@ class HistogramHead(QWidget):
         self.bins.setRange(MIN_BINS, MAX_BINS)
         self.bins.setSingleStep(10)
         self.bins.setValue(DEFAULT_BINS)
-        self.bins.setSuffix(" bins")
+        self.bins.setSuffix(tr(" bins"))
         self.bins.setFont(tabular(smaller(self.font())))
         self.bins.setKeyboardTracking(False)
         self.bins.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self.bins, "Bins", _BINS)
+        set_help(self.bins, tr("Bins"), _BINS)
         self.bins.valueChanged.connect(self._on_bins)
         self._bin_actions = QActionGroup(self)
         for number in (MIN_BINS, 20, DEFAULT_BINS, 100, MAX_BINS):
@@ -114,11 +115,11 @@ class HistogramHead(QWidget):
             action.triggered.connect(lambda _=False, number=number: self.bins.setValue(number))
 
     def _lay_out(self) -> None:
-        self.more = MenuButton("More", "Cumulative shares, number of bins, keep, save.")
+        self.more = MenuButton(tr("More"), tr("Cumulative shares, number of bins, keep, save."))
         self.more.setIcon(icon("dots-vertical"))
         menu = self.more.menu()
         menu.addAction(self.cumulative)
-        menu.addMenu("Bins").addActions(self._bin_actions.actions())
+        menu.addMenu(tr("Bins")).addActions(self._bin_actions.actions())
         menu.addSeparator()
         menu.addActions([self.keep, self.save])
         buttons = {action: QToolButton() for action in (self.keep, self.cumulative)}
@@ -160,7 +161,7 @@ class HistogramHead(QWidget):
         self.metric_box.setItemText(0, f"{metric.title} (as colours)" if as_colours else "As colours")
         self.metric_box.setItemData(0, "Use the metric of the colours.", Qt.ItemDataRole.ToolTipRole)
         self.metric_box.setCurrentIndex(0 if as_colours else self.metric_box.findData(name))
-        set_help(self.metric_box, "Metric of the histogram", described(metric))
+        set_help(self.metric_box, tr("Metric of the histogram"), described(metric))
         self.metric_box.setToolTip(described(metric))
 
     def set_available(self, has_distribution: bool, full: bool) -> None:

@@ -11,6 +11,7 @@ from superqt import QFlowLayout
 
 from hexmend_app.theme.palette import HOVER, KEPT
 from hexmend_app.theme.style import BLUE, FIELD, GREY, LINE, MUTED, icon, note, on_theme_change, set_help, smaller
+from hexmend_app.translation import tr
 from hexmend_app.widgets.legend import Swatch, legend_entry
 
 _MAX_NAME_WIDTH, _HEIGHT = 150, 18
@@ -54,7 +55,7 @@ class HistogramLegend(QWidget):
         self._title.setSizePolicy(self.sizePolicy())
         self._title.setMinimumHeight(_HEIGHT)
         self._title.setContentsMargins(0, 0, 6, 0)
-        set_help(self._title, "Axis of values", help)
+        set_help(self._title, tr("Axis of values"), help)
         self._flow.addWidget(self._title)
         for text, colour in (("at the start", GREY), ("now", BLUE)):
             entry = legend_entry(text, colour)
@@ -86,7 +87,11 @@ class HistogramLegend(QWidget):
                 entry.cross.clicked.connect(lambda _=False, slot=slot: self.removed.emit(slot))
                 self._flow.addWidget(entry)
             self.entries[slot].name.show_name(name)
-            set_help(self.entries[slot].cross, f"Remove {name}", f"Remove {name} from the histogram.")
+            set_help(
+                self.entries[slot].cross,
+                tr("Remove {name}", name=name),
+                tr("Remove {name} from the histogram.", name=name),
+            )
         self.updateGeometry()
 
 
@@ -128,7 +133,7 @@ class _Name(QLineEdit):
         self._name = name
         self.setText(name)
         self.setCursorPosition(0)
-        set_help(self, f"Name of {name}", f"Distribution of {name}; click to rename it.")
+        set_help(self, tr("Name of {name}", name=name), tr("Distribution of {name}; click to rename it.", name=name))
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Announce a new name; an empty one is ignored."""

@@ -23,6 +23,7 @@ from hexmend_app.features.histogram.range_row import RangeRow
 from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.theme.palette import KEPT
 from hexmend_app.theme.style import MUTED, smaller, tabular, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 
 #: Width of the summary next to the range of numbers, in pixels.
@@ -94,7 +95,7 @@ class QualityHistogram(QWidget):
         self.range_row.chosen.connect(self._on_typed)
         self.range_row.cleared.connect(lambda: self._choose(None))
         # The tooltip of the plot shows counts; the help is the tooltip of the legend.
-        self.plot.plot.setAccessibleName("Histogram of hex quality")
+        self.plot.plot.setAccessibleName(tr("Histogram of hex quality"))
         self.plot.plot.setAccessibleDescription(_HELP)
         self.plot.plot.setWhatsThis(_HELP)
         self.plot.view.brushed.connect(self._on_brushed)
@@ -105,7 +106,7 @@ class QualityHistogram(QWidget):
         self.summary.setFont(tabular(smaller(self.summary.font())))
         self.summary.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         tint(self.summary, MUTED)
-        self.summary.setAccessibleName("Hexes shown")
+        self.summary.setAccessibleName(tr("Hexes shown"))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Place the summary right of the range of numbers, or below if the panel is too narrow."""

@@ -11,6 +11,7 @@ from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.end_box import EndBox
 from hexmend_app.picture.appearance import ValueRange
 from hexmend_app.theme.style import INVERTED, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
 
 _SPACING, _SWATCH = 4, 12
@@ -37,8 +38,8 @@ class RangeRow(QWidget):
         self._shown: ValueRange | None = None
         #: Ends of the range; a brushed end has more digits than its box.
         self._ends: dict[EndBox, float] = {}
-        self.low, self.high, self.all = EndBox(), EndBox(), QPushButton("All")
-        set_help(self.all, "Show all", "Show the hexes of all values (or double-click the plot).")
+        self.low, self.high, self.all = EndBox(), EndBox(), QPushButton(tr("All"))
+        set_help(self.all, tr("Show all"), tr("Show the hexes of all values (or double-click the plot)."))
         self.all.setFixedWidth(44)  # the style's 80 pixels are too wide for the row
         self.all.clicked.connect(self.cleared)
         self.inverted = QToolButton()
@@ -46,10 +47,10 @@ class RangeRow(QWidget):
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.inverted.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         self.inverted.setIconSize(QSize(_SWATCH, _SWATCH))
-        set_help(self.inverted, "Show inverted", _INVERTED)
+        set_help(self.inverted, tr("Show inverted"), _INVERTED)
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
-        self._label, to = QLabel("Show"), QLabel("to")
+        self._label, to = QLabel(tr("Show")), QLabel(tr("to"))
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(_SPACING)
@@ -71,7 +72,11 @@ class RangeRow(QWidget):
                 box.set_axis(axis)
             box.updateGeometry()
             name = f"{end} {metric} shown"
-            set_help(box, name, f"{name}; hexes beyond it are hidden. Dragging over the plot sets the same range.")
+            set_help(
+                box,
+                name,
+                tr("{name}; hexes beyond it are hidden. Dragging over the plot sets the same range.", name=name),
+            )
 
     def show_range(self, range: ValueRange | None) -> None:
         """Show a range, or None for all hexes, without emitting a signal."""

@@ -8,6 +8,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.movement.movement_panel import MovementPanel
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
+from hexmend_app.translation import tr
 
 
 class FeatureMovement(Feature):
@@ -31,11 +32,11 @@ class FeatureMovement(Feature):
         return (
             Panel(
                 id="movement",
-                title="Movement",
+                title=tr("Movement"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=30,
-                help="Displacement of the nodes and change of quality since a reference state.",
+                help=tr("Displacement of the nodes and change of quality since a reference state."),
                 scrolls=True,
             ),
         )

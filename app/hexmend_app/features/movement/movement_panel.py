@@ -11,6 +11,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, DisplacementC
 from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.scene.layers.arrows import MOST
 from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.segmented import Segmented
 from hexmend_app.widgets.wording import counted, figure, short_number
 
@@ -88,10 +89,10 @@ class MovementPanel(QWidget):
         self.factor.setPrefix("× ")
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
-        set_help(self.factor, "Length of arrows", _FACTOR)
-        self.show_newly = QPushButton("Show new")
+        set_help(self.factor, tr("Length of arrows"), _FACTOR)
+        self.show_newly = QPushButton(tr("Show new"))
         self._drawn = note()
-        set_help(self._drawn, "Number of arrows", _DRAWN)
+        set_help(self._drawn, tr("Number of arrows"), _DRAWN)
         self._figures = {name: _figure_label() for name in _FIGURES}
         self._lay_out()
         self.since.chosen.connect(lambda key: self._change(since=Since(key)))
@@ -168,7 +169,7 @@ class MovementPanel(QWidget):
         enabled = counts is not None and counts.newly_inverted > 0
         self.show_newly.setEnabled(enabled)
         help = "Show only the hexes that became inverted since the reference state; Esc shows all hexes again."
-        set_help(self.show_newly, "Show newly inverted", help if enabled else "No hex is newly inverted.")
+        set_help(self.show_newly, tr("Show newly inverted"), help if enabled else tr("No hex is newly inverted."))
         texts = ("No mesh is open.", "", "", "") if counts is None else _count_texts(counts, name, free)
         for label, text in zip(self._figures.values(), texts, strict=True):
             label.setText(text)

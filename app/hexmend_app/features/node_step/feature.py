@@ -14,6 +14,7 @@ from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.appearance import Isolation
+from hexmend_app.translation import tr
 
 #: Milliseconds until the panel reports that the step is being computed.
 _COMPUTING_DELAY = 200
@@ -47,7 +48,7 @@ class FeatureNodeStep(Feature):
         panel = self.panel = NodePanel()
         self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
         self._computing_timer.timeout.connect(
-            lambda: self._draw_message("Computing… A global method takes several seconds on a large mesh.")
+            lambda: self._draw_message(tr("Computing… A global method takes several seconds on a large mesh."))
         )
         session.node_step_task.answered.connect(self._computing_timer.stop)
         panel.node_chosen.connect(lambda node: self._selection.choose(self._selection.hex, node))
@@ -58,11 +59,11 @@ class FeatureNodeStep(Feature):
         return (
             Action(
                 id="explain_node",
-                text="&Explain node step",
+                text=tr("&Explain node step"),
                 menu="Hex",
                 part=2,
                 keys="D",
-                help="Explain the step of the selected method at the selected node, or at a node of the worst hex.",
+                help=tr("Explain the step of the selected method at the selected node, or at a node of the worst hex."),
                 handle=self._explain_node,
                 in_view=True,
             ),
@@ -92,11 +93,11 @@ class FeatureNodeStep(Feature):
         return (
             Panel(
                 id="node",
-                title="Node",
+                title=tr("Node"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=40,
-                help="Step of the selected method at the selected node.",
+                help=tr("Step of the selected method at the selected node."),
             ),
         )
 
@@ -135,7 +136,7 @@ class FeatureNodeStep(Feature):
             self._task.ask(*request)
             self._computing_timer.start()
         elif self._task.error is not None:
-            self._draw_message(f"The step could not be computed: {self._task.error}.")
+            self._draw_message(tr("The step could not be computed: {error}.", error=self._task.error))
         elif self._task.step is not None:
             self._show(self._task.step, done=False)
 
@@ -146,7 +147,7 @@ class FeatureNodeStep(Feature):
 
     def _draw_message(self, message: str) -> None:
         node = self._selection.node
-        self.panel.show_message(message, "" if node is None else f"Node {node:,}")
+        self.panel.show_message(message, "" if node is None else tr("Node {node:,}", node=node))
         self._draw(None)
 
     def _show(self, step: NodeStep, done: bool) -> None:

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFrame, QTextBrowser, QWidget
 
 from hexmend_app.features.node_step.step_texts import Row
 from hexmend_app.theme.style import MUTED, TEXT, on_theme_change, set_help, smaller
+from hexmend_app.translation import tr
 
 _ROW = (
     '<table width="100%" cellspacing="0" cellpadding="0" style="margin-top: 5px">'
@@ -28,7 +29,7 @@ class NodeFigures(QTextBrowser):
         self.setTabChangesFocus(True)
         self.viewport().setAutoFillBackground(False)
         self.document().setDocumentMargin(3)
-        set_help(self, "Figures of the step", "")
+        set_help(self, tr("Figures of the step"), "")
         on_theme_change(self, self._render)
 
     def show_rows(self, rows: Sequence[Row]) -> None:

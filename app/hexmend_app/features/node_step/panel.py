@@ -22,6 +22,7 @@ from hexmend_app.features.node_step.step_plot import NodePlot
 from hexmend_app.features.node_step.step_texts import displayed_status, rows
 from hexmend_app.theme.palette import OTHERWISE, SEARCH, TAKEN, TRIED, UPHILL
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.legend import legend_entry
 from hexmend_app.widgets.link_label import LinkLabel
@@ -70,14 +71,18 @@ class NodePanel(QWidget):
         self._nodes.setWordWrap(True)
         self._nodes.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._nodes.followed.connect(self.node_chosen)
-        set_help(self._nodes, "Free nodes", "Nodes of the selected hex that methods may move; click one to select it.")
-        self._patch = QCheckBox("Isolate patch")
-        set_help(self._patch, "Isolate patch", "Show only the hexes of the node; Esc shows all hexes again.")
+        set_help(
+            self._nodes,
+            tr("Free nodes"),
+            tr("Nodes of the selected hex that methods may move; click one to select it."),
+        )
+        self._patch = QCheckBox(tr("Isolate patch"))
+        set_help(self._patch, tr("Isolate patch"), tr("Show only the hexes of the node; Esc shows all hexes again."))
         self._patch.toggled.connect(self.patch_toggled)
         self._buttons = {name: ActionButton(with_text=True) for name in SWEEP}
         self._progress = QLabel()
         self._progress.setFont(tabular(self._progress.font()))
-        self._progress.setAccessibleName("Progress of the sweep")
+        self._progress.setAccessibleName(tr("Progress of the sweep"))
         tint(self._progress, MUTED)
         self._legend = self._make_legend()
         self._lay_out()
@@ -94,7 +99,7 @@ class NodePanel(QWidget):
             layout.addWidget(entry)
         self._edges = {text: legend_entry(text, OTHERWISE) for text in ("after", "before")}  # one of them is shown
         for text, entry in self._edges.items():
-            set_help(entry, text, f"Edges at the node {text} the step.")
+            set_help(entry, text, tr("Edges at the node {text} the step.", text=text))
             layout.addWidget(entry)
         row.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         layout.addStretch()
@@ -148,7 +153,7 @@ class NodePanel(QWidget):
         done : bool
             True if the node has been moved, False for a preview of the step.
         """
-        self._title.setText(f"Node {step.node:,}")
+        self._title.setText(tr("Node {node:,}", node=step.node))
         status = displayed_status(step)
         moves = status in (StepStatus.MOVED, StepStatus.SHORTENED)
         outcome = status.value if done or not moves else status.value.replace("Moved", "Will be moved")
@@ -168,7 +173,7 @@ class NodePanel(QWidget):
         if nodes is None:
             return
         links = (f"<b>{i:,}</b>" if i == selected else f'<a href="{i}">{i:,}</a>' for i in nodes)
-        self._nodes.setText(f"Free nodes: {' '.join(links) or 'none'}")
+        self._nodes.setText(tr("Free nodes: {nodes}", nodes=" ".join(links) or tr("none")))
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:
         """Show the actions of `SWEEP` on the buttons."""
@@ -177,7 +182,7 @@ class NodePanel(QWidget):
 
     def set_sweep(self, done: int = 0, total: int = 0) -> None:
         """Show the progress of the sweep."""
-        self._progress.setText(f"{done:,} of {total:,} nodes" if done else "")
+        self._progress.setText(tr("{done:,} of {total:,} nodes", done=done, total=total) if done else "")
 
     def set_patch(self, on: bool) -> None:
         """Show whether the patch is isolated in the view, without emitting a signal."""

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from hexmend.node_step import NodeStep
 from hexmend_app.theme.palette import AMBER, MUTED, PANEL, SEARCH, TAKEN, TEXT, TRIED
 from hexmend_app.theme.style import on_theme_change, set_help, smaller
+from hexmend_app.translation import tr
 from hexmend_app.widgets.plots import calm_plot
 
 _HELP = (
@@ -53,7 +54,7 @@ class NodePlot(QWidget):
         self._plot.addItem(self._dots)
         self.numbers: list[pg.TextItem] = []
         self._step: NodeStep | None = None
-        set_help(self._plot, "Energy along the direction", _HELP)
+        set_help(self._plot, tr("Energy along the direction"), _HELP)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._plot)

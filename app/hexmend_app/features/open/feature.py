@@ -17,6 +17,7 @@ from hexmend_app.resources import demo_mesh
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredPicture
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_mesh, remember_folder
 
 
@@ -52,21 +53,21 @@ class FeatureOpen(Feature):
         return (
             Action(
                 id="open",
-                text="&Open…",
+                text=tr("&Open…"),
                 menu="File",
                 keys="Ctrl+O",
                 icon="folder-open-outline",
-                help="Open a mesh file.",
-                tool="Open",
+                help=tr("Open a mesh file."),
+                tool=tr("Open"),
                 needs_mesh=False,
                 handle=self.ask,
                 submenu=self._menu,
             ),
             Action(
                 id="open_demo",
-                text="Open &demo mesh",
+                text=tr("Open &demo mesh"),
                 menu="File",
-                help="Open the demo mesh included with Hexmend.",
+                help=tr("Open the demo mesh included with Hexmend."),
                 needs_mesh=False,
                 handle=self.open_demo,
             ),
@@ -74,7 +75,7 @@ class FeatureOpen(Feature):
 
     def panels(self) -> Sequence[Panel]:
         """Return the welcome page, shown while no mesh is open."""
-        return (Panel(id="welcome", title="Welcome", widget=self.welcome, place=PanelPlace.EMPTY),)
+        return (Panel(id="welcome", title=tr("Welcome"), widget=self.welcome, place=PanelPlace.EMPTY),)
 
     def refresh(self) -> None:
         """Show the welcome page only while no mesh is open or opening."""
@@ -110,7 +111,7 @@ class FeatureOpen(Feature):
     def _show_progress(self, progress: LoadProgress) -> None:
         if self._opener.busy:
             self.host.busy.show_work(
-                "open", stage_text(progress), "Cancel", "Cancel opening (Esc).", self._opener.cancel
+                "open", stage_text(progress), tr("Cancel"), tr("Cancel opening (Esc)."), self._opener.cancel
             )
 
     def _on_ended(self, path: Path) -> None:
@@ -144,12 +145,16 @@ class FeatureOpen(Feature):
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")
-        self.host.messages.show_info(f"Opening {path.name} was cancelled.{self._open_mesh_note()}")
+        self.host.messages.show_info(
+            tr("Opening {name} was cancelled.{open_mesh_note}", name=path.name, open_mesh_note=self._open_mesh_note())
+        )
 
     def _on_failed(self, path: Path, error: Exception) -> None:
         self.host.busy.done("open")
         detail = f"{error.problem}. {error.remedy}" if isinstance(error, FileError) else str(error)
-        self.host.messages.show_error(f"{path.name} cannot be opened", f"{detail.strip()}{self._open_mesh_note()}")
+        self.host.messages.show_error(
+            tr("{name} cannot be opened", name=path.name), f"{detail.strip()}{self._open_mesh_note()}"
+        )
 
     def _open_mesh_note(self) -> str:
         return f" {self._document.name} stays open." if self._document.is_open else ""

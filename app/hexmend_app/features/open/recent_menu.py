@@ -6,6 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
 from hexmend_app.state.settings.recent_files import RecentFiles
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
 
 
@@ -44,10 +45,10 @@ class RecentMenu(QMenu):
             name = f"{path.name}  ({short_folder(path)})".replace("&", "&&")
             action = self.addAction(f"&{number % 10}  {name}" + ("" if exists else ": not found"))
             action.setEnabled(exists)
-            action.setToolTip(str(path) if exists else f"{path} was moved, renamed or deleted.")
-            action.setStatusTip(f"Open {path}.")
+            action.setToolTip(str(path) if exists else tr("{path} was moved, renamed or deleted.", path=path))
+            action.setStatusTip(tr("Open {path}.", path=path))
             action.triggered.connect(lambda _=False, path=path: self.chosen.emit(path))
         self.addSeparator()
-        clear = self.addAction("&Clear list")
-        clear.setStatusTip("Clear the list of recent files.")
+        clear = self.addAction(tr("&Clear list"))
+        clear.setStatusTip(tr("Clear the list of recent files."))
         clear.triggered.connect(self._recent.clear)

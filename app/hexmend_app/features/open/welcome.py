@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWi
 
 from hexmend_app.state.settings.recent_files import RecentFiles
 from hexmend_app.theme.style import BLUE, MUTED, icon, on_theme_change, set_help, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import short_folder
 
 
@@ -34,16 +35,16 @@ class Welcome(QWidget):
     def __init__(self, recent: RecentFiles, parent: QWidget | None = None):
         super().__init__(parent)
         self._recent = recent
-        self._title = QLabel("Open a hexahedral mesh")
+        self._title = QLabel(tr("Open a hexahedral mesh"))
         font = self._title.font()
         font.setPointSizeF(font.pointSizeF() * 1.8)
         self._title.setFont(font)
         self._hint = QLabel(
-            "Drop a file here or open one: VTK, Exodus, CGNS, MED, Gmsh, Abaqus, Nastran, Medit and more."
+            tr("Drop a file here or open one: VTK, Exodus, CGNS, MED, Gmsh, Abaqus, Nastran, Medit and more.")
         )
         tint(self._hint, MUTED)
-        self._open = QPushButton(icon("folder-open-outline"), "Open…")
-        self._demo = QPushButton("Demo mesh")
+        self._open = QPushButton(icon("folder-open-outline"), tr("Open…"))
+        self._demo = QPushButton(tr("Demo mesh"))
         self._open.clicked.connect(self.open_requested)
         self._demo.clicked.connect(self.demo_requested)
         buttons = QHBoxLayout()
@@ -74,7 +75,7 @@ class Welcome(QWidget):
                 link = QPushButton(f"{path.name}  ({short_folder(path)})".replace("&", "&&"))
                 link.setFlat(True)
                 link.setCursor(Qt.CursorShape.PointingHandCursor)
-                set_help(link, f"Open {path.name}", escape(str(path)))
+                set_help(link, tr("Open {name}", name=path.name), escape(str(path)))
                 on_theme_change(link, lambda link=link: link.setStyleSheet(_link_style()))
                 link.clicked.connect(lambda _=False, path=path: self.recent_requested.emit(path))
                 self._links.addWidget(link, 0, Qt.AlignmentFlag.AlignHCenter)

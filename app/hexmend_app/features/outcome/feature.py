@@ -9,6 +9,7 @@ from hexmend.run.recipe import Stage
 from hexmend_app.feature import Action, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.outcome.outcome_panel import OutcomePanel
 from hexmend_app.state.mesh.history import RunRecord
+from hexmend_app.translation import tr
 
 _RUNNING = "A run is in progress. When it ends, the reason and suggestions are shown here."
 
@@ -37,12 +38,12 @@ class FeatureOutcome(Feature):
         return (
             Action(
                 id="why",
-                text="Run summar&y",
+                text=tr("Run summar&y"),
                 menu="Smooth",
                 part=1,
                 keys="Y",
                 icon="help-circle-outline",
-                help="Show why the run stopped, the remaining inverted hexes and what to try next.",
+                help=tr("Show why the run stopped, the remaining inverted hexes and what to try next."),
                 handle=lambda: self.host.show_panel("outcome"),
                 enabled=lambda: self._shown is not None,
             ),
@@ -53,11 +54,11 @@ class FeatureOutcome(Feature):
         return (
             Panel(
                 id="outcome",
-                title="Outcome",
+                title=tr("Outcome"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=50,
-                help="Why the run stopped and what to try next.",
+                help=tr("Why the run stopped and what to try next."),
             ),
         )
 

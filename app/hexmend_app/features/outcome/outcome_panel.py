@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from hexmend.advice import Advice, Suggestion
 from hexmend_app.theme.style import AMBER, INVERTED_TEXT, TEXT, WORSE, icon, note, set_help, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.link_label import LinkLabel
 from hexmend_app.widgets.scrolled import scrolled
 from hexmend_app.widgets.wording import counted
@@ -73,7 +74,7 @@ class OutcomePanel(QWidget):
             hex_list.chosen.connect(self.chosen)
             request = self.visit_requested if hex_list is self._limiting else self.show_requested
             hex_list.show_requested.connect(request)
-        self._suggestions_title = QLabel("Suggestions")
+        self._suggestions_title = QLabel(tr("Suggestions"))
         self._suggestions_title.setFont(font)
         self._no_suggestion = note()
         self._view_note = note("", AMBER)
@@ -151,8 +152,8 @@ class OutcomePanel(QWidget):
             text = self._text()
             text.setTextFormat(Qt.TextFormat.RichText)
             text.setText(f"<b>{escape(suggestion.title)}.</b> {escape(suggestion.text)}")
-            button = QPushButton("Select")
-            set_help(button, f"Select: {suggestion.title}", _selection_help(suggestion))
+            button = QPushButton(tr("Select"))
+            set_help(button, tr("Select: {title}", title=suggestion.title), _selection_help(suggestion))
             button.clicked.connect(lambda _=False, index=index: self.suggestion_chosen.emit(index))
             self._suggestions.addWidget(text, index, 0)
             self._suggestions.addWidget(button, index, 1, Qt.AlignmentFlag.AlignTop)
@@ -175,13 +176,20 @@ class _HexList(QWidget):
         self._links = LinkLabel()
         self._links.setWordWrap(True)
         self._links.followed.connect(self.chosen)
-        set_help(self._links, f"{title} hexes", f"Hexes {description}; click one to select it.")
-        self.button = QPushButton(icon("eye-outline"), "Show")
+        set_help(
+            self._links,
+            tr("{title} hexes", title=title),
+            tr("Hexes {description}; click one to select it.", description=description),
+        )
+        self.button = QPushButton(icon("eye-outline"), tr("Show"))
         self.button.clicked.connect(lambda: self.show_requested.emit(self._hexes))
         set_help(
             self.button,
-            f"Show {name or f'the {title.lower()} hexes'}",
-            f"Show only the hexes {description}, and their neighbours; Esc shows all hexes again.",
+            tr("Show {hexes}", hexes=name or f"the {title.lower()} hexes"),
+            tr(
+                "Show only the hexes {description}, and their neighbours; Esc shows all hexes again.",
+                description=description,
+            ),
         )
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from hexmend_app.feature import ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.quality.statistics import StatisticsTable
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
+from hexmend_app.translation import tr
 
 
 class FeatureQuality(Feature):
@@ -25,11 +26,11 @@ class FeatureQuality(Feature):
         return (
             Panel(
                 id="quality",
-                title="Quality",
+                title=tr("Quality"),
                 widget=self.panel,
                 place=PanelPlace.FACTS,
                 order=20,
-                help="Quality statistics of the mesh, now and as it was opened.",
+                help=tr("Quality statistics of the mesh, now and as it was opened."),
             ),
         )
 

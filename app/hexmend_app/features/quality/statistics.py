@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 from hexmend.quality import REGRESSION_KEYS, SUMMARY_QUANTITIES, regressions
 from hexmend.quantity import Quantity
 from hexmend_app.theme.style import BETTER, LINE, MUTED, PANEL, TEXT, WORSE, icon, on_theme_change, smaller, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.link_table import LinkTable
 from hexmend_app.widgets.wording import figure
 
@@ -87,7 +88,7 @@ class StatisticsTable(QWidget):
         self._table = table = LinkTable(len(ROWS), len(_COLUMNS))
         table.link_activated.connect(self.isolate_requested)
         table.setHorizontalHeaderLabels(_COLUMNS)
-        table.setAccessibleName("Statistics of the mesh")
+        table.setAccessibleName(tr("Statistics of the mesh"))
         table.setFont(tabular(smaller(table.font())))
         table.setShowGrid(False)
         table.setFrameShape(QFrame.Shape.NoFrame)
@@ -102,7 +103,7 @@ class StatisticsTable(QWidget):
         self._fill()
         self._shape_columns()
         on_theme_change(self, self._paint)
-        self._copy = QAction(icon("content-copy"), "Copy table", self)
+        self._copy = QAction(icon("content-copy"), tr("Copy table"), self)
         self._copy.setShortcut(QKeySequence.StandardKey.Copy)
         self._copy.setShortcutContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         self._copy.triggered.connect(self.copy)

@@ -13,6 +13,7 @@ from hexmend_app.features.recipe.recipe_panel import RecipePanel
 from hexmend_app.resources import recipes
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_recipe, ask_recipe_target
 from hexmend_app.widgets.wording import name_in_words, short_number
 
@@ -52,29 +53,29 @@ class FeatureRecipe(Feature):
         return (
             Action(
                 id="recipe_run",
-                text="R&un recipe",
+                text=tr("R&un recipe"),
                 menu="Smooth",
                 part=2,
                 keys="Ctrl+Shift+F5",
-                help="Run the stages of the recipe in sequence, as one run.",
+                help=tr("Run the stages of the recipe in sequence, as one run."),
                 handle=self.run,
                 enabled=lambda: bool(self._draft.stages) and self.session.editable,
             ),
             Action(
                 id="recipe_load",
-                text="&Load recipe…",
+                text=tr("&Load recipe…"),
                 menu="Smooth",
                 part=2,
-                help="Load a recipe: methods that run in sequence.",
+                help=tr("Load a recipe: methods that run in sequence."),
                 handle=self.ask_load,
                 enabled=lambda: self.session.editable,
             ),
             Action(
                 id="recipe_save",
-                text="Sa&ve recipe…",
+                text=tr("Sa&ve recipe…"),
                 menu="Smooth",
                 part=2,
-                help="Save the recipe as a TOML file.",
+                help=tr("Save the recipe as a TOML file."),
                 handle=self.ask_save,
                 enabled=lambda: bool(self._draft.stages),
             ),
@@ -85,12 +86,12 @@ class FeatureRecipe(Feature):
         return (
             Panel(
                 id="recipe",
-                title="Recipe",
+                title=tr("Recipe"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                tab="Run",
+                tab=tr("Run"),
                 order=11,
-                help="Methods that run in sequence, as one run.",
+                help=tr("Methods that run in sequence, as one run."),
             ),
         )
 
@@ -128,7 +129,7 @@ class FeatureRecipe(Feature):
 
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
-        if self.host.try_and_report("The recipe was not loaded", lambda: self._draft.take(read_recipe(path))):
+        if self.host.try_and_report(tr("The recipe was not loaded"), lambda: self._draft.take(read_recipe(path))):
             self._select(0)
 
     def ask_save(self) -> None:
@@ -141,7 +142,9 @@ class FeatureRecipe(Feature):
         """Save the recipe, or show the error."""
         event = FileExported("recipe", write_recipe, (Path(path), self._draft.recipe))
         self.host.try_and_report(
-            "The recipe was not saved", lambda: self.session.commands.export(event), f"Recipe saved to {path}"
+            tr("The recipe was not saved"),
+            lambda: self.session.commands.export(event),
+            tr("Recipe saved to {path}", path=path),
         )
 
     def _add(self, stage: Stage) -> None:

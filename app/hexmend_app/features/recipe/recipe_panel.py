@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend_app.theme.style import icon, note, set_help
+from hexmend_app.translation import tr
 
 _EMPTY = (
     "No stages. Select a method above and add it, or load a recipe. Each stage starts from the best result of the "
@@ -61,12 +62,14 @@ class RecipePanel(QWidget):
         super().__init__(parent)
         self._editable = True
         self._title = QLineEdit()
-        set_help(self._title, "Title of the recipe", "Name of the recipe in tables; saved with it.")
+        set_help(self._title, tr("Title of the recipe"), tr("Name of the recipe in tables; saved with it."))
         self._title.editingFinished.connect(self._on_title)
         self._shown_title = ""
         self._list = QListWidget()
         self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        set_help(self._list, "Stages", "Stages in running order. Press Enter or double-click to edit a stage above.")
+        set_help(
+            self._list, tr("Stages"), tr("Stages in running order. Press Enter or double-click to edit a stage above.")
+        )
         self._list.itemActivated.connect(lambda item: self.edit_requested.emit(self._list.row(item)))
         self._list.currentRowChanged.connect(self._enable)
         self._empty = note(_EMPTY)
@@ -107,7 +110,7 @@ class RecipePanel(QWidget):
 
     def _lay_out(self) -> None:
         head, edit, foot = QHBoxLayout(), QHBoxLayout(), QGridLayout()
-        label = QLabel("Title")
+        label = QLabel(tr("Title"))
         label.setBuddy(self._title)
         head.addWidget(label)
         head.addWidget(self._title, 1)
@@ -133,11 +136,11 @@ class RecipePanel(QWidget):
     def set_shipped(self, recipes: Iterable[tuple[str, Path]]) -> None:
         """List the titles and files of the built-in recipes in the menu."""
         self._menu.clear()
-        self._menu.addAction("From a &file…").triggered.connect(lambda: self.load_requested.emit())
+        self._menu.addAction(tr("From a &file…")).triggered.connect(lambda: self.load_requested.emit())
         self._menu.addSeparator()
         for title, path in recipes:
             action = self._menu.addAction(title.replace("&", "&&"))
-            action.setToolTip(f"Built-in recipe {path.name}.")
+            action.setToolTip(tr("Built-in recipe {name}.", name=path.name))
             action.triggered.connect(lambda _=False, path=path: self.shipped_requested.emit(path))
 
     def set_stages(self, stages: Sequence[tuple[str, str]], title: str = "", default_title: str = "") -> None:

@@ -18,6 +18,7 @@ from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.user_events import FileExported, displacement_since
 from hexmend_app.state.tasks.mesh_saver import SaveTask
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import Answer, ask_session, ask_target, ask_unsaved
 
 
@@ -39,25 +40,25 @@ class FeatureSave(Feature):
         return (
             Action(
                 id="save",
-                text="&Save mesh as…",
+                text=tr("&Save mesh as…"),
                 menu="File",
                 part=1,
                 keys="Ctrl+S",
                 icon="content-save-outline",
-                help="Save the displayed mesh to a file.",
-                tool="Save",
+                help=tr("Save the displayed mesh to a file."),
+                tool=tr("Save"),
                 handle=self.ask_mesh,
                 enabled=lambda: self.session.run.phase is not Phase.RUNNING,
             ),
             Action(
                 id="screenshot",
-                text="Save &picture…",
+                text=tr("Save &picture…"),
                 menu="File",
                 part=1,
                 keys="Ctrl+P",
                 icon="camera-outline",
-                help="Save a picture of the view in any size.",
-                tool="Picture",
+                help=tr("Save a picture of the view in any size."),
+                tool=tr("Picture"),
                 handle=self.ask_picture,
                 enabled=lambda: self.canvas is not None,
                 in_view=True,
@@ -83,7 +84,7 @@ class FeatureSave(Feature):
     def _wait_for_saving(self) -> bool:
         saver = self.session.saver
         text = f"{saver.path.name} is being saved. If you leave now, the file may be incomplete."
-        return self.host.wait_until(text, lambda: not saver.busy, "Leave now")
+        return self.host.wait_until(text, lambda: not saver.busy, tr("Leave now"))
 
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""
@@ -99,15 +100,21 @@ class FeatureSave(Feature):
         return bool(path) and self.save_and_wait(path)
 
     def _on_began(self, saving: SaveTask) -> None:
-        self.host.busy.show_work("save", f"Saving {saving.path.name}…")
+        self.host.busy.show_work("save", tr("Saving {name}…", name=saving.path.name))
 
     def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
-        self.host.messages.show_info(f"{'Saved' if saving.data is None else 'Session saved'} to {saving.path}")
+        self.host.messages.show_info(
+            tr("Saved to {path}" if saving.data is None else "Session saved to {path}", path=saving.path)
+        )
         if saving.omitted:
             self.host.messages.show_warning(
-                "Some data was not saved",
-                f"A {saving.path.suffix} file cannot store {', '.join(saving.omitted)}. Save as .vtu to store more.",
+                tr("Some data was not saved"),
+                tr(
+                    "A {suffix} file cannot store {count}. Save as .vtu to store more.",
+                    suffix=saving.path.suffix,
+                    count=", ".join(saving.omitted),
+                ),
             )
 
     def _on_failed(self, saving: SaveTask) -> None:
@@ -115,7 +122,7 @@ class FeatureSave(Feature):
         if not isinstance(saving.error, HexmendError):
             raise saving.error
         content = "mesh" if saving.data is None else "session"
-        self.host.messages.show_error(f"The {content} was not saved", str(saving.error))
+        self.host.messages.show_error(tr("The {content} was not saved", content=content), str(saving.error))
 
     def ask_picture(self) -> None:
         """Ask for the settings and path of a picture, and write it."""
@@ -160,9 +167,9 @@ class FeatureSave(Feature):
         """Write a picture of a scene; return True if it was written."""
         width, height = scene.page.size
         written = self.host.try_and_report(
-            "The picture was not saved",
+            tr("The picture was not saved"),
             lambda: self.canvas.sheet(scene).write(path, self._metadata(path, scene)),
-            f"Picture of {width} × {height} pixels saved to {path}",
+            tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
         )
         if written:
             self.session.user_event.emit(self._export_event(path, scene))

@@ -26,6 +26,7 @@ from hexmend_app.picture import Camera, ConfigTable, PicturePanel, Scene, read_s
 from hexmend_app.picture.camera import DIRECTIONS
 from hexmend_app.picture.named_cameras import merged
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_scene, ask_scene_target
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
 from hexmend_app.widgets.inputs.key_form import KeyForm
@@ -91,7 +92,9 @@ class PictureDialog(SaveDialog):
         self._page_size = QLabel()
         self.size_form = SizeForm(view, scene.page)
         self.camera = QComboBox()
-        set_help(self.camera, "Camera", "Camera of the window, a saved camera, or a standard view of the whole mesh.")
+        set_help(
+            self.camera, tr("Camera"), tr("Camera of the window, a saved camera, or a standard view of the whole mesh.")
+        )
         self.captions = [QLineEdit(panel.caption) for panel in scene.panels_of(max(1, len(views)))]
         several = len(self.captions) > 1
         self.forms = [
@@ -118,7 +121,7 @@ class PictureDialog(SaveDialog):
         rows.setContentsMargins(0, 0, 0, 0)
         for number, line in enumerate(self.captions, 1):
             title = f"Caption {number}" if len(self.captions) > 1 else "Caption"
-            set_help(line, title, "Text above the picture.")
+            set_help(line, title, tr("Text above the picture."))
             rows.addRow(title, line)
         groups = [("Size", self.size_form), ("Camera", self.camera)]
         groups += [(title, form) for (title, _, _), (_, form) in zip(_GROUPS, self.forms, strict=True)]
@@ -139,9 +142,9 @@ class PictureDialog(SaveDialog):
         area = scrolled(settings)
         area.setMinimumWidth(settings.sizeHint().width() + 28)
         columns.addWidget(area)
-        load, save = QPushButton("Load scene…"), QPushButton("Save scene…")
-        set_help(load, "Load scene…", "Load these settings from a scene file.")
-        set_help(save, "Save scene…", "Save these settings as a scene file, for hexmend render --scene.")
+        load, save = QPushButton(tr("Load scene…")), QPushButton(tr("Save scene…"))
+        set_help(load, tr("Load scene…"), tr("Load these settings from a scene file."))
+        set_help(save, tr("Save scene…"), tr("Save these settings as a scene file, for hexmend render --scene."))
         load.clicked.connect(self._ask_load_scene)
         save.clicked.connect(self._ask_save_scene)
         self.lay_out_below(columns, load, save)
@@ -204,9 +207,9 @@ class PictureDialog(SaveDialog):
     def _list_cameras(self) -> None:
         """List the cameras: the camera of the view, the named cameras of the scene, and the standard views."""
         self.camera.clear()
-        self.camera.addItem("Current view", None)
+        self.camera.addItem(tr("Current view"), None)
         if self._base.camera not in (Camera(), self._view_scene.camera):
-            self.camera.addItem("Scene file", self._base.camera)
+            self.camera.addItem(tr("Scene file"), self._base.camera)
             self.camera.setCurrentIndex(1)
         for name, camera in self._base.cameras.items():
             self.camera.addItem(name, camera)

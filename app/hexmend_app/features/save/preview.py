@@ -15,6 +15,7 @@ from hexmend_app.picture import Scene
 from hexmend_app.picture.page import PT_PER_INCH
 from hexmend_app.theme.palette import FIELD, LINE
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from hexmend_app.scene.page.page_renderer import PageRenderer
@@ -48,7 +49,7 @@ class Preview(QWidget):
         self.picture = QPixmap()
         self.setMinimumSize(360, 280)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        set_help(self, "Preview", "Small preview of the picture, without shading.")
+        set_help(self, tr("Preview"), tr("Small preview of the picture, without shading."))
         self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
         self._soon.timeout.connect(self._redraw)
 

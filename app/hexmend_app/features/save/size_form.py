@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayou
 
 from hexmend_app.picture import Page
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 #: Title, size in pixels, size in millimetres; one of the sizes is None.
 _PRESETS = (
@@ -47,20 +48,20 @@ class SizeForm(QWidget):
         super().__init__(parent)
         self.preset, self.unit = QComboBox(), QComboBox()
         size = view.width(), view.height()
-        self.preset.addItem(f"Current view, {size[0]} × {size[1]} pixels", (size, None))
+        self.preset.addItem(tr("Current view, {width} × {height} pixels", width=size[0], height=size[1]), (size, None))
         for title, pixels, mm in _PRESETS:
             self.preset.addItem(title, (pixels, mm))
-        self.preset.addItem("Custom", None)
-        set_help(self.preset, "Preset", "Common picture sizes.")
+        self.preset.addItem(tr("Custom"), None)
+        set_help(self.preset, tr("Preset"), tr("Common picture sizes."))
         self.unit.addItems([_MM, _PIXELS])
-        set_help(self.unit, "Unit", "Millimetres on paper, or pixels.")
+        set_help(self.unit, tr("Unit"), tr("Millimetres on paper, or pixels."))
         self.width_box, self.height_box, self.dpi = QDoubleSpinBox(), QDoubleSpinBox(), QDoubleSpinBox()
-        set_help(self.width_box, "Width", "Width of the picture.")
-        set_help(self.height_box, "Height", "Height of the picture.")
-        set_help(self.dpi, "Resolution", "Pixels per inch of paper: 300 to 600 for print.")
+        set_help(self.width_box, tr("Width"), tr("Width of the picture."))
+        set_help(self.height_box, tr("Height"), tr("Height of the picture."))
+        set_help(self.dpi, tr("Resolution"), tr("Pixels per inch of paper: 300 to 600 for print."))
         self.dpi.setRange(5, 4800)
         self.dpi.setDecimals(0)
-        self.dpi.setSuffix(" dpi")
+        self.dpi.setSuffix(tr(" dpi"))
         row = QHBoxLayout()
         for widget in (self.width_box, QLabel("×"), self.height_box, self.unit):
             row.addWidget(widget)
@@ -69,7 +70,7 @@ class SizeForm(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addRow(self.preset)
         layout.addRow(row)
-        layout.addRow("Resolution", self.dpi)
+        layout.addRow(tr("Resolution"), self.dpi)
         self.show_page(page)
         self.preset.activated.connect(self._on_preset)
         self.unit.activated.connect(self._on_unit)

@@ -13,6 +13,7 @@ from hexmend_app.features.script.script import Script
 from hexmend_app.features.script.script_panel import ScriptPanel
 from hexmend_app.picture import Page, Scene
 from hexmend_app.state.run.run_controller import Phase
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_script
 
 #: Milliseconds between two updates during a run.
@@ -43,11 +44,11 @@ class FeatureScript(Feature):
         return (
             Action(
                 id="script",
-                text="Save scr&ipt…",
+                text=tr("Save scr&ipt…"),
                 menu="File",
                 part=1,
                 icon="script-text-outline",
-                help="Save the actions in this window as a Python script that repeats them.",
+                help=tr("Save the actions in this window as a Python script that repeats them."),
                 handle=self.ask,
                 enabled=lambda: self.session.document.is_open or bool(self.script.entries),
                 needs_mesh=False,
@@ -59,11 +60,11 @@ class FeatureScript(Feature):
         return (
             Panel(
                 id="script",
-                title="Script",
+                title=tr("Script"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=70,
-                help="The actions in this window as a Python script that repeats them.",
+                help=tr("The actions in this window as a Python script that repeats them."),
             ),
         )
 
@@ -96,7 +97,7 @@ class FeatureScript(Feature):
     def copy(self) -> None:
         """Copy the script."""
         QApplication.clipboard().setText(self.script.text)
-        self.host.messages.show_info("The script was copied.")
+        self.host.messages.show_info(tr("The script was copied."))
 
     def ask(self) -> None:
         """Ask for a path and save the script."""
@@ -107,5 +108,5 @@ class FeatureScript(Feature):
     def save(self, path: str | Path) -> bool:
         """Write the script; return True if it was written."""
         return self.host.try_and_report(
-            "The script was not saved", lambda: self.script.write(path), f"Script saved to {path}"
+            tr("The script was not saved"), lambda: self.script.write(path), tr("Script saved to {path}", path=path)
         )

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPlainTextEdit, QPushButton, QVBoxLay
 
 from hexmend_app.features.script.view_lines import VIEW
 from hexmend_app.theme.style import BLUE, LINE, icon, note, on_theme_change, set_help
+from hexmend_app.translation import tr
 
 _HELP = "Your actions as a Python script that repeats them bit for bit, and the current view."
 
@@ -35,16 +36,16 @@ class ScriptPanel(QWidget):
         self._text.setUndoRedoEnabled(False)
         self._text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self._text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        self._text.setAccessibleName("Script")
+        self._text.setAccessibleName(tr("Script"))
         on_theme_change(self._text, lambda: self._text.setStyleSheet(_sheet()))
-        restart = QPushButton(icon("restart"), "Restart")
-        set_help(restart, "Restart the script", "Clear the script; it continues from the current mesh.")
+        restart = QPushButton(icon("restart"), tr("Restart"))
+        set_help(restart, tr("Restart the script"), tr("Clear the script; it continues from the current mesh."))
         restart.clicked.connect(self.restart_requested)
-        copy = QPushButton(icon("content-copy"), "Copy")
-        set_help(copy, "Copy the script", "Copy the whole script to the clipboard.")
+        copy = QPushButton(icon("content-copy"), tr("Copy"))
+        set_help(copy, tr("Copy the script"), tr("Copy the whole script to the clipboard."))
         copy.clicked.connect(self.copy_requested)
-        save = QPushButton(icon("content-save-outline"), "Save as…")
-        set_help(save, "Save the script", "Save the script as a Python file: python FILE repeats the actions.")
+        save = QPushButton(icon("content-save-outline"), tr("Save as…"))
+        set_help(save, tr("Save the script"), tr("Save the script as a Python file: python FILE repeats the actions."))
         save.clicked.connect(self.save_requested)
         head = QHBoxLayout()
         head.addWidget(note(_HELP), 1)

@@ -8,6 +8,7 @@ from hexmend_app.feature import Action, Feature, Host
 from hexmend_app.features.session.recovery_texts import recovery_offer
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.recovery import RecoveredSession, Recovery
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_session
 
 
@@ -35,20 +36,20 @@ class FeatureSession(Feature):
         return (
             Action(
                 id="save_session",
-                text="Save sess&ion as…",
+                text=tr("Save sess&ion as…"),
                 menu="File",
                 part=1,
                 keys="Ctrl+Shift+S",
                 icon="content-save-all-outline",
-                help="Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later.",
+                help=tr("Save the mesh, view, runs, recipe, tags and comparisons to one file, to continue later."),
                 handle=self.ask,
                 enabled=self._savable,
             ),
             Action(
                 id="recover",
-                text="&Recover session…",
+                text=tr("&Recover session…"),
                 menu="File",
-                help="Open an autosaved session after a crash.",
+                help=tr("Open an autosaved session after a crash."),
                 needs_mesh=False,
                 handle=lambda: self._offer(self.recovery.recoverable[0]),
                 enabled=lambda: bool(self.recovery.recoverable) and not self.session.opener.busy,
@@ -96,14 +97,14 @@ class FeatureSession(Feature):
 
     def _on_state_failed(self, name: str, error: Exception) -> None:
         problem = f"The session's data of “{name}” are not valid: {error}. Everything else was restored."
-        self.host.messages.show_error("Part of the session was not restored", problem)
+        self.host.messages.show_error(tr("Part of the session was not restored"), problem)
 
     def _on_failed(self, error: Exception) -> None:
         if not self._failed:  # report it once, not at every autosave
             self._failed = True
             self.host.messages.show_warning(
-                "Autosave failed",
-                f"{error} Save the session to another disk or folder.",
+                tr("Autosave failed"),
+                tr("{error} Save the session to another disk or folder.", error=error),
             )
 
     def _savable(self) -> bool:

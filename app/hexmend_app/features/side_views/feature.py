@@ -10,6 +10,7 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.view.side_views import NOW
 from hexmend_app.theme.palette import BLUE, KEPT, Role
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from hexmend_app.canvas.canvas import Canvas
@@ -34,55 +35,55 @@ class FeatureSideViews(Feature):
         return (
             Action(
                 id="beside",
-                text="Keep &in a view",
+                text=tr("Keep &in a view"),
                 menu="Compare",
                 part=1,
                 keys="V",
                 icon="view-split-vertical",
-                help="Show the current mesh in a second view, for comparison with later ones.",
+                help=tr("Show the current mesh in a second view, for comparison with later ones."),
                 handle=self._show_in_side_view,
                 enabled=lambda: not views.full,
                 in_view=True,
             ),
             Action(
                 id="wipe",
-                text="&Wipe",
+                text=tr("&Wipe"),
                 menu="Compare",
                 part=1,
                 keys="W",
                 icon="compare",
-                help="Overlay two views, separated by an edge that can be dragged.",
+                help=tr("Overlay two views, separated by an edge that can be dragged."),
                 handle=views.set_wiping,
                 enabled=several,
                 checked=wiping,
             ),
             Action(
                 id="wipe_left",
-                text="Move wipe &left",
+                text=tr("Move wipe &left"),
                 menu="Compare",
                 part=1,
                 keys="[",
-                help="Show more of the right view.",
+                help=tr("Show more of the right view."),
                 handle=lambda: self._step_wipe(-1),
                 enabled=wiping,
             ),
             Action(
                 id="wipe_right",
-                text="Move wipe ri&ght",
+                text=tr("Move wipe ri&ght"),
                 menu="Compare",
                 part=1,
                 keys="]",
-                help="Show more of the left view.",
+                help=tr("Show more of the left view."),
                 handle=lambda: self._step_wipe(1),
                 enabled=wiping,
             ),
             Action(
                 id="close_views",
-                text="Close &other views",
+                text=tr("Close &other views"),
                 menu="Compare",
                 part=1,
                 keys="Ctrl+W",
-                help="Show only the current mesh.",
+                help=tr("Show only the current mesh."),
                 handle=views.close_all,
                 enabled=several,
                 in_view=True,

@@ -14,6 +14,7 @@ from hexmend_app.features.smooth.run_buttons import STATES, RunState
 from hexmend_app.features.smooth.smoothing_panel import SmoothingPanel
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.run.worker import IterationFrame
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_short_of_memory
 from hexmend_app.widgets.error_report import report_of
 
@@ -49,42 +50,42 @@ class FeatureSmooth(Feature):
         return (
             Action(
                 id="run",
-                text="&Run or pause",
+                text=tr("&Run or pause"),
                 menu="Smooth",
                 keys="F5",
                 icon="play",
-                help="Run the selected method; pause or resume a run.",
+                help=tr("Run the selected method; pause or resume a run."),
                 handle=self.panel.run_or_pause,
                 enabled=lambda: self._ready() and self._state().run,
                 face=lambda: ActionFace(*self._state()[:3]),
             ),
             Action(
                 id="step",
-                text="&Step",
+                text=tr("&Step"),
                 menu="Smooth",
                 keys="F10",
                 icon="skip-next",
-                help="Run the number of iterations set in the panel, then pause.",
+                help=tr("Run the number of iterations set in the panel, then pause."),
                 handle=self.panel.step,
                 enabled=lambda: self._ready() and self._state().step,
             ),
             Action(
                 id="stop",
-                text="S&top",
+                text=tr("S&top"),
                 menu="Smooth",
                 keys="Shift+F5",
                 icon="stop",
-                help="Stop the run after this iteration and keep its result.",
+                help=tr("Stop the run after this iteration and keep its result."),
                 handle=self._smoothing.stop,
                 enabled=lambda: self._state().stop,
             ),
             Action(
                 id="reset",
-                text="R&eset",
+                text=tr("R&eset"),
                 menu="Smooth",
                 keys="Ctrl+R",
                 icon="restore",
-                help="Restore all node positions of the mesh as it was opened.",
+                help=tr("Restore all node positions of the mesh as it was opened."),
                 handle=self.session.commands.reset,
                 enabled=lambda: self._ready() and self._state().reset,
             ),
@@ -106,12 +107,12 @@ class FeatureSmooth(Feature):
         return (
             Panel(
                 id="run",
-                title="Run",
+                title=tr("Run"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
-                tab="Run",
+                tab=tr("Run"),
                 order=10,
-                help="The smoothing method, its parameters and its stopping criteria.",
+                help=tr("The smoothing method, its parameters and its stopping criteria."),
             ),
         )
 
@@ -188,10 +189,10 @@ class FeatureSmooth(Feature):
         if not self._seen.changed("phase", phase):
             return
         if phase is Phase.STOPPING:
-            self.host.busy.show_work("run", "Stopping…")
+            self.host.busy.show_work("run", tr("Stopping…"))
         elif phase is Phase.PREPARING:
             help = "Stop the run before its first iteration (Shift+F5)."
-            self.host.busy.show_work("run", "Preparing the method…", "Stop", help, self._smoothing.stop)
+            self.host.busy.show_work("run", tr("Preparing the method…"), tr("Stop"), help, self._smoothing.stop)
         else:
             self.host.busy.done("run")  # a busy animation would slow down a run that is visible anyway
 
@@ -206,7 +207,9 @@ class FeatureSmooth(Feature):
         record = self.session.run.record
         kept = record is not None and record.result
         where = f"is at iteration {kept}, the last valid one" if kept else "is unchanged"
-        self.host.messages.show_error("The method failed", f"{error}. The mesh {where}.", report_of(error))
+        self.host.messages.show_error(
+            tr("The method failed"), tr("{error}. The mesh {where}.", error=error, where=where), report_of(error)
+        )
 
     def _on_hit(self, frame: IterationFrame) -> None:
         self._hit, hit = frame, frame.hit

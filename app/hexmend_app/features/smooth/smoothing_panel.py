@@ -13,6 +13,7 @@ from hexmend_app.features.smooth.stage_form import StageForm
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import MUTED, WORSE, note, set_help, tabular, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.section import Section
 from hexmend_app.widgets.wording import counted
@@ -61,27 +62,27 @@ class SmoothingPanel(QWidget):
         stage = self.stage = StageForm(setup, self)
         method_row = QFormLayout()
         method_row.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        method_row.addRow("Method", stage.method)
+        method_row.addRow(tr("Method"), stage.method)
 
         self.breakpoint_form = BreakpointForm()
         self._sections = (
-            Section("Parameters", stage.parameters, "Parameters of the method; the defaults suit most meshes."),
-            Section("Stop when", stage.stop, "Stopping criteria of a run."),
-            Section("Pause when", self.breakpoint_form, "Breakpoints: events at which a run pauses."),
+            Section(tr("Parameters"), stage.parameters, tr("Parameters of the method; the defaults suit most meshes.")),
+            Section(tr("Stop when"), stage.stop, tr("Stopping criteria of a run.")),
+            Section(tr("Pause when"), self.breakpoint_form, tr("Breakpoints: events at which a run pauses.")),
         )
         self.buttons = RunButtons()
 
         self._steps = QSpinBox()
         self._steps.setRange(1, 9999)
         self._steps.setFont(tabular(self._steps.font()))
-        set_help(self._steps, "Iterations per step", "Number of iterations that Step runs before it pauses.")
-        steps = QLabel("Step by")
+        set_help(self._steps, tr("Iterations per step"), tr("Number of iterations that Step runs before it pauses."))
+        steps = QLabel(tr("Step by"))
         steps.setBuddy(self._steps)
         self._progress = ElidingLabel()  # keeps the width of the panel as the numbers grow
         self._progress.setFont(tabular(self._progress.font()))
-        self._progress.setAccessibleName("Progress")
+        self._progress.setAccessibleName(tr("Progress"))
         self._sentence = note()
-        self._sentence.setAccessibleName("Outcome")
+        self._sentence.setAccessibleName(tr("Outcome"))
         self._sentence.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
         # Reserve the height, so that nothing below moves when the sentence changes.
         self._sentence.setMinimumHeight(_LINES * self._sentence.fontMetrics().lineSpacing())

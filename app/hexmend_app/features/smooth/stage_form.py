@@ -16,6 +16,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.state.run.run_setup import RunSetup
 from hexmend_app.theme.style import note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 
@@ -49,7 +50,7 @@ class StageForm(QObject):
         self._name = ""
         self.method = QComboBox()
         let_shrink(self.method, 14)
-        set_help(self.method, "Method", "Smoothing method; it is described below.")
+        set_help(self.method, tr("Method"), tr("Smoothing method; it is described below."))
         for at, method in enumerate(METHODS.values()):
             self.method.addItem(method.title, method.name)
             about = f"<b>{escape(method.title)}</b> ({escape(method.name)})<br>{escape(method.help)}"
@@ -84,7 +85,9 @@ class StageForm(QObject):
         method = METHODS[name]
         self._name = name
         self.method.setCurrentIndex(self.method.findData(name))
-        self.help.setText(f"{method.help}\nSource: {method.source}" if method.source else method.help)
+        self.help.setText(
+            tr("{help}\nSource: {source}", help=method.help, source=method.source) if method.source else method.help
+        )
         with QSignalBlocker(self.parameters):
             self.parameters.set_declarations(declared(method))
             self.parameters.set_values(self._setup.values_of(name) | dict(values or {}))

@@ -10,6 +10,7 @@ from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.structure.structure_panel import StructurePanel
 from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.translation import tr
 
 
 class FeatureStructure(Feature):
@@ -46,11 +47,11 @@ class FeatureStructure(Feature):
         return (
             Panel(
                 id="show",
-                title="Show",
+                title=tr("Show"),
                 widget=self.panel,
                 place=PanelPlace.TOOLS,
                 order=40,
-                help="Edges and nodes drawn over the mesh.",
+                help=tr("Edges and nodes drawn over the mesh."),
             ),
         )
 

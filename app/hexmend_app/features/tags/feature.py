@@ -8,6 +8,7 @@ import numpy as np
 
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.tags.tag_panel import TagPanel, TagRow
+from hexmend_app.translation import tr
 
 
 class FeatureTags(Feature):
@@ -33,12 +34,14 @@ class FeatureTags(Feature):
         return (
             Action(
                 id="tag",
-                text="&Tag hex",
+                text=tr("&Tag hex"),
                 menu="Hex",
                 part=2,
                 keys="T",
                 icon="tag-outline",
-                help="Add the tag in the Tags panel to the selected hex, or remove it; tags are saved with the mesh.",
+                help=tr(
+                    "Add the tag in the Tags panel to the selected hex, or remove it; tags are saved with the mesh."
+                ),
                 handle=self.panel.toggle,
                 in_view=True,
             ),
@@ -53,11 +56,11 @@ class FeatureTags(Feature):
         return (
             Panel(
                 id="tags",
-                title="Tags",
+                title=tr("Tags"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=60,
-                help="Named groups of hexes, saved with the mesh.",
+                help=tr("Named groups of hexes, saved with the mesh."),
             ),
         )
 

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from hexmend_app.theme.style import note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.tables.hex_table import shape_table
 from hexmend_app.widgets.wording import figure
 
@@ -75,7 +76,7 @@ class TagPanel(QWidget):
         self._name.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)  # the list contains existing tags only
         self._name.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseSensitive)
         self._name.setCurrentText("tagged")
-        set_help(self._name, "Tag as", "Name of the tag to add.")
+        set_help(self._name, tr("Tag as"), tr("Name of the tag to add."))
         self._hex = self._button("Hex", "Tag or untag the selected hex (T).")
         self._shown = self._button("Shown", "Tag all hexes shown in the view, except hidden ones.")
         self._listed = self._button("Worst", "Tag all hexes in the list of the worst.")
@@ -110,7 +111,7 @@ class TagPanel(QWidget):
 
     def _lay_out(self) -> None:
         head, foot = QHBoxLayout(), QHBoxLayout()
-        label = QLabel("Tag as")
+        label = QLabel(tr("Tag as"))
         label.setBuddy(self._name)
         head.addWidget(label)
         head.addWidget(self._name, 1)
@@ -181,7 +182,7 @@ class TagPanel(QWidget):
             item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEditable)
         else:
-            item.setToolTip("Double-click to rename the tag.")
+            item.setToolTip(tr("Double-click to rename the tag."))
         return item
 
     def set_state(self, hex_selected: bool, busy: bool) -> None:

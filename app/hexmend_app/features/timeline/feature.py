@@ -8,6 +8,7 @@ from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host
 from hexmend_app.features.timeline.timeline_bar import TimelineBar
 from hexmend_app.state.mesh.history import RunRecord
 from hexmend_app.state.settings import settings
+from hexmend_app.translation import tr
 
 _STEPS = (
     ("first", "&Start of the run", "Alt+Home", "skip-backward", "Show the mesh before the run."),
@@ -63,10 +64,10 @@ class FeatureTimeline(Feature):
         return (
             Panel(
                 id="timeline",
-                title="Timeline",
+                title=tr("Timeline"),
                 widget=self.panel,
                 place=PanelPlace.BELOW,
-                help="Navigation in the iterations of a run.",
+                help=tr("Navigation in the iterations of a run."),
             ),
         )
 
@@ -112,8 +113,8 @@ class FeatureTimeline(Feature):
 
     def _play_face(self) -> ActionFace:
         if self._timeline.playing:
-            return ActionFace("Pause", "pause", "Pause the playback.")
-        return ActionFace("Play", "play", "Play the iterations.")
+            return ActionFace(tr("Pause"), "pause", tr("Pause the playback."))
+        return ActionFace(tr("Play"), "play", tr("Play the iterations."))
 
     def _handles(self) -> tuple[Callable[[], object], ...]:
         """Return the functions of the actions, in their order."""

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QToolButton
 
 from hexmend_app.features.timeline.track_slider import TrackSlider
 from hexmend_app.theme.style import icon, set_help, tabular
+from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.inputs.combo import let_shrink
 from hexmend_app.widgets.wording import counted, size
@@ -48,23 +49,23 @@ class TimelineBar(QWidget):
         self._runs = QComboBox()
         let_shrink(self._runs, 12)
         self._runs.activated.connect(self.run_chosen)
-        set_help(self._runs, "Run", "Run shown in the timeline.")
+        set_help(self._runs, tr("Run"), tr("Run shown in the timeline."))
         self._buttons = {name: ActionButton() for name in _STEPS}
         self._branch = ActionButton(with_text=True)
         for button in (*self._buttons.values(), self._branch):
             button.setAutoRaise(True)
         self._slider = TrackSlider()
         self._slider.valueChanged.connect(self.number_chosen)
-        set_help(self._slider, "Iteration", "Displayed iteration.")
+        set_help(self._slider, tr("Iteration"), tr("Displayed iteration."))
         self._at = QLabel()
         self._at.setFont(tabular(self._at.font()))
-        self._at.setAccessibleName("Iteration shown")
+        self._at.setAccessibleName(tr("Iteration shown"))
         self._more = QToolButton()
         self._more.setIcon(icon("cog-outline"))
         self._more.setAutoRaise(True)
         self._more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self._more.setMenu(self._menu())
-        set_help(self._more, "Timeline settings", "Memory limit and playback speed.")
+        set_help(self._more, tr("Timeline settings"), tr("Memory limit and playback speed."))
         layout = QHBoxLayout(self)
         layout.setContentsMargins(8, 1, 8, 1)
         layout.setSpacing(2)
@@ -89,7 +90,7 @@ class TimelineBar(QWidget):
         for widget in (self._runs, self._slider):
             widget.setEnabled(bool(names))
         if not names:
-            self._runs.setPlaceholderText("No runs")
+            self._runs.setPlaceholderText(tr("No runs"))
             self.set_track(0, np.zeros(1, np.int64), {}, 0)
             self.set_number(None)
 
@@ -117,7 +118,7 @@ class TimelineBar(QWidget):
         tip = f"<qt>{counted(newest, 'iteration')}.{stored}{pauses}</qt>"
         if tip != self._slider.toolTip():
             self._slider.setToolTip(tip)
-        self._used.setText(f"In use: {size(used)}")
+        self._used.setText(tr("In use: {count}", count=size(used)))
 
     def set_number(self, number: int | None) -> None:
         """Show the number of the displayed iteration; None if it is not in the run."""
@@ -125,7 +126,11 @@ class TimelineBar(QWidget):
         if number is not None and not self._slider.isSliderDown():
             with QSignalBlocker(self._slider):
                 self._slider.setValue(number)
-        self._at.setText(f"{'–' if number is None else number} of {newest}" if self._runs.count() else "")
+        self._at.setText(
+            tr("{number} of {newest}", number="–" if number is None else number, newest=newest)
+            if self._runs.count()
+            else ""
+        )
         longest = max(newest, 999)  # keeps the slider in place under the pointer
         self._at.setMinimumWidth(self._at.fontMetrics().horizontalAdvance(f"{longest} of {longest}"))
 
@@ -150,14 +155,14 @@ class TimelineBar(QWidget):
 
     def _menu(self) -> QMenu:
         menu = QMenu(self)
-        menu.addSection("Memory limit")
+        menu.addSection(tr("Memory limit"))
         self._limits = self._options(menu, LIMITS, lambda mb: size(mb << 20), self.limit_changed)
         self._used = menu.addAction("")
         self._used.setEnabled(False)
-        menu.addSection("Playback speed")
+        menu.addSection(tr("Playback speed"))
         self._speeds = self._options(menu, SPEEDS, lambda n: f"{n} iterations per second", self.speed_changed)
         menu.addSeparator()
-        self._delete = menu.addAction("Delete this run", self.delete_requested.emit)
+        self._delete = menu.addAction(tr("Delete this run"), self.delete_requested.emit)
         return menu
 
     def _options(
