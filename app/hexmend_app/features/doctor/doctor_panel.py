@@ -19,6 +19,7 @@ from hexmend.doctor import PROBLEMS, Finding
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.scrolled import scrolled
+from hexmend_app.widgets.wording import counted
 
 _CHECKING = "Checking the mesh…"
 _HEALTHY = "No problems found. The doctor does not check the quality of the hexes."
@@ -72,9 +73,7 @@ class DoctorPanel(QWidget):
             self._head.setText(problem or _CHECKING)
         else:
             count = len(findings)
-            self._head.setText(
-                tr("{findings}:", findings=counted(count, "finding")) if count else _HEALTHY
-            )
+            self._head.setText(tr("{findings}:", findings=counted(count, "finding")) if count else _HEALTHY)
         for row, finding in enumerate(findings or ()):
             self._add(row, finding)
         self._all.setVisible(len(self._repair_buttons) > 1)

@@ -106,8 +106,8 @@ class HexPanel(QWidget):
             self._about_node,
             tr("Node"),
             tr(
-                "The energy is the sum of η(H)² over the hexes of the node (3.3). The arrow in the view is the direction "
-                "of steepest descent; the gradient is given per mean edge length."
+                "The energy is the sum of η(H)² over the hexes of the node (3.3). The arrow in the view is the "
+                "direction of steepest descent; the gradient is given per mean edge length."
             ),
         )
         self._pin = QCheckBox(tr("Pinned"))

@@ -105,7 +105,9 @@ class FeatureSave(Feature):
     def _on_ended(self, saving: SaveTask) -> None:
         self.host.busy.done("save")
         self.host.messages.show_info(
-            tr("Saved to {path}" if saving.data is None else "Session saved to {path}", path=saving.path)
+            tr("Saved to {path}", path=saving.path)
+            if saving.data is None
+            else tr("Session saved to {path}", path=saving.path)
         )
         if saving.omitted:
             self.host.messages.show_warning(
