@@ -8,7 +8,7 @@ from PySide6.QtCore import QCoreApplication
 CONTEXT = "Hexmend"
 
 
-def tr(text: str, **values: object) -> str:
+def tr(text: str, /, **values: object) -> str:
     """Return a text of the window in the language of the program.
 
     Parameters
