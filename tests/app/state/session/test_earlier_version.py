@@ -22,9 +22,10 @@ from tests.app.driving import open_and_wait
 FILES = Path(__file__).parent / "files"
 
 
-def test_all_of_a_session_of_version_4_is_restored(fresh_window, qtbot):
+@pytest.mark.parametrize("version", [3, 4])
+def test_all_of_a_session_is_restored(fresh_window, qtbot, version):
     window = fresh_window
-    open_and_wait(qtbot, window, FILES / "version_4.hexmend")
+    open_and_wait(qtbot, window, FILES / f"version_{version}.hexmend")
     window.refresh()
     session, features = window.session, window.features
     mesh = session.document.now.mesh
