@@ -37,7 +37,7 @@ CORE = [
 ]
 APP = [
     {"aliases"},
-    {"resources"},
+    {"resources", "translation"},
     {"formats"},
     {"codec"},
     {"picture"},

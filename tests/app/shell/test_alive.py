@@ -178,7 +178,7 @@ def tangled(window, qtbot, tmp_path):
 
 
 def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told):
-    session, repairing = tangled.session, gate(mesh_repairer, "_repaired")
+    session, repairing = tangled.session, gate(mesh_repairer, "_repair")
     before = session.document.now
     assert session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set, timeout=PATIENCE)
@@ -202,7 +202,7 @@ def test_a_mesh_is_repaired_while_the_window_is_alive(tangled, qtbot, gate, told
 
 @pytest.mark.parametrize("end", ["cancel", "open another"])
 def test_a_repair_that_is_given_up_changes_nothing(tangled, qtbot, gate, told, end, mesh_file):
-    session, repairing = tangled.session, gate(mesh_repairer, "_repaired")
+    session, repairing = tangled.session, gate(mesh_repairer, "_repair")
     session.commands.repair()
     qtbot.waitUntil(repairing.reached.is_set, timeout=PATIENCE)
     if end == "cancel":

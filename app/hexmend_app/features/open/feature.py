@@ -41,7 +41,7 @@ class FeatureOpen(Feature):
         opener.began.connect(lambda path: self._show_progress(LoadProgress(LoadStage.READING, path)))
         opener.progressed.connect(self._show_progress)
         opener.restored.connect(self._on_restored)
-        opener.wanting.connect(self._on_wanting)
+        opener.mesh_missing.connect(self._on_mesh_missing)
         opener.ended.connect(self._on_ended)
         opener.cancelled.connect(self._on_cancelled)
         opener.failed.connect(self._on_failed)
@@ -130,18 +130,18 @@ class FeatureOpen(Feature):
     def _on_restored(self, restored: RestoredPicture) -> None:
         self._restored = restored
 
-    def _on_wanting(self, wanting: MissingMesh) -> None:
+    def _on_mesh_missing(self, missing: MissingMesh) -> None:
         self.host.busy.done("open")
         self.host.messages.show_offer(
-            *missing_mesh_message(wanting), (("Locate mesh…", lambda: self._locate(wanting)), ("Dismiss", lambda: None))
+            *missing_mesh_message(missing), (("Locate mesh…", lambda: self._locate(missing)), ("Dismiss", lambda: None))
         )
         self.host.refresh_soon()
 
-    def _locate(self, wanting: MissingMesh) -> None:
+    def _locate(self, missing: MissingMesh) -> None:
         """Ask for the mesh file of a picture and open it with the picture's camera and appearance."""
         path = ask_mesh(self.host.dialog_parent)
         if path and self.host.may_leave():
-            self._opener.open(path, wanting=wanting)
+            self._opener.open(path, picture=missing)
 
     def _on_cancelled(self, path: Path) -> None:
         self.host.busy.done("open")

@@ -20,7 +20,7 @@ def stage_text(progress: LoadProgress) -> str:
         LoadStage.READING: f"Reading {name}…",
         LoadStage.MEASURING: f"Measuring {name}, {progress.hexes:,} hexes…",
         LoadStage.PREPARING: f"Preparing the view of {name}…",
-    }[progress.doing]
+    }[progress.stage]
 
 
 def restored_message(restored: RestoredPicture) -> tuple[str, ...]:
@@ -69,8 +69,8 @@ def _problem(mesh: RestoredMesh) -> str:
     return f"“{mesh.name}” is not shown: {reason}."
 
 
-def missing_mesh_message(wanting: MissingMesh) -> tuple[str, str]:
+def missing_mesh_message(missing: MissingMesh) -> tuple[str, str]:
     """Return title and text for a picture whose mesh file is missing."""
-    file = wanting.metadata.first.file
+    file = missing.metadata.first.file
     reason = f"{file} is neither at its path nor next to the picture." if file else "The picture names no mesh file."
-    return f"The mesh of {wanting.picture.name} was not found", reason
+    return f"The mesh of {missing.picture.name} was not found", reason

@@ -57,7 +57,7 @@ def open_window(mesh: str | None = None) -> int:
     report_start(window)
     report_unexpected_errors(window)
     window.ready.connect(lambda: [feature.program_started() for feature in window.features.values()])
-    window.ready.connect(app.findChild(UiThreadGC).spare)
+    window.ready.connect(app.findChild(UiThreadGC).freeze)
     # A signal may arrive during painting: close the window afterwards.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window.close))
     for number in ENDING:  # end at once; the autosave is offered at the next start

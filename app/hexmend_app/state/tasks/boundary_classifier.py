@@ -14,22 +14,21 @@ from hexmend_app.state.mesh.document import Document
 from hexmend_app.state.tasks.latest_task import LatestTask
 from hexmend_app.state.tasks.task import Task
 
-#: Kinds beside `NodeClass`: nodes of sharp edges that are no curve, of a chain that ends amid a patch; and pinned ones.
+#: Node classes in addition to `NodeClass`: nodes of a chain of sharp edges that ends inside a patch, and pinned nodes.
 WHISKER, PIN = 4, 5
 
 
 @dataclass(frozen=True, eq=False)
 class BoundaryClasses:
-    """A boundary, classed.
+    """Classes of the nodes of a boundary.
 
     Parameters
     ----------
     mesh : Mesh
-        Whose it is.
     kinds : (n,) uint8
-        Of each node one of `hexmend.boundary.Kind`, `WHISKER` or `PIN`.
+        Class of each node: `hexmend.boundary.NodeClass`, `WHISKER` or `PIN`.
     locked, freed : int
-        Hexes that fixed nodes alone hold in inversion, and how many of them sliding can free.
+        Numbers of hexes that are inverted by fixed nodes alone, and of those that sliding can free.
     """
 
     mesh: Mesh
@@ -38,12 +37,12 @@ class BoundaryClasses:
     freed: int
 
     def count(self, kind: int) -> int:
-        """Number of nodes of a kind."""
+        """Return the number of nodes of a class."""
         return int(np.count_nonzero(self.kinds == kind))
 
 
 def node_classes(mesh: Mesh, degrees: float) -> np.ndarray:
-    """Return the class of each node, (n,) uint8: of `hexmend.boundary.NodeClass`, `WHISKER` or `PIN`.
+    """Return the class of each node, (n,) uint8: `hexmend.boundary.NodeClass`, `WHISKER` or `PIN`.
 
     Parameters
     ----------
@@ -61,15 +60,15 @@ def node_classes(mesh: Mesh, degrees: float) -> np.ndarray:
 
 
 def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: float) -> BoundaryClasses:
-    """Class a boundary.
+    """Classify the nodes of a boundary, and count its locked hexes.
 
     Parameters
     ----------
     mesh : Mesh
     figures : ElementQuality
-        Of the mesh.
+        Quality of the mesh.
     degrees : float
-        See `node_kinds`.
+        See `node_classes`.
     """
     locked = locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted)
     freed = freed_by_sliding(mesh, locked, degrees)
@@ -79,7 +78,7 @@ def classify_boundary(mesh: Mesh, figures: ElementQuality, degrees: float) -> Bo
 
 
 class BoundaryClassifier(LatestTask):
-    """Classifies the boundary of a mesh; of several that it was asked for, the newest.
+    """Classifies the boundary of a mesh in the background; only the latest request counts.
 
     Parameters
     ----------
@@ -88,14 +87,14 @@ class BoundaryClassifier(LatestTask):
     Signals
     -------
     found
-        `classes` are others, or there is an `error`.
+        `classes` or `error` has changed.
 
     Attributes
     ----------
-    classes : Classes or None
-        What was found last; None before that, and where that failed.
+    classes : BoundaryClasses or None
+        The last result; None before the first, and after a failure.
     error : BaseException or None
-        Why what was asked for last could not be found; None before that is known.
+        Error of the last request, if it failed.
     """
 
     found = Signal()
@@ -116,28 +115,28 @@ class BoundaryClassifier(LatestTask):
         return self._task is not None
 
     def ask(self, mesh: Mesh, figures: ElementQuality, degrees: float) -> None:
-        """Class a mesh's boundary, unless that is done or being done, or has failed.
+        """Request the classes of a mesh's boundary, unless this was the last request.
 
         Parameters
         ----------
         mesh : Mesh
         figures : ElementQuality
-            Of the mesh.
+            Quality of the mesh.
         degrees : float
-            See `node_kinds`.
+            See `node_classes`.
         """
-        question = mesh, figures, degrees
-        if question != self._wanted:
-            self._want(question)
+        request = mesh, figures, degrees
+        if request != self._latest:
+            self._submit(request)
 
     def forget(self) -> None:
-        """Another mesh is open: nothing is known of it."""
-        self.classes = self.error = self._wanted = None
+        """Discard the result: another mesh is open."""
+        self.classes = self.error = self._latest = None
 
-    def _work(self, question: tuple[Mesh, ElementQuality, float]) -> Task:
+    def _make_task(self, request: tuple[Mesh, ElementQuality, float]) -> Task:
         self.error = None
-        return Task(f"reading {question[0].name}: its boundary", lambda _: classify_boundary(*question))
+        return Task(f"classifying the boundary of {request[0].name}", lambda _: classify_boundary(*request))
 
-    def _take(self, task: Task) -> None:
+    def _on_result(self, task: Task) -> None:
         self.classes, self.error = task.result, task.error
         self.found.emit()

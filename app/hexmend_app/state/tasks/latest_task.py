@@ -1,4 +1,4 @@
-"""Questions that are worked out beside the window, and of which only the newest is of interest."""
+"""Background tasks of which only the latest request counts."""
 
 from __future__ import annotations
 
@@ -10,47 +10,47 @@ from hexmend_app.state.tasks.task import Task, drop
 
 
 class LatestTask(QObject):
-    """Works out one question at a time; those that are asked meanwhile wait, and all but the newest are forgotten.
+    """Computes one request at a time; of the requests made meanwhile, only the latest is computed next.
 
-    Its kinds say how a question is worked out and what becomes of the answer.
+    Subclasses make the task of a request and receive its result.
     """
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
-        self._wanted: tuple[Any, ...] | None = None
-        self._asked: tuple[Any, ...] | None = None
+        self._latest: tuple[Any, ...] | None = None
+        self._active: tuple[Any, ...] | None = None
         self._task: Task | None = None
 
-    def _work(self, question: tuple[Any, ...]) -> Task:
-        """Make the task that answers a question, not started yet."""
+    def _make_task(self, request: tuple[Any, ...]) -> Task:
+        """Return the task that computes a request, not started yet."""
         raise NotImplementedError
 
-    def _take(self, task: Task) -> None:
-        """Take what came of the question that is wanted."""
+    def _on_result(self, task: Task) -> None:
+        """Receive the ended task of the latest request."""
         raise NotImplementedError
 
-    def _want(self, question: tuple[Any, ...]) -> None:
-        self._wanted = question
+    def _submit(self, request: tuple[Any, ...]) -> None:
+        self._latest = request
         if self._task is None:
-            self._begin()
+            self._start()
 
     def close(self) -> None:
-        """Ask the thread to end; nothing is answered any more."""
-        self._wanted = None
+        """Cancel the task and drop its result."""
+        self._latest = None
         drop(self._task)
         self._task = None
 
-    def _begin(self) -> None:
-        self._asked = self._wanted
-        self._task = self._work(self._asked)
+    def _start(self) -> None:
+        self._active = self._latest
+        self._task = self._make_task(self._active)
         self._task.ended.connect(self._finish)
         self._task.start()
 
     def _finish(self) -> None:
         task, self._task = self._task, None
-        if self._wanted is None:
+        if self._latest is None:
             return
-        if self._asked != self._wanted:
-            self._begin()
+        if self._active != self._latest:
+            self._start()
         else:
-            self._take(task)
+            self._on_result(task)

@@ -11,17 +11,17 @@ from hexmend_app.state.tasks.task import Task
 
 
 class MeshChecker(LatestTask):
-    """Examines a mesh; of several that it was asked for, the newest.
+    """Checks a mesh in the background; only the latest request counts.
 
     Signals
     -------
     found
-        There are other findings, or there is an `error`.
+        The findings or `error` have changed.
 
     Attributes
     ----------
     error : BaseException or None
-        Why the mesh that was asked for last could not be examined; None before that is known.
+        Error of the last check, if it failed.
     """
 
     found = Signal()
@@ -37,14 +37,14 @@ class MeshChecker(LatestTask):
         return self._findings if self._mesh is mesh else None
 
     def ask(self, mesh: Mesh) -> None:
-        """Examine a mesh, unless that is done or being done, or has failed."""
-        if self._wanted is None or self._wanted[0] is not mesh:
-            self._want((mesh,))
+        """Request a check of a mesh, unless this was the last request."""
+        if self._latest is None or self._latest[0] is not mesh:
+            self._submit((mesh,))
 
-    def _work(self, question: tuple[Mesh]) -> Task:
+    def _make_task(self, request: tuple[Mesh]) -> Task:
         self.error = None
-        return Task(f"examining {question[0].name}", lambda _: examine(question[0]))
+        return Task(f"checking {request[0].name}", lambda _: examine(request[0]))
 
-    def _take(self, task: Task) -> None:
-        self._findings, self.error, self._mesh = task.result, task.error, self._wanted[0]
+    def _on_result(self, task: Task) -> None:
+        self._findings, self.error, self._mesh = task.result, task.error, self._latest[0]
         self.found.emit()

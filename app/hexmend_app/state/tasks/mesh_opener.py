@@ -1,4 +1,4 @@
-"""Reading a mesh without holding up the window."""
+"""Reading of meshes, sessions and pictures in the background."""
 
 from __future__ import annotations
 
@@ -32,78 +32,76 @@ class LoadStage(Enum):
 class LoadProgress:
     """Progress of opening a file; `hexes` is 0 while their number is unknown."""
 
-    doing: LoadStage
+    stage: LoadStage
     path: Path
     hexes: int = 0
 
 
-def _read_picture(wanting: MissingMesh, path: Path, task: Task) -> RestoredPicture:
-    """Read the mesh that a picture shows, and look at it as the picture does; then the others that it shows."""
+def _read_picture(picture: MissingMesh, path: Path, task: Task) -> RestoredPicture:
+    """Read the meshes of a picture, of which the first is in the file at `path`."""
     opened = _read(path, task)
     states = [opened] if isinstance(opened, State) else opened.states()
-    return restore_picture(wanting, path, states, lambda other: task.tell(LoadProgress(LoadStage.READING, other)))
+    return restore_picture(picture, path, states, lambda other: task.report(LoadProgress(LoadStage.READING, other)))
 
 
-def _open(path: Path, wanting: MissingMesh | None, task: Task) -> State | SessionData | RestoredPicture | MissingMesh:
-    """Read a file; of a picture, the mesh that it shows."""
-    if wanting is None and is_png(path):
-        wanting = MissingMesh(path, read_metadata(path))
-        found = wanting.metadata.first.candidates(path)
+def _open(path: Path, picture: MissingMesh | None, task: Task) -> State | SessionData | RestoredPicture | MissingMesh:
+    """Read a mesh, a session, or the meshes of a picture."""
+    if picture is None and is_png(path):
+        picture = MissingMesh(path, read_metadata(path))
+        found = picture.metadata.first.candidates(path)
         if not found:
-            return wanting
+            return picture
         path = found[0]
-    return _read(path, task) if wanting is None else _read_picture(wanting, path, task)
+    return _read(path, task) if picture is None else _read_picture(picture, path, task)
 
 
 def _read(path: Path, task: Task) -> State | SessionData:
-    """Read, measure and prepare one mesh, and tell which of them has begun; what goes wrong is a `HexmendError`."""
+    """Read, measure and prepare a mesh, reporting each stage; errors of any kind are raised as `HexmendError`."""
     try:
-        task.tell(LoadProgress(LoadStage.READING, path))
+        task.report(LoadProgress(LoadStage.READING, path))
         if session_data.is_session_file(path):
             opened = session_data.read(path)
             mesh = opened.document.now.mesh
         else:
             mesh = read(path)
-            task.tell(LoadProgress(LoadStage.MEASURING, path, mesh.n_hexes))
+            task.report(LoadProgress(LoadStage.MEASURING, path, mesh.n_hexes))
             opened = State.of(mesh)
-        task.tell(LoadProgress(LoadStage.PREPARING, path, mesh.n_hexes))
-        _ = mesh.topology.face_neighbours, mesh.topology.layers  # what the view draws from
+        task.report(LoadProgress(LoadStage.PREPARING, path, mesh.n_hexes))
+        _ = mesh.topology.face_neighbours, mesh.topology.layers  # the view needs them to draw
     except HexmendError:
         raise
-    except Exception as error:  # a reader that fails in a way of its own must not take the window down
+    except Exception as error:  # an unexpected error of a reader must not crash the window
         raise HexmendError(f"{path.name}: cannot be read ({type(error).__name__}: {error}).") from error
     return opened
 
 
 class MeshOpener(QObject):
-    """Opens meshes into the document, and sessions.
+    """Opens meshes, sessions and pictures in the document.
 
     Signals
     -------
     began(Path)
-    told(Progress)
-        What is being done now.
+    progressed(LoadProgress)
     loaded(SessionData, Path or None)
-        A session was read: whoever has all its parts takes it, before `ended`. The path is None where it is taken up
-        after a window's unexpected end.
-    restored(Restored)
-        A picture was opened, and its mesh is the document's: whoever looks at it does so as the picture has it, before
-        `ended`.
-    wanting(Wanting)
-        A picture was opened whose mesh is not found: `open` takes it again, with the path of the mesh.
+        A session was read, and is to be restored before `ended`. The path is None for a session that is recovered
+        after a crash.
+    restored(RestoredPicture)
+        The mesh of a picture was opened in the document; its appearance is to be restored before `ended`.
+    mesh_missing(MissingMesh)
+        The mesh of a picture was not found: call `open` with its path and the picture.
     ended(Path)
-        The mesh is the document's.
+        The mesh was opened in the document.
     cancelled(Path)
-        The document is as it was.
+        The document is unchanged.
     failed(Path, Exception)
-        The document is as it was.
+        The document is unchanged.
     """
 
     began = Signal(object)
     progressed = Signal(object)
     loaded = Signal(object, object)
     restored = Signal(object)
-    wanting = Signal(object)
+    mesh_missing = Signal(object)
     ended = Signal(object)
     cancelled = Signal(object)
     failed = Signal(object, object)
@@ -111,7 +109,7 @@ class MeshOpener(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._path: Path | None = None  # what is being read
+        self._path: Path | None = None  # of the file that is being read
         self._task: Task | None = None
         self._next: tuple[Path, bool, MissingMesh | None] | None = None
         self._recovers = False
@@ -123,31 +121,30 @@ class MeshOpener(QObject):
 
     blocks_editing = busy
 
-    def open(self, path: str | Path, *, recovers: bool = False, wanting: MissingMesh | None = None) -> None:
-        """Begin to read; of several asked for while one is read, the last is opened next.
+    def open(self, path: str | Path, *, recovers: bool = False, picture: MissingMesh | None = None) -> None:
+        """Start reading a file; of the files requested while another is read, the last is opened next.
 
         Parameters
         ----------
         path : path-like
         recovers : bool
-            It is a session that was written beside an open window: the mesh keeps the path of its own file, and is as
-            little saved as it was.
-        wanting : Wanting, optional
-            A picture that shows the mesh, which is to be looked at as there.
+            True for an autosaved session: the mesh keeps the path of its own file and its unsaved changes.
+        picture : MissingMesh, optional
+            Picture that shows the mesh and whose appearance is restored.
         """
         path = Path(path)
         if self.busy:
-            self._next = path, recovers, wanting
+            self._next = path, recovers, picture
             return
         self._path, self._recovers = path, recovers
-        self._task = Task(f"reading {path.name}", partial(_open, path, wanting))
+        self._task = Task(f"reading {path.name}", partial(_open, path, picture))
         self._task.reported.connect(self.progressed)
         self._task.ended.connect(self._finish)
         self.began.emit(path)
         self._task.start()
 
     def cancel(self) -> None:
-        """Stop waiting: a thread cannot be ended from outside, but what it reads is dropped, and others can be read."""
+        """Drop what is being read: its thread cannot be ended, but other files can be opened."""
         if self._task is None:
             return
         task, self._task, self._next = self._task, None, None
@@ -155,20 +152,20 @@ class MeshOpener(QObject):
         self.cancelled.emit(self._path)
 
     def close(self) -> None:
-        """Open nothing any more."""
+        """Cancel the opening: the window closes."""
         self.cancel()
 
     def _finish(self) -> None:
         task, self._task = self._task, None
         if self._next is not None:
-            (path, recovers, wanting), self._next = self._next, None
-            self.open(path, recovers=recovers, wanting=wanting)
+            (path, recovers, picture), self._next = self._next, None
+            self.open(path, recovers=recovers, picture=picture)
         elif task.error is not None:
             self.failed.emit(self._path, task.error)
         else:
             result = task.result
             if isinstance(result, MissingMesh):
-                self.wanting.emit(result)
+                self.mesh_missing.emit(result)
                 return
             if isinstance(result, State):
                 self._document.replace(result, self._path)
@@ -177,7 +174,7 @@ class MeshOpener(QObject):
                 self._document.replace(result.state, result.path)
                 self.restored.emit(result)
             else:
-                self._task = task  # busy until all have taken it: what they tell meanwhile is no event of the user's
+                self._task = task  # busy until it is restored: signals emitted meanwhile are no changes by the user
                 self.loaded.emit(result, None if self._recovers else self._path)
                 self._task = None
             self.ended.emit(self._document.path if self._recovers and self._document.path else self._path)

@@ -1,4 +1,4 @@
-"""Repairing the mesh in a thread while the window stays alive."""
+"""Repair of the mesh in the background."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class MeshRepairer(QObject):
-    """Repairs what the doctor finds; meanwhile the mesh is looked at, but not changed.
+    """Repairs the problems of the mesh, which can be viewed but not edited meanwhile.
 
     Parameters
     ----------
@@ -27,12 +27,12 @@ class MeshRepairer(QObject):
     Signals
     -------
     began
-    ended(findings)
-        A tuple of what was repaired; where it is not empty, the document holds the repaired mesh as one change.
+    ended(tuple of Finding)
+        The problems that were repaired; if there are any, the document has the repaired mesh as one change.
     failed(Exception)
-        The document is as it was.
+        The document is unchanged.
     cancelled
-        The document is as it was.
+        The document is unchanged.
     """
 
     began = Signal()
@@ -56,27 +56,27 @@ class MeshRepairer(QObject):
     blocks_editing = busy
 
     def start(self, kinds: Sequence[str] = ()) -> bool:
-        """Begin to repair some kinds of problem, or all; whether the mesh may be changed now."""
+        """Start repairing some kinds of problem, or all; return False if the mesh is not editable."""
         session = self._session
         if not session.editable:
             return False
         session.node_sweep.leave()
         self._before, self._kinds = before, kinds = session.document.now, tuple(kinds)
-        self._task = Task(f"repairing {before.mesh.name}", lambda _: _repaired(before.mesh, kinds), yields=True)
+        self._task = Task(f"repairing {before.mesh.name}", lambda _: _repair(before.mesh, kinds), yields=True)
         self._task.ended.connect(self._finish)
         self.began.emit()
         self._task.start()
         return True
 
     def cancel(self) -> None:
-        """Leave the mesh as it is; what the thread still finds is dropped."""
+        """Cancel the repair; the mesh is unchanged."""
         if self._task is not None:
             self._task.drop()
             self._before = self._task = None
             self.cancelled.emit()
 
     def close(self) -> None:
-        """Ask the thread to end; nothing is repaired any more."""
+        """Cancel the repair without a signal: the window closes."""
         drop(self._task)
         self._task = None
 
@@ -86,23 +86,23 @@ class MeshRepairer(QObject):
         if task.error is not None:
             self.failed.emit(task.error)
             return
-        state, mended = task.result
+        state, repaired = task.result
         document = self._session.document
-        if document.now is not before:  # another iteration has come into view
+        if document.now is not before:  # the user has gone to another iteration
             self.cancelled.emit()
             return
-        if mended:
-            title = "mend " + " and ".join(PROBLEMS[one.kind].title.lower() for one in mended)
+        if repaired:
+            title = "repair " + " and ".join(PROBLEMS[finding.kind].title.lower() for finding in repaired)
             document.commit(title, state)
             self._session.user_event.emit(MeshEdited(title, before, document.now, repair, (self._kinds,)))
-        self.ended.emit(mended)
+        self.ended.emit(repaired)
 
 
-def _repaired(mesh: Mesh, kinds: Sequence[str]) -> tuple[State | None, tuple[Finding, ...]]:
-    """A mesh repaired and measured, with what the view draws it from; None where nothing was repaired."""
-    mesh, mended = repair(mesh, kinds)
-    if not mended:
+def _repair(mesh: Mesh, kinds: Sequence[str]) -> tuple[State | None, tuple[Finding, ...]]:
+    """Repair, measure and prepare a mesh; return its state, None if nothing was repaired, and the repaired problems."""
+    mesh, repaired = repair(mesh, kinds)
+    if not repaired:
         return None, ()
     state = State.of(mesh.keeping_surface())
-    _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers
-    return state, mended
+    _ = state.mesh.topology.face_neighbours, state.mesh.topology.layers  # the view needs them to draw
+    return state, repaired

@@ -1,4 +1,4 @@
-"""Saving the mesh, or the session, in a thread while the window stays alive."""
+"""Saving of the mesh or the session in the background."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ if TYPE_CHECKING:
 
 
 class SaveTask:
-    """One file that is written: the mesh, or all of the session, as they were when that was asked for.
+    """Writing of one file: the mesh or the session, as it was when the user saved it.
 
     Parameters
     ----------
     path : Path
     state : State
-        The mesh as it was shown; it is what a mesh file gets.
+        The state that was shown, which a mesh file contains.
     recorded : State
-        What counts as saved afterwards.
+        The state that counts as saved afterwards.
     data : SessionData or None
-        What a session's file gets; None for a mesh file.
+        The content of a session file; None for a mesh file.
 
     Attributes
     ----------
     omitted : list of str
-        What the file's format cannot hold, once it is written.
+        Data that the format of the written file does not support.
     over : bool
-        Whether it has been written, or has failed.
+        True once the file has been written or writing has failed.
     error : BaseException or None
-        Why it has failed.
+        Error of writing, if it failed.
     """
 
     def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None):
@@ -50,7 +50,7 @@ class SaveTask:
         self.error: BaseException | None = None
 
     def write(self) -> None:
-        """Write the file; raises `HexmendError` where that cannot be done, and what was there stays."""
+        """Write the file; if that raises `HexmendError`, an existing file is left unchanged."""
         if self.data is not None:
             session_data.write(self.path, self.data)
         else:
@@ -59,7 +59,7 @@ class SaveTask:
 
 
 class MeshSaver(QObject):
-    """Writes meshes and sessions, one after another in the order in which they were asked for.
+    """Writes meshes and sessions in the background, one after another.
 
     Parameters
     ----------
@@ -67,12 +67,12 @@ class MeshSaver(QObject):
 
     Signals
     -------
-    began(Saving)
-        Its file is being written.
-    ended(Saving)
-        It is on disk, and the document knows.
-    failed(Saving)
-        It is not, see its `error`; the document is as modified as it was.
+    began(SaveTask)
+        The file is being written.
+    ended(SaveTask)
+        The file is on disk, and its state counts as saved.
+    failed(SaveTask)
+        The file could not be written, see `SaveTask.error`.
     """
 
     began = Signal(object)
@@ -93,24 +93,24 @@ class MeshSaver(QObject):
 
     @property
     def path(self) -> Path | None:
-        """The file that is being written; None where there is none."""
+        """Path of the file that is being written; None if there is none."""
         return self._saving and self._saving.path
 
     def save(self, path: str | Path) -> SaveTask:
-        """Begin to write the mesh as it is now, or, under a session's suffix, the session."""
-        saving = self._asked(Path(path))
+        """Save the mesh, or the session if the path has the suffix of sessions."""
+        saving = self._make_save(Path(path))
         self._waiting.append(saving)
         self._begin()
         return saving
 
     def close(self) -> None:
-        """Write nothing more; who closes has waited for what is being written, or has chosen not to."""
+        """Drop all files that are not written yet; the caller has waited for them or decided not to."""
         self._waiting.clear()
         drop(self._task)
         self._saving = self._task = None
 
-    def _asked(self, path: Path) -> SaveTask:
-        """Return what is to be written, with nothing in progress."""
+    def _make_save(self, path: Path) -> SaveTask:
+        """Return the task of saving the current state, after ending a sweep in progress."""
         session, document = self._session, self._session.document
         session.node_sweep.leave()
         if path.suffix.lower() == SUFFIX:
@@ -132,13 +132,13 @@ class MeshSaver(QObject):
         saving, task, self._saving, self._task = self._saving, self._task, None, None
         saving.error = task.error
         if saving.error is None:
-            self._take(saving)
+            self._mark_saved(saving)
         saving.over = True
         (self.ended if saving.error is None else self.failed).emit(saving)
         self._begin()
 
-    def _take(self, saving: SaveTask) -> None:
-        """Tell that a file was written, and know that what is in it is saved, if its mesh is open still."""
+    def _mark_saved(self, saving: SaveTask) -> None:
+        """Emit the user event, and mark the state as saved if its mesh is still open."""
         session = self._session
         session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data))
         is_open = session.document.saved(saving.path, saving.recorded)

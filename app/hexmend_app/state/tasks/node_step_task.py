@@ -1,4 +1,4 @@
-"""A node's step, worked out beside the window: a global method takes seconds for it on a large mesh."""
+"""Computation of a node's step in the background: for a global method on a large mesh it takes seconds."""
 
 from __future__ import annotations
 
@@ -12,18 +12,19 @@ from hexmend_app.state.tasks.task import Task
 
 
 class NodeStepTask(LatestTask):
-    """Answers what a method would do to a node; of several questions, the newest.
+    """Computes the step that a method would make with a node; only the latest request counts.
 
     Signals
     -------
     answered
-        `step` is known, or `error` says why it is not.
+        The request has ended: `step` or `error` is set.
 
     Attributes
     ----------
     step : NodeStep or None
-        The answer; None while there is none.
+        None while unknown.
     error : BaseException or None
+        Error of the computation, if it failed.
     """
 
     answered = Signal()
@@ -35,22 +36,22 @@ class NodeStepTask(LatestTask):
 
     @property
     def busy(self) -> bool:
-        """True while an answer is pending."""
-        return self._wanted is not None
+        """True while a request is pending."""
+        return self._latest is not None
 
     def ask(self, mesh: Mesh, smoother: Smoother, node: int) -> None:
-        """Ask what the method would do to a free node; what was asked before is forgotten."""
+        """Request the step of a free node; the previous request is cancelled."""
         self.forget()
-        self._want((mesh, smoother, node))
+        self._submit((mesh, smoother, node))
 
     def forget(self) -> None:
-        """Want no answer any more."""
-        self._wanted = self.step = self.error = None
+        """Cancel; pending results are dropped."""
+        self._latest = self.step = self.error = None
 
-    def _work(self, question: tuple[Mesh, Smoother, int]) -> Task:
-        return Task(f"reading the step of node {question[2]}", lambda _: explain(*question), yields=True)
+    def _make_task(self, request: tuple[Mesh, Smoother, int]) -> Task:
+        return Task(f"computing the step of node {request[2]}", lambda _: explain(*request), yields=True)
 
-    def _take(self, task: Task) -> None:
-        self._wanted = None
+    def _on_result(self, task: Task) -> None:
+        self._latest = None
         self.step, self.error = task.result, task.error
         self.answered.emit()

@@ -1,4 +1,4 @@
-"""Work beside the window: a callable in a thread that has a name, can be called off, and reports once."""
+"""Background task: a function in a named thread, which can be cancelled and reports its end."""
 
 from __future__ import annotations
 
@@ -9,18 +9,17 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-#: Tasks that have begun and whose owners have neither heard of their end nor waited for it. It keeps them alive, so
-#: that none is taken down by the thread that it runs in.
-_BEGUN: set[Task] = set()
+#: Started tasks that have not been joined. The set keeps them alive, so that no task is deleted in its own thread.
+_STARTED: set[Task] = set()
 
 
-#: Seconds that whoever closes waits for threads that were asked to end.
+#: Seconds to wait for the threads of dropped tasks when the window closes.
 GRACE = 2.0
 
 
 def running() -> tuple[Task, ...]:
-    """The tasks whose threads have not ended, by name."""
-    return tuple(sorted((task for task in _BEGUN if not task.over), key=lambda task: task.name))
+    """Return the tasks whose threads have not ended, sorted by name."""
+    return tuple(sorted((task for task in _STARTED if not task.over), key=lambda task: task.name))
 
 
 def drop(task: Task | None) -> None:
@@ -30,53 +29,53 @@ def drop(task: Task | None) -> None:
 
 
 def wait_for_dropped() -> None:
-    """Wait for the threads of all tasks that were dropped, for `GRACE` seconds in all.
+    """Wait for the threads of all dropped tasks, at most `GRACE` seconds in total.
 
-    No thread can be ended from outside: one that reads from a network drive that does not answer goes on, and is among
-    `running`. A program that is about to end then ends its process.
+    A thread cannot be ended from outside: if it hangs, such as on a network drive, it stays in `running`, and the
+    program has to exit its process.
     """
     deadline = time.monotonic() + GRACE
-    for task in [one for one in _BEGUN if one.dropped]:
+    for task in [task for task in _STARTED if task.dropped]:
         task.join(max(0.0, deadline - time.monotonic()))
-        task.let_go()
+        task.call_after_drop()
 
 
 class Task(QObject):
-    """Does one piece of work in a thread of its own.
+    """Runs a function in a thread of its own.
 
-    It belongs to the thread that makes it, and so do its signals: they are queued there, whoever listens.
+    The task belongs to the thread that makes it, in which its signals are emitted.
 
     Parameters
     ----------
     name : str
-        The thread's, as `threading.enumerate` and a debugger show it.
+        Name of the thread, as `threading.enumerate` and debuggers show it.
     work : callable
-        Called in the thread with this task. What it returns is `result`, what it raises is `error`; once `cancelled` is
-        set it should return soon, which nobody else can make it do.
+        Function that is called in the thread with this task. It should return soon after `cancelled` is set, as it
+        cannot be ended from outside.
     yields : bool
-        Whether the window goes first, as it should where the work takes seconds.
+        True to give the thread a lower priority than the window, for work that takes seconds.
 
     Attributes
     ----------
     name : str
     cancelled : threading.Event
     result
-        What the work returned; None until it is over.
+        Return value of the work; None until it has ended.
     error : BaseException or None
-        What the work raised.
+        Exception that the work raised.
 
     Signals
     -------
-    told(object)
-        What the work has told, in that order.
+    reported(object)
+        A message of the work, see `report`.
     ended
-        The work is over. The last signal, and the only one where the work told nothing.
+        The work has ended. Always emitted last, unless the task was dropped or waited for.
     """
 
     reported = Signal(object)
     ended = Signal()
-    _tells = Signal(object)
-    _ends = Signal()
+    _message_posted = Signal(object)
+    _end_posted = Signal()
 
     def __init__(self, name: str, work: Callable[[Task], Any], *, yields: bool = False):
         super().__init__()
@@ -86,37 +85,37 @@ class Task(QObject):
         self.error: BaseException | None = None
         self._work: Callable[[Task], Any] | None = work
         self._yields = yields
-        self._listened_to = True
-        self._then: Callable[[], object] | None = None  # called when it was dropped and has ended
+        self._emits = True
+        self._after_drop: Callable[[], object] | None = None
         self._thread = threading.Thread(target=self._run, name=name)
-        self._tells.connect(self._pass_on, Qt.ConnectionType.QueuedConnection)
-        self._ends.connect(self._finish, Qt.ConnectionType.QueuedConnection)
+        self._message_posted.connect(self._pass_on, Qt.ConnectionType.QueuedConnection)
+        self._end_posted.connect(self._finish, Qt.ConnectionType.QueuedConnection)
 
     @property
     def over(self) -> bool:
-        """True if the thread has begun and ended."""
+        """True if the thread has ended."""
         return self._thread.ident is not None and not self._thread.is_alive()
 
     @property
     def dropped(self) -> bool:
         """True if the result is no longer wanted."""
-        return not self._listened_to
+        return not self._emits
 
     def start(self) -> None:
-        """Begin; once."""
-        _BEGUN.add(self)
+        """Start the thread; call it once."""
+        _STARTED.add(self)
         self._thread.start()
 
-    def tell(self, message: Any) -> None:
-        """Say something to whoever listens to `told`; from the work, and seldom: every message is delivered."""
-        self._tells.emit(message)
+    def report(self, message: Any) -> None:
+        """Emit `reported`; called by the work, and seldom, as every message is delivered."""
+        self._message_posted.emit(message)
 
     def cancel(self) -> None:
-        """Ask the work to end; its end is reported as usual."""
+        """Ask the work to end; `ended` is emitted as usual."""
         self.cancelled.set()
 
     def drop(self, then: Callable[[], object] | None = None) -> None:
-        """Ask the work to end, and hear no more of it.
+        """Ask the work to end, and emit no more signals.
 
         Parameters
         ----------
@@ -124,26 +123,26 @@ class Task(QObject):
             Called once, in the thread that made the task, when the work has ended or `wait_for_dropped` has given up.
         """
         self.cancel()
-        self._listened_to, self._then = False, then
+        self._emits, self._after_drop = False, then
 
-    def let_go(self) -> None:
-        """Call what was to be called after the end of the work, whether it has ended or not."""
-        then, self._then = self._then, None
+    def call_after_drop(self) -> None:
+        """Call the function passed to `drop`, once."""
+        then, self._after_drop = self._after_drop, None
         if then is not None:
             then()
 
     def wait(self) -> None:
-        """Wait until the thread has ended, which it must be about to; no signal comes after that."""
-        self._listened_to = False
+        """Wait for the thread, which must be about to end; no more signals are emitted."""
+        self._emits = False
         self.join()
 
     def join(self, seconds: float | None = None) -> None:
-        """Wait until the thread has ended, or so many seconds; what it tells is heard as before."""
+        """Wait for the end of the thread, at most for a time if one is given; signals are emitted as usual."""
         self._thread.join(seconds)
         if self.over:
-            self._work = None  # which may know this task: no circle is left for another thread to collect
-            _BEGUN.discard(self)
-            self.let_go()
+            self._work = None  # which may refer to this task: no cycle is left for another thread to collect
+            _STARTED.discard(self)
+            self.call_after_drop()
 
     def _run(self) -> None:
         try:
@@ -154,16 +153,16 @@ class Task(QObject):
 
                 lower_priority()
             self.result = self._work(self)
-        except BaseException as error:  # whatever it is, the window has to say it
+        except BaseException as error:  # the window reports errors of any kind
             self.error = error
         finally:
-            self._ends.emit()
+            self._end_posted.emit()
 
     def _pass_on(self, message: Any) -> None:
-        if self._listened_to:
+        if self._emits:
             self.reported.emit(message)
 
     def _finish(self) -> None:
         self.join()
-        if self._listened_to:
+        if self._emits:
             self.ended.emit()

@@ -1,4 +1,4 @@
-"""Priority of threads that compute: below that of the window."""
+"""Lower priority for threads that compute, so that the window stays responsive."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ import threading
 
 from hexmend.kernels import set_threads, threads
 
-#: How far such a thread stands back behind the window, as `nice` counts.
+#: Nice value of threads that compute.
 _NICE = 10
 
 
 def lower_priority() -> None:
-    """Let the window go first, from the thread that calls this on: a frame that waits is seen, a step is not.
+    """Lower the priority of the calling thread, and leave one core to the window.
 
-    One core stays with the window; results do not depend on the number of threads. To be called before the thread's
-    first kernel: the threads that help it have its priority as it was when they were made.
+    Call it before the first kernel of the thread, whose helper threads inherit the priority. Results do not depend on
+    the number of threads.
     """
     set_threads(max(1, threads() - 1))
-    if sys.platform == "linux":  # elsewhere a thread's number is none of a process, or that of another process
+    if sys.platform == "linux":  # elsewhere the number of a thread is no process, or another process
         with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICE)

@@ -1,7 +1,7 @@
-"""Circular garbage is collected in the thread of the window alone.
+"""Garbage collection in the thread of the window only.
 
-Python collects wherever the limit happens to be passed. In a thread of work that would take down widgets, timers and
-what VTK draws with, all of which belong to the window's thread: a crash that hits once in a thousand runs.
+Python collects cyclic garbage in whichever thread passes the threshold. A worker thread would then delete widgets,
+timers and VTK objects, which belong to the window's thread: a crash in one of a thousand runs.
 """
 
 from __future__ import annotations
@@ -11,35 +11,35 @@ import gc
 
 from PySide6.QtCore import QObject, QTimer
 
-#: Milliseconds between two looks at how much there is.
+#: Milliseconds between two checks of the thresholds.
 _INTERVAL = 100
 
 
 class UiThreadGC(QObject):
-    """Collects circular garbage in the thread that made it, by Python's own thresholds; elsewhere there is none.
+    """Collects cyclic garbage in the thread that makes this object, by Python's thresholds, instead of in any thread.
 
     Parameters
     ----------
     parent : QObject
-        With it the looking ends. Python's own collecting stays off: threads may still be running.
+        Collection ends with it. Python's automatic collection stays off, as threads may still be running.
     """
 
     def __init__(self, parent: QObject):
         super().__init__(parent)
         gc.disable()
-        atexit.register(gc.freeze)  # at the end all goes with the process: widgets outlive the application there
+        atexit.register(gc.freeze)  # collect nothing at exit, where widgets outlive the application
         self._timer = QTimer(self, interval=_INTERVAL)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.collect)
         self._timer.start()
 
-    def spare(self) -> None:
-        """Look no more at what there is by now, garbage or not: modules and a window stay as long as the program.
+    def freeze(self) -> None:
+        """Exclude all present objects from collections, since modules and windows live as long as the program.
 
-        A tenth of a second is what a look at all of them takes, and the window stands still meanwhile.
+        Examining them would take 0.1 s, during which the window does not respond.
         """
         gc.freeze()
 
-    def look(self) -> None:
+    def collect(self) -> None:
         """Collect the oldest generation that has passed its threshold, and the younger ones with it."""
         for generation in (2, 1, 0):
             if gc.get_count()[generation] > gc.get_threshold()[generation] > 0:

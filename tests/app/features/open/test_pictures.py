@@ -100,7 +100,7 @@ def test_a_missing_mesh_is_located_by_the_user(window, qtbot, mesh, tmp_path, mo
     (tmp_path / "elsewhere").mkdir()
     moved = mesh.rename(tmp_path / "elsewhere" / "renamed.vtu")
     before = window.session.document.now
-    with qtbot.waitSignal(window.session.opener.wanting, timeout=PATIENCE):
+    with qtbot.waitSignal(window.session.opener.mesh_missing, timeout=PATIENCE):
         window.features["open"].open(tmp_path / "p.png")
     assert window.session.document.now is before
     assert "The mesh of p.png was not found" in messages(window)[-1]

@@ -1,4 +1,4 @@
-"""What the nodes of a boundary are, found beside the window."""
+"""Classification of the nodes of a boundary in the background."""
 
 import numpy as np
 import pytest
@@ -22,21 +22,21 @@ FIGURES = measure(MESH.points, MESH.hexes)
 
 
 @pytest.fixture
-def classer(qapp):
-    classer = BoundaryClassifier(Document())
-    yield classer
-    classer.close()
+def classifier(qapp):
+    classifier = BoundaryClassifier(Document())
+    yield classifier
+    classifier.close()
 
 
 def creased():
-    """A block with a crease across a part of its top."""
+    """Return a block with a crease across part of its top."""
     mesh = grid(8)
     points = mesh.points.copy()
     points[(points[:, 2] == 8) & (points[:, 0] == 4) & (np.abs(points[:, 1] - 4) <= 1), 2] += 1
     return mesh.with_points(points)
 
 
-def test_without_whiskers_kinds_are_those_of_the_core():
+def test_without_whiskers_the_classes_are_those_of_the_core():
     np.testing.assert_array_equal(node_classes(MESH, 40.0), boundary_of(MESH).node_class)
     assert np.bincount(node_classes(ball(3), 40.0)).tolist() == np.bincount(boundary_of(ball(3)).node_class).tolist()
 
@@ -57,45 +57,45 @@ def test_locked_hexes_are_counted_with_those_that_sliding_frees():
     assert classify_boundary(MESH, FIGURES, 40.0).locked == 0
 
 
-def test_of_several_questions_the_newest_is_answered(classer, qtbot):
+def test_only_the_latest_request_is_answered(classifier, qtbot):
     pinned = MESH.replace(pinned=MESH.topology.boundary)
-    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
-        classer.ask(ball(2), FIGURES, 40.0)
-        classer.ask(MESH, FIGURES, 40.0)
-        classer.ask(pinned, FIGURES, 40.0)
-    qtbot.waitUntil(lambda: not classer.busy, timeout=PATIENCE)
-    assert classer.of(MESH).count(PIN) == MESH.topology.boundary.sum()
-    assert classer.of(ball(2)) is None
-    answer = classer.classes
-    classer.ask(pinned, FIGURES, 40.0)
-    assert not classer.busy
-    assert classer.classes is answer
+    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+        classifier.ask(ball(2), FIGURES, 40.0)
+        classifier.ask(MESH, FIGURES, 40.0)
+        classifier.ask(pinned, FIGURES, 40.0)
+    qtbot.waitUntil(lambda: not classifier.busy, timeout=PATIENCE)
+    assert classifier.of(MESH).count(PIN) == MESH.topology.boundary.sum()
+    assert classifier.of(ball(2)) is None
+    answer = classifier.classes
+    classifier.ask(pinned, FIGURES, 40.0)
+    assert not classifier.busy
+    assert classifier.classes is answer
 
 
-def test_why_nothing_was_found_is_told_and_another_question_is_asked_anew(classer, qtbot):
-    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
-        classer.ask(MESH, FIGURES, 40.0)
-    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
-        classer.ask(MESH, None, 40.0)
-    assert isinstance(classer.error, AttributeError)
-    assert classer.of(MESH) is None
-    classer.ask(MESH, None, 40.0)
-    assert not classer.busy  # it would fail again
-    with qtbot.waitSignal(classer.found, timeout=PATIENCE):
-        classer.ask(MESH, FIGURES, 30.0)
-    assert classer.error is None
-    assert classer.of(MESH) is not None
+def test_an_error_is_reported_and_the_next_request_is_computed(classifier, qtbot):
+    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+        classifier.ask(MESH, FIGURES, 40.0)
+    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+        classifier.ask(MESH, None, 40.0)
+    assert isinstance(classifier.error, AttributeError)
+    assert classifier.of(MESH) is None
+    classifier.ask(MESH, None, 40.0)
+    assert not classifier.busy  # it would fail again
+    with qtbot.waitSignal(classifier.found, timeout=PATIENCE):
+        classifier.ask(MESH, FIGURES, 30.0)
+    assert classifier.error is None
+    assert classifier.of(MESH) is not None
 
 
 @pytest.mark.parametrize("figures", [None, FIGURES])
-def test_what_comes_of_a_mesh_that_was_left_is_not_told(figures, classer, qtbot):
-    told = []
-    classer.found.connect(lambda: told.append((classer.classes, classer.error)))
-    classer.ask(MESH, figures, 40.0)
-    classer.forget()
+def test_results_for_a_closed_mesh_are_dropped(figures, classifier, qtbot):
+    results = []
+    classifier.found.connect(lambda: results.append((classifier.classes, classifier.error)))
+    classifier.ask(MESH, figures, 40.0)
+    classifier.forget()
     other = ball(2)
-    classer.ask(other, measure(other.points, other.hexes), 40.0)
-    qtbot.waitUntil(lambda: not classer.busy, timeout=PATIENCE)
-    ((classes, error),) = told
+    classifier.ask(other, measure(other.points, other.hexes), 40.0)
+    qtbot.waitUntil(lambda: not classifier.busy, timeout=PATIENCE)
+    ((classes, error),) = results
     assert classes.mesh is other
     assert error is None

@@ -1,4 +1,4 @@
-"""Work in threads: where it is reported, how it is called off, what is left running."""
+"""Background tasks: signals, cancelling, dropping, and threads that stay running."""
 
 from __future__ import annotations
 
@@ -15,41 +15,41 @@ from tests.patience import PATIENCE
 
 @pytest.fixture
 def gate():
-    """An event that a thread waits for; set at the end, so that a failing test leaves none waiting."""
+    """Return an event that threads wait for; set at the end, so that a failing test leaves no thread waiting."""
     gate = threading.Event()
     yield gate
     gate.set()
 
 
-def test_the_result_comes_to_the_thread_that_asked_whoever_listens(qtbot):
-    worked, heard = [], []
+def test_the_end_is_reported_in_the_thread_that_made_the_task(qtbot):
+    worked, signals = [], []
     task = Task("reading a test", lambda task: worked.append(threading.get_ident()) or 42)
-    task.ended.connect(lambda: heard.append(threading.get_ident()))
+    task.ended.connect(lambda: signals.append(threading.get_ident()))
     task.start()
-    qtbot.waitUntil(lambda: heard != [], timeout=PATIENCE)
-    assert heard == [threading.get_ident()]
-    assert worked != heard
+    qtbot.waitUntil(lambda: signals != [], timeout=PATIENCE)
+    assert signals == [threading.get_ident()]
+    assert worked != signals
     assert (task.result, task.error) == (42, None)
     assert task.over
 
 
-def test_what_is_told_comes_first_and_in_order(qtbot):
-    heard = []
+def test_reports_come_in_order_and_before_the_end(qtbot):
+    signals = []
 
     def work(task):
         for word in ("one", "two"):
-            task.tell(word)
+            task.report(word)
 
     task = Task("reading a test", work)
-    task.reported.connect(heard.append)
-    task.ended.connect(lambda: heard.append("end"))
+    task.reported.connect(signals.append)
+    task.ended.connect(lambda: signals.append("end"))
     task.start()
-    qtbot.waitUntil(lambda: heard[-1:] == ["end"], timeout=PATIENCE)
-    assert heard == ["one", "two", "end"]
+    qtbot.waitUntil(lambda: signals[-1:] == ["end"], timeout=PATIENCE)
+    assert signals == ["one", "two", "end"]
 
 
 @pytest.mark.parametrize("error", [ValueError("no"), SystemExit(1)])
-def test_whatever_is_raised_is_the_error(qtbot, error):
+def test_an_exception_of_any_kind_becomes_the_error(qtbot, error):
     def work(task):
         raise error
 
@@ -60,7 +60,7 @@ def test_whatever_is_raised_is_the_error(qtbot, error):
     assert task.result is None
 
 
-def test_a_thread_that_runs_is_seen_by_its_name(qtbot, gate):
+def test_a_running_thread_is_listed_by_name(qtbot, gate):
     task = Task("reading a test", lambda task: gate.wait())
     assert not task.over
     task.start()
@@ -73,7 +73,7 @@ def test_a_thread_that_runs_is_seen_by_its_name(qtbot, gate):
     assert "reading a test" not in {thread.name for thread in threading.enumerate()}
 
 
-def test_called_off_it_ends_early_and_says_so(qtbot):
+def test_a_cancelled_task_ends_early_and_emits_ended(qtbot):
     task = Task("reading a test", lambda task: task.cancelled.wait())
     with qtbot.waitSignal(task.ended, timeout=PATIENCE):
         task.start()
@@ -81,49 +81,49 @@ def test_called_off_it_ends_early_and_says_so(qtbot):
     assert task.result is True
 
 
-def test_nothing_is_heard_of_what_was_dropped_or_waited_for(qtbot, gate):
-    heard = []
+def test_dropped_tasks_and_those_waited_for_emit_nothing(qtbot, gate):
+    signals = []
 
     def work(task):
         gate.wait()
-        task.tell("word")
+        task.report("word")
 
     dropped, waited = Task("reading one", work), Task("reading another", work)
     for task in (dropped, waited):
-        task.reported.connect(heard.append)
-        task.ended.connect(lambda: heard.append("end"))
+        task.reported.connect(signals.append)
+        task.ended.connect(lambda: signals.append("end"))
         task.start()
     dropped.drop()
     gate.set()
     waited.wait()
     last = Task("reading the last", lambda task: None)
     qtbot.waitUntil(lambda: dropped.over, timeout=PATIENCE)
-    with qtbot.waitSignal(last.ended, timeout=PATIENCE):  # so that theirs would have come before
+    with qtbot.waitSignal(last.ended, timeout=PATIENCE):  # their signals would have come before
         last.start()
-    assert heard == []
+    assert signals == []
 
 
-def test_a_task_that_nobody_keeps_lives_until_it_is_over(qtbot, gate):
-    heard = []
+def test_a_task_without_references_lives_until_it_is_over(qtbot, gate):
+    signals = []
     task = Task("reading a test", lambda task: gate.wait())
-    task.ended.connect(lambda: heard.append("end"))
+    task.ended.connect(lambda: signals.append("end"))
     task.start()
     known = weakref.ref(task)
     del task
     gc.collect()
     assert known() is not None
     gate.set()
-    qtbot.waitUntil(lambda: heard == ["end"], timeout=PATIENCE)
+    qtbot.waitUntil(lambda: signals == ["end"], timeout=PATIENCE)
     gc.collect()
     assert known() is None
 
 
-@pytest.mark.skipif(not hasattr(os, "getpriority"), reason="the system knows no such priorities")
+@pytest.mark.skipif(not hasattr(os, "getpriority"), reason="the system has no process priorities")
 @pytest.mark.parametrize("yields", [False, True])
-def test_it_lets_the_window_go_first_where_it_should(qtbot, yields):
-    mine = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
+def test_a_task_that_yields_has_a_lower_priority(qtbot, yields):
+    own = os.getpriority(os.PRIO_PROCESS, threading.get_native_id())
     task = Task("smoother", lambda task: os.getpriority(os.PRIO_PROCESS, threading.get_native_id()), yields=yields)
     with qtbot.waitSignal(task.ended, timeout=PATIENCE):
         task.start()
-    assert (task.result > mine) == yields
-    assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == mine
+    assert (task.result > own) == yields
+    assert os.getpriority(os.PRIO_PROCESS, threading.get_native_id()) == own

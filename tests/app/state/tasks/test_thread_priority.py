@@ -1,4 +1,4 @@
-"""Threads that compute give way to the window."""
+"""Threads that compute have a lower priority than the window."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from hexmend_app.state.tasks.thread_priority import lower_priority
 
 @pytest.fixture
 def priorities(monkeypatch):
-    """What the system is asked for, which it is not given."""
-    asked = []
-    monkeypatch.setattr(os, "setpriority", lambda *values: asked.append(values), raising=False)
+    """Record the calls of `os.setpriority` instead of making them."""
+    calls = []
+    monkeypatch.setattr(os, "setpriority", lambda *values: calls.append(values), raising=False)
     before = threads()
-    yield asked
+    yield calls
     set_threads(before)
 
 

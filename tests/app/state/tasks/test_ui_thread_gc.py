@@ -1,4 +1,4 @@
-"""Circular garbage that threads come upon stays for the window's thread."""
+"""Cyclic garbage is collected in the thread of the window only."""
 
 import gc
 import threading
@@ -11,12 +11,12 @@ from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 from tests.patience import PATIENCE
 
 
-class Circle:
-    """Garbage as soon as nobody else knows it."""
+class Cycle:
+    """Object that refers to itself: garbage without other references; `collected` gets the collecting thread."""
 
-    def __init__(self, went):
+    def __init__(self, collected):
         self.itself = self
-        weakref.finalize(self, lambda: went.append(threading.current_thread()))
+        weakref.finalize(self, lambda: collected.append(threading.current_thread()))
 
 
 @pytest.fixture
@@ -24,58 +24,58 @@ def garbage(qapp):
     return qapp.findChild(UiThreadGC)
 
 
-def test_a_thread_collects_none(qapp):
-    went = []
-    Circle(went)
+def test_other_threads_do_not_collect(qapp):
+    collected = []
+    Cycle(collected)
     thread = threading.Thread(target=lambda: [[] for _ in range(100_000)])
     thread.start()
     thread.join()
-    assert went == []
+    assert collected == []
     gc.collect()
-    assert went == [threading.current_thread()]
+    assert collected == [threading.current_thread()]
 
 
-def test_it_is_collected_while_the_window_waits(garbage, qtbot):
-    went = []
-    Circle(went)
+def test_garbage_is_collected_while_the_window_waits(garbage, qtbot):
+    collected = []
+    Cycle(collected)
     kept = [[] for _ in range(10_000)]
-    qtbot.waitUntil(lambda: bool(went), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: bool(collected), timeout=PATIENCE)
     assert kept
 
 
 @pytest.mark.slow
-def test_old_garbage_goes_too(garbage):
-    went = []
-    circle = Circle(went)
-    gc.collect()  # by now it is old
-    del circle
+def test_old_garbage_is_collected_too(garbage):
+    collected = []
+    cycle = Cycle(collected)
+    gc.collect()  # moves it to the oldest generation
+    del cycle
     kept = []
     for _ in range(200):
         kept.append([[] for _ in range(1000)])
-        garbage.look()
-    assert went
+        garbage.collect()
+    assert collected
 
 
-def test_what_is_spared_is_looked_at_no_more_and_what_comes_after_is(garbage):
-    went, before = [], Circle([])
-    gc.collect()  # or garbage would be spared too
-    garbage.spare()
+def test_frozen_objects_are_not_examined_but_newer_ones_are(garbage):
+    collected, before = [], Cycle([])
+    gc.collect()  # or garbage would be frozen too
+    garbage.freeze()
     assert not any(one is before for one in gc.get_objects())
-    Circle(went)
+    Cycle(collected)
     gc.collect()
-    assert went
+    assert collected
 
 
-def test_little_is_left_alone(garbage):
-    went = []
+def test_little_garbage_is_not_collected(garbage):
+    collected = []
     gc.collect()
-    Circle(went)
-    garbage.look()
-    assert went == []
+    Cycle(collected)
+    garbage.collect()
+    assert collected == []
     gc.collect()
 
 
-def test_there_is_one_of_an_application(garbage, qapp):
+def test_an_application_has_one_collector(garbage, qapp):
     from hexmend_app.shell.start.program import application
 
     assert application().findChildren(UiThreadGC) == [garbage]
