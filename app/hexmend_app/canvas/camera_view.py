@@ -25,6 +25,7 @@ from hexmend_app.theme.style import set_help
 
 if TYPE_CHECKING:
     from pyvistaqt import BackgroundPlotter
+    from vtkmodules.vtkRenderingCore import vtkProp
 
     from hexmend_app.canvas.plotter import CanvasPlotter
 
@@ -87,6 +88,10 @@ class CameraView(QWidget):
 
             self._plotter = CanvasPlotter(self)
         return self._plotter
+
+    def plotter_props(self, line_width: float) -> list[vtkProp]:
+        """Return copies of the plotter's visible props for pictures and films; see `CanvasPlotter.copied_props`."""
+        return [] if self._plotter is None else self._plotter.copied_props(line_width)
 
     def new_plotter_window(self, title: str = "PyVista") -> BackgroundPlotter:
         """Open a separate pyvistaqt window, with the interactor and the widgets of PyVista."""

@@ -12,6 +12,8 @@ from hexmend import gallery
 from hexmend.errors import HexmendError
 from hexmend_app.canvas import plotter as module
 from hexmend_app.picture import Page
+from hexmend_app.scene.film.film import pictures
+from hexmend_app.scene.film.film_frames import FilmFrame
 from hexmend_app.state.mesh.document import State
 
 MAGENTA = (255, 0, 255)
@@ -87,6 +89,17 @@ def test_points_text_scalar_bars_and_textures_are_in_pictures(canvas):
     without = np.asarray(_saved(canvas), int)
     canvas.plotter.add_text("Text", color="red", font_size=20)
     assert np.abs(np.asarray(_saved(canvas), int) - without).max() > 100
+
+
+def test_its_actors_are_in_films(canvas):
+    shown = canvas.viewport.frame
+    frame = FilmFrame("frame", State.of(shown.mesh))
+    options = {"camera": canvas.viewport.camera, "props": canvas.plotter_props}
+    (without,) = pictures([frame], shown.look, (400, 300), **options)
+    _add(canvas)
+    (picture,) = pictures([frame], shown.look, (400, 300), **options)
+    assert _magenta(without) == 0
+    assert _magenta(picture) > 1000
 
 
 def test_closing_the_plotter_keeps_the_view_open(canvas):

@@ -105,7 +105,10 @@ def test_a_figure_set_has_its_captions_and_its_commands(hexmend, mesh_file, tmp_
             ["figures", "-o", "set", "--width-mm", "1000", "--methods", "none"],
             "1 picture on a page 1000 mm wide: the page",
         ),
-        (["figures", "-o", "set", "--width-mm", "1000", "--methods", "mend,laplacian,getme"], "expected at most 67,108,864"),
+        (
+            ["figures", "-o", "set", "--width-mm", "1000", "--methods", "mend,laplacian,getme"],
+            "expected at most 67,108,864",
+        ),
         (["report", "-o", "a.html", "--scene", "../fine.toml"], "2 pictures on a page 170 mm wide: the page has"),
     ],
 )

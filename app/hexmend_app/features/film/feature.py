@@ -103,7 +103,13 @@ class FeatureFilm(Feature):
         )
         self._path, self._record, self._rate = path, record, choice.rate
         frames = pictures(
-            states, scene.look(now.mesh), size, camera=view.camera, movement=view.frame.movement, chart=choice.histogram
+            states,
+            scene.look(now.mesh),
+            size,
+            camera=view.camera,
+            movement=view.frame.movement,
+            chart=choice.histogram,
+            props=self.canvas.plotter_props,
         )
         self._drawing.begin(frames, lambda drawn: _progress_text(drawn, len(numbers), path))
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw
-from vtkmodules.vtkRenderingCore import vtkCamera
+from vtkmodules.vtkRenderingCore import vtkCamera, vtkProp
 
 from hexmend.boundary.displacement import Displacement, ReferenceState
 from hexmend.io.storage.atomic import atomic_write
@@ -47,6 +47,7 @@ def pictures(
     camera: vtkCamera | None = None,
     movement: Displacement | None = None,
     chart: bool = False,
+    props: Callable[[float], list[vtkProp]] | None = None,
 ) -> Iterator[Image.Image]:
     """Generate the pictures of film frames, drawn off screen with the same camera.
 
@@ -64,6 +65,8 @@ def pictures(
         iteration refers to the last frame instead.
     chart : bool
         Draw a histogram of the coloured values.
+    props : callable, optional
+        Returns additional props, from the width of a thin line in pixels.
     """
     width, height = size
     strip = strip_height(size)
@@ -71,6 +74,8 @@ def pictures(
     chart_width = round(_CHART * width) if chart else 0
     with Stage((width - chart_width, height - (1 if look.neutral else 2) * strip)) as stage:
         viewport = Viewport(Pane(stage.window), pixel_ratio=pixel_ratio_of(size))
+        for prop in () if props is None else props(pixel_ratio_of(size)):
+            viewport.layers[0].AddViewProp(prop)
         last: ReferenceState | None = None
         for film_frame in film_frames:
             mesh, figures = film_frame.state.mesh, film_frame.state.figures
