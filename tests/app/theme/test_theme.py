@@ -1,4 +1,4 @@
-"""The light and the dark theme: legible, complete, switched at once and remembered."""
+"""Light and dark theme: contrast, completeness, switching and storing."""
 
 from __future__ import annotations
 
@@ -71,14 +71,14 @@ def contrast(a, b):
     return (light + 0.05) / (dark + 0.05)
 
 
-def test_the_measure_of_contrast_is_that_of_wcag():
+def test_contrast_agrees_with_wcag():
     assert contrast("#000000", "#ffffff") == pytest.approx(21)
     assert contrast("#767676", "#ffffff") == pytest.approx(4.54, abs=0.01)
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
-def test_every_text_can_be_read_on_its_grounds(name, ground, dark):
+def test_every_text_has_contrast_on_its_backgrounds(name, ground, dark):
     assert contrast(ROLES[name].of(dark), ground.of(dark)) >= 4.5
 
 
@@ -183,7 +183,7 @@ def seen(widget):
 
 @pytest.fixture
 def alone(shared):
-    """No window is there that would be put into every other theme, too: it takes seconds."""
+    """Close the shared window, as switching its theme takes seconds."""
     shared.forget()
 
 
@@ -206,7 +206,7 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, d
     np.testing.assert_array_equal(seen(switched), seen(new))
 
 
-def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
+def test_the_theme_is_switched_from_the_menu_and_stored(window, qtbot):
     light = pixels(window)
     ground = light[5, 5]
     window.window_actions["theme_dark"].trigger()
