@@ -1,4 +1,4 @@
-"""Light and dark theme: contrast, completeness, switching and storing."""
+"""Light and dark theme: legible, complete, switched immediately and stored."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def light_afterwards(qapp):
 
 
 def luminance(colour):
-    """WCAG 2.2, relative luminance."""
+    """Return the relative luminance of a colour (WCAG 2.2)."""
     share = np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255
     linear = np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
     return float(linear @ (0.2126, 0.7152, 0.0722))
@@ -71,14 +71,14 @@ def contrast(a, b):
     return (light + 0.05) / (dark + 0.05)
 
 
-def test_contrast_agrees_with_wcag():
+def test_the_contrast_agrees_with_wcag():
     assert contrast("#000000", "#ffffff") == pytest.approx(21)
     assert contrast("#767676", "#ffffff") == pytest.approx(4.54, abs=0.01)
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize(("name", "ground"), PAIRS, ids=[f"{name} {ground.light}" for name, ground in PAIRS])
-def test_every_text_has_contrast_on_its_backgrounds(name, ground, dark):
+def test_every_text_is_legible_on_its_backgrounds(name, ground, dark):
     assert contrast(ROLES[name].of(dark), ground.of(dark)) >= 4.5
 
 
@@ -183,7 +183,7 @@ def seen(widget):
 
 @pytest.fixture
 def alone(shared):
-    """Close the shared window, as switching its theme takes seconds."""
+    """Close the shared window, which would take seconds to change its theme."""
     shared.forget()
 
 
@@ -206,7 +206,7 @@ def test_no_widget_keeps_a_colour_of_the_other_theme(qtbot, qapp, alone, name, d
     np.testing.assert_array_equal(seen(switched), seen(new))
 
 
-def test_the_theme_is_switched_from_the_menu_and_stored(window, qtbot):
+def test_the_theme_is_switched_from_the_menu_and_remembered(window, qtbot):
     light = pixels(window)
     ground = light[5, 5]
     window.window_actions["theme_dark"].trigger()
@@ -218,7 +218,7 @@ def test_the_theme_is_switched_from_the_menu_and_stored(window, qtbot):
     now = window.session.document.now
     scene = Scene(page=Page(pixels=(400, 300)))
     report = np.asarray(draw_page(scene, [PageMesh.of(now.mesh)]).image())
-    assert report[2, 2].tolist() == [255, 255, 255]  # paper, whatever is worn on the screen
+    assert report[2, 2].tolist() == [255, 255, 255]  # white in both themes
     on = [choice for choice in ThemeChoice if window.window_actions[f"theme_{choice.value}"].isChecked()]
     assert on == [ThemeChoice.DARK]
     window.window_actions["theme_light"].trigger()
@@ -227,7 +227,7 @@ def test_the_theme_is_switched_from_the_menu_and_stored(window, qtbot):
     assert (np.abs(pixels(window) - light).sum(axis=2) > 60).mean() < 0.02
 
 
-def test_the_theme_follows_the_desktop_until_one_is_chosen(window, monkeypatch):
+def test_the_theme_follows_the_desktop_until_one_is_selected(window, monkeypatch):
     hints = QGuiApplication.styleHints()
     scheme = Qt.ColorScheme.Dark
     monkeypatch.setattr(type(hints), "colorScheme", lambda self: scheme)
