@@ -22,14 +22,14 @@ class PlainHost:
         self.canvas = None
         self.messages, self.busy = MessageBar(self.dialog_parent), Busy(self.dialog_parent)
         self.stem = "mesh"
-        self.shown_panels: list[str] = []
+        self.fronted: list[str] = []
         self.session.document.replace(State.of(mesh), path)
 
     def show_panel(self, id):
-        self.shown_panels.append(id)
+        self.fronted.append(id)
 
     def in_front(self, id):
-        return id in self.shown_panels[-1:]
+        return id in self.fronted[-1:]
 
     def may_leave(self):
         return True

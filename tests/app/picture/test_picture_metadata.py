@@ -1,4 +1,4 @@
-"""What a picture carries: written, read again, and refused where it is damaged or hostile."""
+"""Metadata of pictures: written, read, and rejected if damaged or malicious."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from tests.core.grids import grid
 SCENE = Scene(cut=Cut((Plane(),)), panels=(PicturePanel(caption="Größe × ψ"),), page=Page(85, 60))
 
 
-def written(path, carried, compressed=False):
+def written(path, metadata, compressed=False):
     info = PngInfo()
-    for keyword, text in carried.items():
+    for keyword, text in metadata.items():
         info.add_itxt(keyword, text, zip=compressed)
     Image.new("RGB", (40, 30)).save(path, pnginfo=info)
     return path
@@ -36,23 +36,23 @@ def picture(tmp_path):
     return written(tmp_path / "picture.png", with_metadata(SCENE, meshes, Recipe.of("getme", "mend")))
 
 
-def test_what_is_carried_is_read_again(picture):
-    carried = read_metadata(picture)
-    assert (carried.scene, carried.recipe) == (SCENE, Recipe.of("getme", "mend"))
-    assert carried.first == PicturedMesh("up/mesh.vtu", digest(grid(2)), digest(grid(3)))
+def test_written_metadata_are_read(picture):
+    metadata = read_metadata(picture)
+    assert (metadata.scene, metadata.recipe) == (SCENE, Recipe.of("getme", "mend"))
+    assert metadata.first == PicturedMesh("up/mesh.vtu", digest(grid(2)), digest(grid(3)))
     with Image.open(picture) as image:
         image.load()
         assert image.text["hexmend scene"].startswith("# hexmend scene")
 
 
-def test_a_digest_is_of_hexes_and_places():
+def test_a_digest_depends_on_hexes_and_positions():
     mesh = grid(2)
     assert digest(mesh) == digest(mesh.with_points(mesh.points.copy()))
     assert digest(mesh) != digest(mesh.with_points(mesh.points + 1e-12))
     assert digest(mesh) != digest(grid(3))
 
 
-def test_the_mesh_is_found_where_it_was_or_beside_the_picture(picture, tmp_path):
+def test_the_mesh_is_found_at_its_path_or_next_to_the_picture(picture, tmp_path):
     first = read_metadata(picture).first
     assert first.candidates(picture) == []
     (tmp_path / "mesh.vtu").write_text("")
@@ -63,12 +63,12 @@ def test_the_mesh_is_found_where_it_was_or_beside_the_picture(picture, tmp_path)
 
 
 @pytest.mark.parametrize("file", ["/etc/passwd", "\\\\host\\share\\a.vtu", "c:/mesh.vtu", "http://host/a"])
-def test_a_path_leads_from_the_picture_alone(file):
+def test_paths_that_are_not_relative_are_rejected(file):
     with pytest.raises(ParameterError, match="no path relative to the picture"):
         PicturedMesh(file, "0" * 64, "0" * 64)
 
 
-def test_a_picture_without_a_scene_is_said(tmp_path):
+def test_a_picture_without_a_scene_is_an_error(tmp_path):
     Image.new("RGB", (4, 4)).save(tmp_path / "p.png")
     assert is_png(tmp_path / "p.png")
     with pytest.raises(FileError, match=r"p\.png: this picture contains no scene\. Open the mesh that it shows\."):
@@ -76,21 +76,21 @@ def test_a_picture_without_a_scene_is_said(tmp_path):
     assert not is_png(tmp_path / "none.png")
 
 
-def test_compressed_texts_of_any_size_are_passed_over(tmp_path):
-    carried = {"hexmend scene": "# " + "a" * 40_000_000, "hexmend meshes": "x = 1"}
-    path = written(tmp_path / "bomb.png", carried, compressed=True)
+def test_compressed_texts_are_skipped(tmp_path):
+    metadata = {"hexmend scene": "# " + "a" * 40_000_000, "hexmend meshes": "x = 1"}
+    path = written(tmp_path / "bomb.png", metadata, compressed=True)
     assert path.stat().st_size < 200_000
     with pytest.raises(FileError, match="contains no scene"):
         read_metadata(path)
 
 
-def test_texts_that_nobody_asks_for_are_not_kept(tmp_path):
+def test_texts_with_other_keywords_are_skipped(tmp_path):
     asked = {"hexmend scene": "format = 1"}
     path = written(tmp_path / "p.png", asked | {f"hexmend {k}": "a" * 1000 for k in range(20)})
     assert texts(path, ["hexmend scene", "hexmend recipe"]) == asked
 
 
-def test_texts_that_are_too_large_or_damaged_are_said(picture, tmp_path):
+def test_too_large_or_damaged_texts_are_errors(picture, tmp_path):
     large = written(tmp_path / "large.png", {"hexmend scene": "a" * 5_000_000})
     with pytest.raises(FileError, match="a text of more than"):
         read_metadata(large)
@@ -105,26 +105,26 @@ def test_texts_that_are_too_large_or_damaged_are_said(picture, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("keyword", "text", "said"),
+    ("keyword", "text", "message"),
     [
         ("hexmend scene", "[bar]\ntick = 1", r"\[bar\] has an unknown key 'tick'"),
-        ("hexmend scene", "[[panels]]\nmesh = 2", "panel 1 shows mesh 2, and there are 1"),
+        ("hexmend scene", "[[panels]]\nmesh = 2", "panel 1 shows mesh 2, but there are 1"),
         ("hexmend meshes", "version = 1", "version = 1 is not a text"),
         ("hexmend meshes", "", "no mesh is listed"),
         ("hexmend meshes", "meshes = [{ file = 'a', opened = 'b', shown = 'c' }]", "is no digest"),
         ("hexmend recipe", "format = 1\n[[stage]]\nmethod = 'rm'", "there is no method 'rm'"),
     ],
 )
-def test_what_cannot_be_used_is_said(tmp_path, keyword, text, said):
-    carried = with_metadata(SCENE, [PicturedMesh("", "0" * 64, "0" * 64)]) | {keyword: text}
-    with pytest.raises(FileError, match=said):
-        read_metadata(written(tmp_path / "p.png", carried))
+def test_invalid_metadata_are_errors(tmp_path, keyword, text, message):
+    metadata = with_metadata(SCENE, [PicturedMesh("", "0" * 64, "0" * 64)]) | {keyword: text}
+    with pytest.raises(FileError, match=message):
+        read_metadata(written(tmp_path / "p.png", metadata))
 
 
 @pytest.mark.slow
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
-def test_whatever_a_picture_holds_is_read_or_refused(picture, tmp_path, data):
+def test_any_picture_is_read_or_rejected(picture, tmp_path, data):
     whole = bytearray(picture.read_bytes())
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(8, len(whole) - 1))
@@ -138,14 +138,14 @@ def test_whatever_a_picture_holds_is_read_or_refused(picture, tmp_path, data):
 
 @settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.text(max_size=60), st.sampled_from(["hexmend scene", "hexmend meshes", "hexmend recipe"]))
-def test_whatever_a_text_says_is_read_or_refused(tmp_path, text, keyword):
+def test_any_text_is_read_or_rejected(tmp_path, text, keyword):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    carried = with_metadata(SCENE, [PicturedMesh("", "0" * 64, "0" * 64)]) | {keyword: text}
-    chunks = [chunk(b"iTXt", name.encode() + b"\0\0\0\0\0" + said.encode()) for name, said in carried.items()]
+    metadata = with_metadata(SCENE, [PicturedMesh("", "0" * 64, "0" * 64)]) | {keyword: text}
+    chunks = [chunk(b"iTXt", name.encode() + b"\0\0\0\0\0" + message.encode()) for name, message in metadata.items()]
     (tmp_path / "p.png").write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(chunks) + chunk(b"IEND", b""))
-    assert texts(tmp_path / "p.png", [*carried]) == carried
+    assert texts(tmp_path / "p.png", [*metadata]) == metadata
     try:
         read_metadata(tmp_path / "p.png")
     except FileError as error:
@@ -153,7 +153,7 @@ def test_whatever_a_text_says_is_read_or_refused(tmp_path, text, keyword):
 
 
 @pytest.mark.slow
-def test_hexes_that_are_named_one_by_one_fit_into_a_picture(tmp_path):
+def test_many_listed_hexes_fit_into_a_picture(tmp_path):
     scene = Scene(show=Show(hidden=tuple(np.arange(200_000).tolist())))
     path = written(tmp_path / "p.png", with_metadata(scene, [PicturedMesh("", "0" * 64, "0" * 64)]))
     assert read_metadata(path).scene == scene

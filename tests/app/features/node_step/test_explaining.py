@@ -26,7 +26,7 @@ def test_the_camera_moves_to_the_explained_node(host, chosen):
     if chosen != "nothing":
         selection.choose(around, free if chosen == "a free node" else None)
     action(FeatureNode(host), "explain_node").handle()
-    assert host.shown_panels == ["node"]
+    assert host.fronted == ["node"]
     assert host.visited == [(selection.hex,)]
     assert mesh.free[selection.node]
     assert selection.node in mesh.hexes[selection.hex]
