@@ -1,4 +1,4 @@
-"""`python -m hexmend_app [MESH]` is `hexmend [MESH]`."""
+"""Run `hexmend view [MESH]` for `python -m hexmend_app [MESH]`."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Modules under the names of earlier versions that scripts of the window import; nothing is written under them."""
+"""Former names of modules, which scripts saved by earlier versions import; new scripts use the present names."""
 
 MODULES = {
     "hexmend_app.features.convergence.file": "hexmend_app.features.convergence.chart_file",

@@ -1,8 +1,8 @@
-"""Declarations of a feature of the viewer: its actions, its panels, and how it shows changes.
+"""Base class of the features of the viewer, and declarations of their actions and panels.
 
 A feature is a folder below `hexmend_app.features` with a module `feature` whose class `Feature...` derives from
-`Feature`. The window finds it there; menus, tool bar, palette, the page of keys and `docs/keys.md` are made from its
-declarations. Features do not import each other: they meet in the session.
+`Feature`. The window finds it there, and builds menus, tool bar, palette, the page of keys and `docs/keys.md` from its
+declarations. Features do not import each other: they communicate through the session.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from hexmend_app.canvas.canvas import Canvas
 
-#: The menus, in their order; behind a slash, a menu within one.
+#: Menus in order; a name after a slash is that of a submenu.
 MENUS = (
     "File",
     "Edit",
@@ -55,45 +55,45 @@ class ActionFace(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Action:
-    """A command of the user interface.
+    """Command of the user interface.
 
     Parameters
     ----------
     id : str
         Identifies it for other features, settings and tests.
     text : str
-        Text in the menu, with an ampersand before its mnemonic; without one, or where another action of the menu has
-        the same, a letter is assigned.
+        Text in the menu, with an ampersand before its mnemonic; a letter is assigned if there is none, or if another
+        action of the menu has the same.
     handle : callable
-        Called to carry it out; for an action with `checked`, with the new state.
+        Called to execute the action; for an action with `checked`, with the new state.
     menu : str
-        One of `MENUS`; "" for an action with only keys, the palette and the context menu of the view.
+        One of `MENUS`; "" for an action that is only in the palette and the context menu of the view, or has only keys.
     keys : str
         Portable key sequence, "" for none.
     icon : str
-        A Material Design icon's name, "" for none.
+        Name of a Material Design icon, "" for none.
     help : str
         One sentence, shown as tooltip and in the page of keys.
     enabled : callable
-        Returns True if it can be used now.
+        Returns True if the action is available now.
     checked : callable, optional
         Returns True if it is on; None for an action that is not checkable.
     title : callable, optional
-        Returns the present text, if it changes.
+        Returns the current text, if it changes.
     face : callable, optional
-        Returns the present text, icon and help on buttons, if they change.
+        Returns the current text, icon and help on buttons, if they change.
     tool : str
-        Text in the tool bar; "" for an action that is not in it.
+        Text in the tool bar; "" to omit it there.
     needs_mesh : bool
-        It is disabled while no mesh is open.
+        The action is disabled while no mesh is open.
     part : int
-        Section of the menu; sections are separated by lines.
+        Number of the section of the menu; sections are separated by lines.
     exclusive : bool
-        Exactly one of the exclusive actions of its menu is on.
+        The action belongs to the exclusive actions of its menu, of which exactly one is checked.
     in_view : bool
-        It is in the context menu of the view.
+        The action is in the context menu of the view.
     submenu : QMenu, optional
-        A menu below it.
+        Menu that is added after the action.
     """
 
     id: str
@@ -118,23 +118,23 @@ class Action:
 class PanelPlace(Enum):
     """Default place of a panel."""
 
-    TOOLS = "tools"  # docks at the top right: they change the mesh or the picture
-    FACTS = "facts"  # docks at the bottom right: figures and charts
+    TOOLS = "tools"  # docks at the top right, for tools that change the mesh or the picture
+    FACTS = "facts"  # docks at the bottom right, for figures and charts
     DRAWER = "drawer"  # docks below the view, which open and close together
-    BELOW = "below"  # a line below the view, not a dock
-    EMPTY = "empty"  # instead of the view while no mesh is open
+    BELOW = "below"  # bars below the view, not docks
+    EMPTY = "empty"  # in place of the view while no mesh is open
 
 
 @dataclass(frozen=True, kw_only=True)
 class Panel:
-    """A widget of a feature with a place in the window.
+    """Widget of a feature with a place in the window.
 
     Parameters
     ----------
     id : str
         Identifies it in settings and tests.
     title : str
-        Shown on its tab and in the menu View.
+        Text on its tab and in the menu View.
     widget : QWidget
     place : PanelPlace
     tab : str
@@ -144,7 +144,7 @@ class Panel:
     help : str
         One sentence that describes it.
     scrolls : bool
-        It is put into a scroll area; for a widget that does not scroll itself.
+        Add a scroll area, for a widget that does not scroll itself.
     """
 
     id: str
@@ -158,16 +158,16 @@ class Panel:
 
 
 class Feature(QObject):
-    """A feature of the viewer.
+    """Base of the features of the viewer.
 
     Parameters
     ----------
     host : Host
     """
 
-    #: Features are built in this order, and by default listed in menus and refreshed in it.
+    #: Order in which features are built; default of the other two orders.
     order: ClassVar[int] = 50
-    #: Order of a feature's actions in each menu.
+    #: Order of the actions of features in each menu.
     menu_order: ClassVar[int]
     #: Order in which features are refreshed.
     refresh_order: ClassVar[int]
@@ -188,76 +188,76 @@ class Feature(QObject):
         return self.host.canvas
 
     def actions(self) -> Sequence[Action]:
-        """The actions of this feature."""
+        """Return the actions of this feature."""
         return ()
 
     def panels(self) -> Sequence[Panel]:
-        """The panels of this feature."""
+        """Return the panels of this feature."""
         return ()
 
     def states(self) -> Sequence[StatePart]:
-        """The parts of this feature's state that session files store."""
+        """Return the parts of the state of this feature that session files store."""
         return ()
 
     def canvas_ready(self, canvas: Canvas) -> None:
         """Use the 3D view, which has just been built."""
 
     def refresh(self) -> None:
-        """Show the present session; called once for all changes in a turn of the event loop."""
+        """Show the current session; called once for all changes in a turn of the event loop."""
 
     def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run that goes on, where the feature shows something of it.
+        """Show the newest iteration of a run in progress.
 
-        Called instead of `refresh`, up to thirty times a second, as long as nothing else has changed.
+        Called instead of `refresh`, up to thirty times a second, while nothing else changes.
         """
 
     def program_started(self) -> None:
-        """Begin what only the program does, not every window: called once all features are built."""
+        """Start tasks of the program, rather than of every window; called once all features are built."""
 
     def may_leave(self) -> bool:
         """Return True if the open mesh may be closed; may ask the user."""
         return True
 
     def save_and_wait(self, path: str | Path) -> bool:
-        """Save the mesh, or with a session's suffix the session, and wait; return True if it was written."""
+        """Save the mesh, or the session if the path has its suffix, and wait; return True if it was written."""
         saving = self.session.commands.save_in_background(path)
-        waited = self.host.wait_until(f"{saving.path.name} is being saved.", lambda: saving.over)
-        return waited and saving.error is None
+        completed = self.host.wait_until(f"Saving {saving.path.name}…", lambda: saving.over)
+        return completed and saving.error is None
 
     def close(self) -> None:
-        """End all work: the window is closing."""
+        """Stop all tasks; called when the window closes."""
 
 
 @dataclass
 class ChangeTracker:
-    """Remembers what was shown, so that only changes are shown again."""
+    """Record of the values that a feature has shown, to update only what has changed."""
 
     _last: dict[str, tuple] = field(default_factory=dict)
 
-    def changed(self, subject: str, *now: object) -> bool:
-        """Return True if the values differ from those of the last call with the same key, and remember them.
+    def changed(self, key: str, *values: object) -> bool:
+        """Return True if the values differ from those of the last call with the same key, and store them.
 
         Parameters
         ----------
-        what : str
-            The key.
-        *now : object
+        key : str
+        *values : object
             Compared by `==`; arrays, which are never written to, by identity.
         """
-        before = self._last.get(subject)
-        self._last[subject] = now
-        return before is None or len(before) != len(now) or any(map(_differ, before, now))
+        before = self._last.get(key)
+        self._last[key] = values
+        return before is None or len(before) != len(values) or any(map(_differ, before, values))
 
     def forget(self) -> None:
-        """Report every key as changed at its next call."""
+        """Let the next call of `changed` return True for every key."""
         self._last.clear()
 
 
 def _differ(before: object, now: object) -> bool:
     if before is now:
         return False
-    arrays = any(getattr(one, "ndim", 0) for one in (before, now))  # numpy is not imported before the first picture
-    return arrays or before != now
+    # Without `isinstance`, as numpy is not imported before the first picture.
+    is_array = any(getattr(value, "ndim", 0) for value in (before, now))
+    return is_array or before != now
 
 
 __all__ = [

@@ -22,15 +22,15 @@ class Host(Protocol):
     Attributes
     ----------
     dialog_parent : QWidget
-        The window, as parent of dialogs.
+        Parent of dialogs: the window.
     session : Session
-        The window's state.
+        State of the window.
     canvas : Canvas or None
         The 3D view; None until it is built.
     messages : MessageBar
         Shows errors and results.
     busy : Busy
-        Shows what is in progress, with a button to cancel.
+        Shows tasks in progress, with a button to cancel.
     """
 
     dialog_parent: QWidget
@@ -41,7 +41,7 @@ class Host(Protocol):
 
     @property
     def plotter(self) -> CanvasPlotter | None:
-        """PyVista's plotter on the 3D view, made when first asked for; None before there is a view."""
+        """PyVista plotter of the 3D view, created on first use; None before the view is built."""
 
     def action(self, id: str) -> QAction:
         """Return the action of any feature; available once all features are built."""
@@ -62,7 +62,7 @@ class Host(Protocol):
         """Wait until `over()` is true; return False if the user pressed the button `leave` instead."""
 
     def refresh_soon(self) -> None:
-        """Refresh everything once, in the next turn of the event loop."""
+        """Request a refresh of everything, once, in the next turn of the event loop."""
 
     @property
     def stem(self) -> str:

@@ -1,4 +1,4 @@
-"""Location of the program's own files: in the installed package, or next to the sources."""
+"""Paths of the files that come with Hexmend: in the installed package, or next to the sources."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from pathlib import Path
 
 
 def resource(name: str) -> Path:
-    """The path of a file of `resources/`."""
+    """Return the path of a file or folder in `resources/`."""
     here = Path(__file__).resolve().parent
     for folder in (here / "resources", here.parents[1] / "resources"):
         if (folder / name).exists():
             return folder / name
-    raise FileNotFoundError(f"resource {name!r} is missing from the installation: install Hexmend again")
+    raise FileNotFoundError(f"resource {name!r} is missing from the installation. Reinstall Hexmend.")
 
 
 def recipes() -> list[Path]:
-    """The recipes that come with Hexmend."""
+    """Return the paths of the recipes that come with Hexmend."""
     return sorted(resource("recipes").glob("*.toml"))
 
 
 def demo_mesh() -> Path:
-    """The mesh that the viewer opens where none is named."""
+    """Return the path of the mesh that the viewer opens by default."""
     return resource("demo.vtu")

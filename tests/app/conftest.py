@@ -1,4 +1,4 @@
-"""A window with a mesh open in it, for all tests of the app."""
+"""Fixtures of all tests of the app: the application, mesh files, and windows with an open mesh."""
 
 from __future__ import annotations
 
@@ -21,28 +21,28 @@ from tests.app.driving import open_and_wait
 from tests.app.resetting import SIZE, Resetting, lay_out, settle, unseen
 from tests.guards import windows_close
 
-#: The window that tests share, once there is one.
+#: The window that tests share; empty until it is created.
 SHARED: list[Window] = []
 
 
-@pytest.hookimpl(tryfirst=True)  # before pytest-qt has events handled, of which the last fine frame is one
+@pytest.hookimpl(tryfirst=True)  # before pytest-qt processes events, which include drawing the last fine frame
 def pytest_runtest_teardown():
-    """Draw nothing of the shared window any more that nobody will look at."""
+    """Stop drawing the shared window after a test."""
     for window in SHARED:
         window.setUpdatesEnabled(False)
 
 
 @pytest.fixture(scope="session")
 def qapp(qapp):
-    """The application in the program's own look, with garbage collected as there."""
+    """Return the application with its style and garbage collection."""
     apply_style(qapp, dark=False)
-    pg.setConfigOption("mouseRateLimit", 0)  # no move is left out, however fast one follows another
+    pg.setConfigOption("mouseRateLimit", 0)  # no mouse move is skipped
     return application()
 
 
 @pytest.fixture(autouse=True)
 def windows_are_closed(nothing_is_left_behind, request):
-    """A test that leaves a window on the screen fails."""
+    """Fail a test that leaves a window on the screen."""
     if "qapp" not in request.fixturenames:
         yield
         return
@@ -52,8 +52,8 @@ def windows_are_closed(nothing_is_left_behind, request):
 
 
 @pytest.fixture(autouse=True)
-def drawn_as_before(monkeypatch):
-    """What a command does to draw without a screen ends with its test: windows and their contexts are of another kind."""
+def off_screen_is_reset(monkeypatch):
+    """Undo the preparation of off-screen drawing after a test, as windows need other OpenGL contexts."""
     monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", "")
     monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW")
     yield
@@ -62,7 +62,7 @@ def drawn_as_before(monkeypatch):
 
 @pytest.fixture
 def shown(qtbot):
-    """Shows a widget in a window of its own that has the keyboard focus."""
+    """Return a function that shows a widget as a window with the keyboard focus."""
 
     def show(widget, width=360, height=0):
         qtbot.addWidget(widget)
@@ -77,7 +77,7 @@ def shown(qtbot):
 
 @pytest.fixture(scope="session")
 def mesh_file(tmp_path_factory):
-    """A tangled mesh, in a file that no test changes."""
+    """File of a mesh with inverted hexes, which no test changes."""
     path = tmp_path_factory.mktemp("mesh") / "bridge.vtu"
     io.write(path, gallery.make("bridge-sharp", size=4000, scramble=0.4, seed=1))
     return path
@@ -85,32 +85,32 @@ def mesh_file(tmp_path_factory):
 
 @pytest.fixture
 def bare_window(qtbot, tmp_path):
-    """A window on the screen in which nothing is yet; the test gives it a canvas."""
-    with kept_apart(tmp_path / "settings"):
-        window = first_seen(qtbot)
+    """An empty window on the screen; the test builds its canvas."""
+    with separate_settings(tmp_path / "settings"):
+        window = empty_window(qtbot)
         yield window
         close(window)
 
 
 @pytest.fixture
 def fresh_window(qtbot, tmp_path, mesh_file, monkeypatch):
-    """A window of the test's own, with a mesh open in it."""
-    with kept_apart(tmp_path / "settings"):
-        window = made(qtbot, mesh_file)
+    """A new window with an open mesh."""
+    with separate_settings(tmp_path / "settings"):
+        window = window_with_mesh(qtbot, mesh_file)
         yield window
         close(window)
 
 
 @pytest.fixture(scope="session")
 def shared(qapp, tmp_path_factory, mesh_file):
-    """The window that tests share, and what brings it back to how it was."""
+    """Return a function that returns the shared window with its reset."""
     resetting = None
 
     def share(qtbot):
         nonlocal resetting
         if resetting is None:
-            QSettings().clear()  # one before it may have kept how it was laid out
-            SHARED.append(made(qtbot, mesh_file))
+            QSettings().clear()  # a previous window may have stored its layout
+            SHARED.append(window_with_mesh(qtbot, mesh_file))
             resetting = Resetting(SHARED[0], mesh_file)
         return resetting
 
@@ -122,7 +122,7 @@ def shared(qapp, tmp_path_factory, mesh_file):
 
     share.forget = forget
 
-    with kept_apart(tmp_path_factory.mktemp("settings")):
+    with separate_settings(tmp_path_factory.mktemp("settings")):
         yield share
         for window in SHARED:
             close(window)
@@ -130,7 +130,7 @@ def shared(qapp, tmp_path_factory, mesh_file):
 
 @pytest.fixture
 def window(qtbot, shared):
-    """The window that tests share, with a mesh open in it, as if it were new."""
+    """The window that tests share, with an open mesh, in its initial state."""
     resetting = shared(qtbot)
     resetting.reset(qtbot)
     yield resetting.window
@@ -141,8 +141,8 @@ def window(qtbot, shared):
 
 
 @contextmanager
-def kept_apart(settings):
-    """Settings in a folder of their own, and no question that waits for an answer."""
+def separate_settings(settings):
+    """Store settings in a separate folder, and answer questions without waiting."""
     for form in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
         QSettings.setPath(form, QSettings.Scope.UserScope, str(settings))
     with pytest.MonkeyPatch.context() as patch:
@@ -150,8 +150,8 @@ def kept_apart(settings):
         yield
 
 
-def first_seen(qtbot):
-    """A window as it is first seen."""
+def empty_window(qtbot):
+    """Show a new window without features."""
     application()
     window = Window()
     window.resize(*SIZE)
@@ -160,9 +160,9 @@ def first_seen(qtbot):
     return window
 
 
-def made(qtbot, path):
-    """A window in which a mesh is open."""
-    window = first_seen(qtbot)
+def window_with_mesh(qtbot, path):
+    """Show a new window with an open mesh."""
+    window = empty_window(qtbot)
     window.build_features()
     window.build_canvas()
     open_and_wait(qtbot, window, path)
@@ -174,13 +174,13 @@ def made(qtbot, path):
 
 
 def close(window):
-    """Close a window for good."""
+    """Close and delete a window."""
     window.close()
-    # PySide would take what is made later at the same place in memory for the window's QWindow.
+    # PySide would mistake a later object at the same address for the QWindow.
     shiboken6.invalidate(window.windowHandle())
-    window.deleteLater()  # with 50 MB that Qt and Mesa have kept for it
+    window.deleteLater()  # frees 50 MB of Qt and Mesa
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    window.canvas.interactor.forget_context()  # nor for the surface that was drawn on, which is gone too
+    window.canvas.interactor.forget_context()  # likewise for the deleted surface
     del window
-    gc.collect()  # the one before it, with what VTK drew with: here and now, where nothing is drawn
+    gc.collect()  # collect the objects of VTK now, while nothing is drawn
     assert [task.name for task in running()] == []

@@ -1,4 +1,4 @@
-"""Driving the window as a hand does."""
+"""Simulated user input: mouse, keys and choices in the window."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def open_and_wait(qtbot, window, path):
 
 
 def click(window, text):
-    """Press one of the buttons that hold a run."""
+    """Press a button of the smoothing panel."""
     window.refresh()
     press(
         next(
@@ -38,7 +38,7 @@ def click(window, text):
 
 
 def press(button: QAbstractButton):
-    """Press a button that can be pressed, and let the window show what came of it."""
+    """Press an enabled button and refresh the window."""
     button.window().refresh()
     assert button.isEnabled()
     QTest.mouseClick(button, LEFT)
@@ -46,7 +46,7 @@ def press(button: QAbstractButton):
 
 
 def tick(box: QCheckBox):
-    """Press a check box's mark, and let the window show what came of it."""
+    """Click the mark of a check box and refresh the window."""
     box.window().refresh()
     assert box.isEnabled()
     QTest.mouseClick(box, LEFT, pos=QPoint(8, box.height() // 2))
@@ -54,38 +54,38 @@ def tick(box: QCheckBox):
 
 
 def named(parent: QWidget, kind: type[Part], name: str) -> Part:
-    """The part below a widget that a screen reader calls by a name."""
-    (one,) = (part for part in parent.findChildren(kind) if part.accessibleName() == name)
-    return one
+    """Return the only child widget of a type with an accessible name."""
+    (widget,) = (part for part in parent.findChildren(kind) if part.accessibleName() == name)
+    return widget
 
 
 def key(window, key, *modifiers):
-    """Press a key, and let the window show what came of it."""
+    """Press a key and refresh the window."""
     window.refresh()
-    held = Qt.KeyboardModifier.NoModifier
+    pressed = Qt.KeyboardModifier.NoModifier
     for modifier in modifiers:
-        held |= modifier
-    QTest.keyClick(window, key, held)
+        pressed |= modifier
+    QTest.keyClick(window, key, pressed)
     window.refresh()
 
 
 def choose(window, method, stop=None, **values):
-    """Have a method at hand, with its values and its limits."""
+    """Choose a method with parameters and stopping criteria."""
     window.session.run_setup.choose(Stage(METHODS[method](**values), stop or StoppingCriteria()))
     window.refresh()
 
 
 def choose_by_keys(window, method):
-    """Choose a method in its panel, as a hand does, and go back to the view."""
+    """Choose a method in its panel by keys, and return the focus to the view."""
     window.refresh()
     walk_to(window, named(window.features["smooth"].panel, QComboBox, "Method"), method)
-    window.canvas.interactor.setFocus()  # or letters would be typed in the list
+    window.canvas.interactor.setFocus()  # otherwise letters would be typed in the list
 
 
 def walk_to(window, box, data):
-    """Walk to an entry of a list by the last of its keys, as a hand does, and let the window show what came of it.
+    """Choose an entry of a combo box by an arrow key and refresh the window.
 
-    What is on the way there is not chosen, as in the list that has dropped down.
+    Entries on the way are not chosen, as in the open list.
     """
     window.refresh()
     box.setFocus()
@@ -100,7 +100,7 @@ def walk_to(window, box, data):
 
 
 def turn():
-    """Let Qt do what it puts off to its next turn: lay out, resize, delete."""
+    """Process events of Qt, including deferred layouts, resizing and deletions."""
     QApplication.processEvents()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     QApplication.processEvents()
@@ -111,23 +111,23 @@ def phase(window, phase):
 
 
 def pixels(window):
-    """What the 3D view shows, (h, w, 3)."""
+    """Return the pixels of the 3D view, (h, w, 3)."""
     window.refresh()
     image = window.canvas.interactor.grabFramebuffer().convertToFormat(QImage.Format.Format_RGB888)
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
-def move(widget, at, held=Qt.MouseButton.NoButton):
-    """Move the mouse to a place of a widget, at once: the system's own pointer would come there later."""
+def move(widget, at, buttons=Qt.MouseButton.NoButton):
+    """Send a mouse move at once; the pointer of the system would arrive later."""
     place = QPointF(at)
     spot = QMouseEvent.Type.MouseMove, place, widget.mapToGlobal(place)
-    QApplication.sendEvent(widget, QMouseEvent(*spot, Qt.MouseButton.NoButton, held, Qt.KeyboardModifier.NoModifier))
+    QApplication.sendEvent(widget, QMouseEvent(*spot, Qt.MouseButton.NoButton, buttons, Qt.KeyboardModifier.NoModifier))
     QApplication.processEvents()
 
 
 def drag(widget, start, end, steps=5):
-    """Press, move and release the mouse as a hand does."""
+    """Press, move and release the mouse."""
     move(widget, start)
     QTest.mousePress(widget, LEFT, pos=start)
     for k in range(1, steps + 1):
@@ -137,7 +137,7 @@ def drag(widget, start, end, steps=5):
 
 
 def seen_at(window, place):
-    """Where in the view a place of the mesh is seen."""
+    """Return the position in the view, in pixels, of a point of the mesh."""
     interactor = window.canvas.interactor
     renderer, ratio = window.canvas.panes.pane.renderer, interactor.devicePixelRatioF()
     renderer.SetWorldPoint(*place, 1)

@@ -1,4 +1,4 @@
-"""A host for features that are tried without a window."""
+"""Host for tests of features without a window."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hexmend_app.widgets.message_bar import MessageBar
 
 
 class PlainHost:
-    """What a feature has of a window, without one: it remembers which panels were brought to the front."""
+    """Host without a window, which records the panels that were shown."""
 
     def __init__(self, mesh, path=None):
         self.dialog_parent = QWidget()
@@ -40,7 +40,7 @@ class PlainHost:
     def refresh_soon(self):
         pass
 
-    def said(self, failure, act, success=""):
+    def try_and_report(self, failure, act, success=""):
         try:
             act()
         except HexmendError as error:
@@ -51,5 +51,5 @@ class PlainHost:
 
 
 def action(feature: Feature, id: str) -> Action:
-    """An action that a feature declares."""
-    return next(one for one in feature.actions() if one.id == id)
+    """Return the action that a feature declares with an id."""
+    return next(action for action in feature.actions() if action.id == id)

@@ -1,4 +1,4 @@
-"""Tests that leave something behind, for `test_guards.py`, which runs them. The file's name keeps it out of the suite."""
+"""Tests that leak threads, files and windows, run by `test_guards.py`; the file name excludes them from the suite."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from PySide6.QtWidgets import QDialog
 
 from tests import guards
 
-#: What is left behind lives until the last test is over.
+#: Leaked objects, which live until the last test has ended.
 LEFT = []
 OVER = threading.Event()
 
 
 @pytest.fixture(autouse=True, scope="module")
 def over():
-    """The guards wait a moment only; and in the end all comes to an end, that the process may."""
+    """Shorten the wait of the guards; at the end, close all leaked objects so that the process can end."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(guards, "GRACE", 0.2)
         yield
     OVER.set()
-    for one in LEFT:
-        one.wait() if isinstance(one, QThread) else one.close()
+    for leaked in LEFT:
+        leaked.wait() if isinstance(leaked, QThread) else leaked.close()
 
 
 def test_nothing(qtbot, tmp_path):
@@ -44,7 +44,7 @@ def test_a_thread():
 def test_a_thread_of_qt(qtbot):
     class Working(QThread):
         def run(self):
-            threading.current_thread()  # Python hears of it
+            threading.current_thread()  # registers the thread with Python
             begun.set()
             OVER.wait()
 

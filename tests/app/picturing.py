@@ -1,4 +1,4 @@
-"""All that can be seen of a window, and all that its session holds, as a value that two windows can be compared by."""
+"""Description of the visible content of a window and of its session, to compare two windows."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from PySide6.QtWidgets import QApplication, QComboBox, QMainWindow, QScrollBar, 
 from hexmend_app.shell.window import Window
 from tests.app.resetting import unseen
 
-#: Properties of widgets and actions that show what was done to them.
+#: Properties of widgets and actions that reflect user input.
 _PROPERTIES = (
     "enabled", "text", "plainText", "checked", "value", "minimum", "maximum", "currentIndex", "currentText", "toolTip",
     "title", "windowTitle", "accessibleDescription", "placeholderText", "rowCount", "count",
 )  # fmt: skip
-#: What the room is shared between; how a panel shares its own comes of that, and of when it was first seen.
-_LAID_OUT = ("Tabs", "Drawer", "Canvas", "RenderWidget")
+#: Classes of widgets whose size is compared; the layout within panels depends on when they were first shown.
+_SIZED = ("Tabs", "Drawer", "Canvas", "RenderWidget")
 _PLAIN = (bool, int, float, str, bytes, type(None), Enum, Path)
 
 
 def everything(window: QWidget) -> Counter[str]:
-    """What is seen of a window, each panel brought to the front, and what its session holds: a line for each thing."""
+    """Return a line for each visible widget, with each panel in front in turn, and for each value of the session."""
     lines: Counter[str] = Counter()
     _widgets(window, "", lines)
-    for one in QApplication.topLevelWidgets():
-        if one.isVisible() and not isinstance(one, Window):  # there are two while they are compared
-            lines[f"open: {type(one).__name__} {one.windowTitle()}"] += 1
+    for widget in QApplication.topLevelWidgets():
+        if widget.isVisible() and not isinstance(widget, Window):  # there are two while they are compared
+            lines[f"open: {type(widget).__name__} {widget.windowTitle()}"] += 1
     focus = QApplication.focusWidget()
     lines[f"focus: {type(focus).__name__} {focus.accessibleName() if focus else ''}"] += 1
     for id, action in window.window_actions.items():
@@ -47,11 +47,11 @@ def everything(window: QWidget) -> Counter[str]:
     lines[f"settings: {sorted(QSettings().allKeys())}"] += 1
     layout = window.docks.state()
     lines[f"layout: {layout}"] += 1
-    with unseen(window):  # what is looked at are properties
+    with unseen(window):  # only properties are read
         for panel in window.docks.ids():
             window.show_panel(panel)
             window.refresh()
-            while window.session.boundary_classifier.busy:  # what a panel asks for when it is seen
+            while window.session.boundary_classifier.busy:  # started when a panel is shown
                 QApplication.processEvents()
             window.refresh()
             QApplication.processEvents()
@@ -60,14 +60,14 @@ def everything(window: QWidget) -> Counter[str]:
     return lines
 
 
-def _widgets(widget: QWidget, above: str, lines: Counter[str]) -> None:
+def _widgets(widget: QWidget, parent_path: str, lines: Counter[str]) -> None:
     if not widget.isVisible() or _is_of_docks(widget) or isinstance(widget, QScrollBar):
         return
-    path = f"{above}/{type(widget).__name__} {widget.accessibleName()}".rstrip()
+    path = f"{parent_path}/{type(widget).__name__} {widget.accessibleName()}".rstrip()
     meta = widget.metaObject()
     known = {meta.property(k).name() for k in range(meta.propertyCount())}
     shown = [f"{name}={widget.property(name)}" for name in _PROPERTIES if name in known]
-    if type(widget).__name__ in _LAID_OUT:
+    if type(widget).__name__ in _SIZED:
         shown.append(f"size={widget.width()} × {widget.height()}")
     if isinstance(widget, QComboBox | QTabBar):
         texts = widget.itemText if isinstance(widget, QComboBox) else widget.tabText
@@ -79,24 +79,24 @@ def _widgets(widget: QWidget, above: str, lines: Counter[str]) -> None:
 
 
 def _is_of_docks(widget: QWidget) -> bool:
-    """Return True for rows of tabs that Qt keeps for docks: `Docks.state` tells which are in front."""
+    """Return True for tab bars of docks: `Docks.state` contains the docks in front."""
     return isinstance(widget, QTabBar) and isinstance(widget.parent(), QMainWindow)
 
 
 def _state(part: Any, name: str, lines: Counter[str]) -> None:
     kinds = [kind for kind in type(part).mro() if kind.__module__.startswith("hexmend")]
-    names = {one for one in getattr(part, "__dict__", ()) if not one.startswith("_")}
-    names |= {one for kind in kinds for one, what in vars(kind).items() if isinstance(what, property)}
-    for one in sorted(names):
-        if not one.startswith("_"):
-            lines[f"{name}.{one}: {_plain(getattr(part, one))}"] += 1
+    attributes = set(getattr(part, "__dict__", ()))
+    attributes |= {key for kind in kinds for key, value in vars(kind).items() if isinstance(value, property)}
+    for attribute in sorted(attributes):
+        if not attribute.startswith("_"):
+            lines[f"{name}.{attribute}: {_plain(getattr(part, attribute))}"] += 1
 
 
 def _plain(value: Any) -> Any:
     if isinstance(value, _PLAIN):
         return repr(value)
     if isinstance(value, tuple | list | set | frozenset):
-        return [_plain(one) for one in value]
-    if is_dataclass(value) and not any(isinstance(one, np.ndarray) for one in vars(value).values()):
-        return {name: _plain(one) for name, one in vars(value).items() if not name.startswith("_")}
+        return [_plain(entry) for entry in value]
+    if is_dataclass(value) and not any(isinstance(field, np.ndarray) for field in vars(value).values()):
+        return {name: _plain(field) for name, field in vars(value).items() if not name.startswith("_")}
     return type(value).__name__ if not isinstance(value, QObject) else "part"

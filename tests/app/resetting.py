@@ -1,4 +1,4 @@
-"""The window that tests share, brought back to how it was when it was first seen."""
+"""Reset of the window that tests share to its initial state."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ SIZE = 1400, 900
 
 
 class Resetting:
-    """Knows how a window was, and brings it back to that.
+    """Record of the initial state of a window, which is restored by `reset`.
 
     Parameters
     ----------
     window : Window
-        As tests are to find it, with a mesh open.
+        Window in its initial state, with an open mesh.
     path : Path
-        The mesh's file.
+        File of the mesh.
     """
 
     def __init__(self, window, path):
@@ -56,7 +56,7 @@ class Resetting:
                 self._inputs[widget] = setting
 
     def end(self):
-        """End what is going on."""
+        """Close dialogs and end all tasks."""
         _close_others(self.window)
         for feature in self.window.features.values():
             feature.close()
@@ -66,22 +66,22 @@ class Resetting:
         session.opener.cancel()
 
     def reset(self, qtbot):
-        """Put everything back, and open the mesh anew."""
+        """Restore the initial state and reopen the mesh."""
         self.end()
         with unseen(self.window):
             self._reset_session()
-            self._open_anew(qtbot)
+            self._reopen(qtbot)
             settle(qtbot, self.window)
         QApplication.processEvents()
 
     def _reset_session(self):
-        """What is set goes back, whatever the mesh."""
+        """Restore the part of the state that does not depend on the mesh."""
         session = self.window.session
         session.node_sweep.leave()
         QSettings().clear()
         theme_choice.apply_theme()
-        self._put_back()
-        for method in METHODS.values():  # a form takes its time
+        self._restore_inputs()
+        for method in METHODS.values():  # building a form is slow
             if session.run_setup.values_of(method.name) not in ({}, method().values()):
                 session.run_setup.choose(Stage(method(), StoppingCriteria()))
         session.run_setup.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
@@ -99,24 +99,24 @@ class Resetting:
         session.view.set_snap(True)
         session.view.set_rings(1)
 
-    def _open_anew(self, qtbot):
-        """The mesh as it is in its file, in a window laid out as it was."""
+    def _reopen(self, qtbot):
+        """Reopen the mesh, and restore the layout of the window."""
         window = self.window
         window.canvas.set_parallel(False)
         window.canvas.set_up("z")
         window.showNormal()
         window.resize(*SIZE)
         open_and_wait(qtbot, window, self.path)
-        window.refresh()  # what a list offers is what there is now
-        self._put_back()
+        window.refresh()  # updates the entries of lists
+        self._restore_inputs()
         window.messages.clear()
         window.refresh()
         if window.docks.state() != self._layout:
             lay_out(window, self._layout)
-            self._put_back()  # what was folded, too
+            self._restore_inputs()  # includes collapsed sections
         scroll_back(window)
 
-    def _put_back(self):
+    def _restore_inputs(self):
         for widget, setting in list(self._inputs.items()):
             if shiboken6.isValid(widget) and setting_of(widget) != setting:
                 _set(widget, setting)
@@ -127,7 +127,7 @@ class Resetting:
 
 @contextmanager
 def unseen(window):
-    """Draw nothing meanwhile: most of the time of a reset would go into pictures that nobody looks at."""
+    """Disable drawing of a window, which would take most of the time of a reset."""
     window.setUpdatesEnabled(False)
     try:
         yield
@@ -136,24 +136,24 @@ def unseen(window):
 
 
 def lay_out(window, layout):
-    """Let panels stand as they did."""
+    """Restore a layout of the panels."""
     for panel in window.docks.ids():
-        window.docks.show_panel(panel)  # what is closed in the layout is closed again
-    for _ in range(2):  # first what is in front, then what room that has
+        window.docks.show_panel(panel)  # restoring closes panels that are closed in the layout
+    for _ in range(2):  # first the panels in front, then their sizes
         window.docks.restore(layout)
         QApplication.processEvents()
 
 
 def scroll_back(window):
-    """Let everything be seen from its beginning."""
+    """Scroll everything to its start."""
     QApplication.processEvents()
     for bar in window.findChildren(QScrollBar):
-        if shiboken6.isValid(bar):  # what one of them moves may take others along
+        if shiboken6.isValid(bar):  # moving a scroll bar may delete others
             bar.setValue(bar.minimum())
 
 
 def settle(qtbot, window):
-    """Look at the whole mesh from a corner, with the window in front and the keyboard at no part of it."""
+    """Fit the mesh in a standard view, activate the window and clear the keyboard focus."""
     window.refresh()
     window.canvas.look_along("iso")
     window.canvas.fit()
@@ -161,7 +161,7 @@ def settle(qtbot, window):
     QTest.mouseMove(window, QPoint(1, 1))
     window.activateWindow()
     window.windowHandle().requestActivate()
-    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # or shortcuts go nowhere
+    qtbot.waitUntil(window.isActiveWindow, timeout=5000)  # otherwise shortcuts have no effect
     if QApplication.focusWidget() is not None:
         QApplication.focusWidget().clearFocus()
     QApplication.processEvents()
@@ -171,13 +171,13 @@ def _close_others(window):
     """Close menus and dialogs."""
     while (popup := QApplication.activePopupWidget()) is not None:
         popup.close()
-    for one in QApplication.topLevelWidgets():
-        if one is not window and one.isVisible():
-            one.close()
+    for widget in QApplication.topLevelWidgets():
+        if widget is not window and widget.isVisible():
+            widget.close()
 
 
 def setting_of(widget):
-    """What a hand has set in a widget; None where it cannot be set."""
+    """Return the value of an input widget; None for other widgets."""
     if isinstance(widget, QComboBox):
         return widget.currentText() if widget.isEditable() else widget.currentIndex()
     if isinstance(widget, QTabBar):
@@ -194,7 +194,7 @@ def setting_of(widget):
 
 
 def _set(widget, setting):
-    """Set a widget as a hand would, so that whoever listens hears of it."""
+    """Set the value of an input widget, with the signals of user input."""
     if isinstance(widget, QComboBox):
         if widget.isEditable():
             widget.setCurrentText(setting)

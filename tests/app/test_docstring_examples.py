@@ -1,4 +1,4 @@
-"""Examples in docstrings of the app print what they say."""
+"""Examples in docstrings of the app."""
 
 from __future__ import annotations
 
@@ -19,6 +19,6 @@ MODULES = [
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_examples_print_what_they_say(name):
+def test_examples_print_their_output(name):
     result = doctest.testmod(import_module(name), optionflags=doctest.IGNORE_EXCEPTION_DETAIL)
     assert result.failed == 0

@@ -1,11 +1,11 @@
-"""What a feature remembers of what it has shown."""
+"""Tracker of the values that a feature has shown."""
 
 import numpy as np
 
 from hexmend_app.feature import ChangeTracker
 
 
-def test_something_is_another_once():
+def test_a_new_value_is_changed_once():
     seen = ChangeTracker()
     assert seen.changed("size", 3, "hexes")
     assert not seen.changed("size", 3, "hexes")
@@ -16,7 +16,7 @@ def test_something_is_another_once():
     assert seen.changed("size", 4)
 
 
-def test_nothing_is_something_to_be_seen():
+def test_none_and_no_values_count_as_values():
     seen = ChangeTracker()
     assert seen.changed("chosen", None)
     assert not seen.changed("chosen", None)
@@ -24,7 +24,7 @@ def test_nothing_is_something_to_be_seen():
     assert not seen.changed("nothing")
 
 
-def test_an_array_is_another_where_it_is_another_object():
+def test_arrays_are_compared_by_identity():
     seen, pinned = ChangeTracker(), np.zeros(3, bool)
     assert seen.changed("pinned", None, 1)
     assert seen.changed("pinned", pinned, 1)
@@ -33,7 +33,7 @@ def test_an_array_is_another_where_it_is_another_object():
     assert seen.changed("pinned", None, 1)
 
 
-def test_a_number_of_numpy_is_compared_as_a_number():
+def test_numpy_scalars_are_compared_as_numbers():
     seen = ChangeTracker()
     assert seen.changed("hex", np.int64(4))
     assert not seen.changed("hex", 4)

@@ -1,4 +1,4 @@
-"""The guards can fail: tests that leave something behind are run, and each is found out."""
+"""Guards against leaks: run tests that leak, and check that each one fails."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 
 pytestmark = pytest.mark.slow
 
-FOUND = {
+MESSAGES = {
     "test_a_thread": "threads are left running: left alone",
     "test_a_thread_of_qt": "threads are left running: Dummy-",
     "test_a_file": "temporary files are left: tmp",
@@ -20,15 +20,15 @@ FOUND = {
 }
 
 
-def test_a_test_that_leaves_something_behind_fails(qapp, tmp_path):
+def test_leaking_tests_fail(qapp, tmp_path):
     options = ["--no-xvfb", "-p", "no:cacheprovider", "--basetemp", tmp_path / "leaking", "-rE"]
     done = subprocess.run(
         [sys.executable, "-m", "pytest", *options, "tests/app/leaking.py"],
         cwd=Path(__file__).resolve().parents[2], env=os.environ | {"COLUMNS": "200"},
         capture_output=True, text=True, timeout=200,
     )  # fmt: skip
-    found = dict(re.findall(r"^ERROR \S+::(\w+) - (.*)$", done.stdout, re.MULTILINE))
-    assert found.keys() == FOUND.keys(), done.stdout
-    for name, said in FOUND.items():
-        assert said in found[name]
+    errors = dict(re.findall(r"^ERROR \S+::(\w+) - (.*)$", done.stdout, re.MULTILINE))
+    assert errors.keys() == MESSAGES.keys(), done.stdout
+    for name, message in MESSAGES.items():
+        assert message in errors[name]
     assert "6 passed, 4 errors" in done.stdout

@@ -1,4 +1,4 @@
-"""No class of the app hides a method of the Qt class that it derives from."""
+"""Classes of the app do not hide methods of their Qt base classes."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ _PROGRAMS = {"hexmend_app.__main__"}
 
 
 def qt_classes() -> list[type[QObject]]:
-    """The classes of the app that derive from a Qt class."""
-    found = set()
+    """Return the classes of the app that derive from a Qt class."""
+    classes = set()
     for module in pkgutil.walk_packages(hexmend_app.__path__, "hexmend_app."):
         if module.name not in _PROGRAMS:
-            for one in vars(importlib.import_module(module.name)).values():
-                if inspect.isclass(one) and issubclass(one, QObject) and one.__module__ == module.name:
-                    found.add(one)
-    return sorted(found, key=lambda one: (one.__module__, one.__qualname__))
+            for value in vars(importlib.import_module(module.name)).values():
+                if inspect.isclass(value) and issubclass(value, QObject) and value.__module__ == module.name:
+                    classes.add(value)
+    return sorted(classes, key=lambda kind: (kind.__module__, kind.__qualname__))
 
 
 def hidden_methods(kind: type) -> set[str]:
-    """The methods of Qt that a class hides by something that is no method: a property, a signal, an attribute.
+    """Return the methods of Qt that a class hides by a property, a signal or an attribute.
 
-    A signal of a class seems to be callable; that of an object is not.
+    Signals are treated separately, as they are callable on the class but not on an object.
     """
     qt = next(base for base in kind.mro() if base.__module__.startswith("PySide6"))
-    own = {name for name, value in vars(kind).items() if isinstance(value, Signal) or not callable(value)}
-    own |= set(attributes_set(kind))
-    return {name for name in own if not name.startswith("__") and callable(getattr(qt, name, None))}
+    names = {name for name, value in vars(kind).items() if isinstance(value, Signal) or not callable(value)}
+    names |= set(attributes_set(kind))
+    return {name for name in names if not name.startswith("__") and callable(getattr(qt, name, None))}
 
 
 def attributes_set(kind: type) -> Iterator[str]:
-    """Names that the methods of a class assign to `self`."""
+    """Yield the names of attributes that the methods of a class assign."""
     for node in ast.walk(ast.parse(textwrap.dedent(inspect.getsource(kind)))):
         match node:
             case ast.Attribute(value=ast.Name(id="self"), attr=name, ctx=ast.Store()):
@@ -50,12 +50,14 @@ def attributes_set(kind: type) -> Iterator[str]:
 
 
 def test_no_class_hides_a_method_of_its_qt_class(qapp):
-    kinds = qt_classes()
-    assert len(kinds) > 50
-    assert {f"{one.__module__}.{one.__qualname__}": names for one in kinds if (names := hidden_methods(one))} == {}
+    classes = qt_classes()
+    assert len(classes) > 50
+    assert {
+        f"{kind.__module__}.{kind.__qualname__}": names for kind in classes if (names := hidden_methods(kind))
+    } == {}
 
 
-def test_a_class_that_hides_a_method_of_qt_is_found():
+def test_hidden_methods_are_found():
     class Hiding(QObject):
         event = Signal()
 
@@ -72,7 +74,7 @@ def test_a_class_that_hides_a_method_of_qt_is_found():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["window", "actions"])
-def test_qt_can_ask_the_window_for_itself_and_for_its_actions(window, name):
+def test_the_window_keeps_the_methods_of_qt(window, name):
     assert callable(getattr(window, name))
     assert window.window() is window
     assert window.findChild(TypeToFind) is not None

@@ -1,4 +1,4 @@
-"""The window that tests share is as if it were new, whatever the test before has done."""
+"""Reset of the shared window: it equals a new window, whatever the test before has done."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ pytestmark = pytest.mark.slow
 
 
 def fiddle(window):
-    """Set everything that a hand can set to something else."""
+    """Change the value of every input widget."""
 
-    def offered(kind):
-        for one in window.findChildren(kind):  # some go, and others come, by what is done to those before
-            if shiboken6.isValid(one) and one.isVisible() and one.isEnabled():
-                yield one
+    def enabled(kind):
+        for widget in window.findChildren(kind):  # input may delete widgets and create others
+            if shiboken6.isValid(widget) and widget.isVisible() and widget.isEnabled():
+                yield widget
 
-    for widget in offered(QComboBox):
+    for widget in enabled(QComboBox):
         if widget.count() > 1:
             widget.setCurrentIndex((widget.currentIndex() + 1) % widget.count())
             widget.activated.emit(widget.currentIndex())
-    for widget in offered(QAbstractButton):
+    for widget in enabled(QAbstractButton):
         if widget.isCheckable():
             widget.click()
-    for widget in offered(QAbstractSlider):
+    for widget in enabled(QAbstractSlider):
         third = (widget.minimum() + widget.maximum()) // 3
         widget.setValue(third if isinstance(widget.value(), int) else (third, third + 1))
-    for widget in offered(QAbstractSpinBox):
+    for widget in enabled(QAbstractSpinBox):
         widget.stepUp()
-    for widget in offered(QLineEdit):
+    for widget in enabled(QLineEdit):
         if not isinstance(widget.parentWidget(), QAbstractSpinBox):
             widget.setText("7")
             widget.textEdited.emit("7")
@@ -45,7 +45,7 @@ def fiddle(window):
 
 
 def live(window, qtbot):
-    """An eventful session."""
+    """Change as much of a session and its window as possible."""
     session = window.session
     middle = tuple(session.document.now.mesh.points.mean(axis=0))
     for _ in range(2):
@@ -75,13 +75,13 @@ def live(window, qtbot):
 
 
 def known(window, qtbot):
-    """All of a window, once what is found beside it is known; its script goes on with every mesh that is opened."""
+    """Return the description of a window once its tasks have ended, without its script, which is never reset."""
     qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
     window.refresh()
     return {line for line in everything(window) if "/ScriptPanel/" not in line}
 
 
-def test_after_an_eventful_session_the_shared_window_is_as_a_new_one(fresh_window, shared, qtbot):
+def test_after_a_reset_the_shared_window_equals_a_new_one(fresh_window, shared, qtbot):
     new = known(fresh_window, qtbot)
     resetting = shared(qtbot)
     resetting.reset(qtbot)

@@ -1,8 +1,8 @@
-"""Values as plain data and back, by the types that dataclasses declare: the window's part of session files.
+"""Conversion of values to plain data and back by the types of dataclass fields, for the state in session files.
 
-Dataclasses become tables of their fields, enumerations their values, tuples and sets lists. Decoded values are of the
-declared types: a field that is unknown, missing or of another type is named with its place. A field that was added in a
-version is missing in older files, and has its default then; one that was renamed is read under its former name too.
+Dataclasses become tables of their fields, enumerations become their values, tuples and sets become lists. Decoding
+checks types: an error names the place of a field that is unknown, missing or of another type. A field that was added in
+a later version has its default when read from older files; a renamed field is also read under its former name.
 """
 
 from __future__ import annotations
@@ -25,26 +25,26 @@ class DecodeError(HexmendError):
 
 
 def since(version: int) -> dict[str, int]:
-    """Return the metadata of a dataclass's field that files have from a version on; older ones have its default."""
+    """Return the metadata of a dataclass field that was added in a version; older files give it its default."""
     return {_SINCE: version}
 
 
 class TypeAdapter(NamedTuple):
-    """Conversion of a type that is no dataclass of supported types to plain data and back; invalid values raise."""
+    """Conversion of a type to plain data (`data`) and back (`value`); invalid data raise."""
 
     data: Callable[[Any], Any]
     value: Callable[[Any], Any]
 
 
 class Codec(Conversion):
-    """Converts both ways.
+    """Converter of values to plain data and back.
 
     Parameters
     ----------
-    own : mapping of type to TypeAdapter
-        Types with a conversion of their own.
+    adapters : mapping of type to TypeAdapter
+        Types with a special conversion.
     version : int, optional
-        Of the file that is read; by default the newest.
+        Version of the file to read; by default the newest.
     former : mapping of type to mapping of str to str, optional
         Former names of fields of dataclasses, by their present names.
 
@@ -63,32 +63,32 @@ class Codec(Conversion):
 
     def __init__(
         self,
-        own: Mapping[type, TypeAdapter],
+        adapters: Mapping[type, TypeAdapter],
         version: int | None = None,
         former: Mapping[type, Mapping[str, str]] | None = None,
     ):
-        self._own, self._version, self._former = own, version, former or {}
+        self._adapters, self._version, self._former = adapters, version, former or {}
 
     def encode(self, value: Any, kind: Any) -> Any:
         """Return a value of a declared type as plain data."""
-        return self._own[kind].data(value) if kind in self._own else super().encode(value, kind)
+        return self._adapters[kind].data(value) if kind in self._adapters else super().encode(value, kind)
 
     def decode(self, data: Any, kind: Any, where: str = "it") -> Any:
-        """Return the value of a declared type that plain data stand for.
+        """Return the value of a declared type from plain data.
 
         Parameters
         ----------
         data
         kind : type
         where : str
-            The name of the data in errors.
+            Name of the data in errors.
 
         Raises
         ------
         DecodeError
         """
         try:
-            return self._own[kind].value(data) if kind in self._own else super().decode(data, kind, where)
+            return self._adapters[kind].value(data) if kind in self._adapters else super().decode(data, kind, where)
         except DecodeError:
             raise
         except (HexmendError, ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
@@ -100,7 +100,7 @@ class Codec(Conversion):
         return {type(value).__name__: self.encode(value, type(value))}
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
-        return {name: self.encode(getattr(value, name), one) for name, one in _fields(kind).items()}
+        return {name: self.encode(getattr(value, name), field_kind) for name, field_kind in _fields(kind).items()}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: str) -> Any:
         if len(kinds) == 1:
@@ -115,12 +115,13 @@ class Codec(Conversion):
     def _decode_table(self, data: Any, kind: type, where: str) -> Any:
         _check(data, dict, where)
         fields = _fields(kind, self._version)
-        now = {was: name for name, was in self._former.get(kind, {}).items() if name not in data}
-        data = {now.get(name, name): value for name, value in data.items()}
+        renamed = {former: name for name, former in self._former.get(kind, {}).items() if name not in data}
+        data = {renamed.get(name, name): value for name, value in data.items()}
         for name in [*fields, *data]:
             if (name in fields) != (name in data):
                 raise DecodeError(f"{where} has {'an unknown' if name in data else 'no'} field {name[:80]!r}")
-        return kind(**{name: self.decode(data[name], one, f"{where}.{name}") for name, one in fields.items()})
+        values = {name: self.decode(data[name], field_kind, f"{where}.{name}") for name, field_kind in fields.items()}
+        return kind(**values)
 
     def _decode_enum(self, data: Any, kind: type[Enum], where: str) -> Any:
         return kind(data)
@@ -131,9 +132,8 @@ class Codec(Conversion):
         if count not in (None, len(data)):
             raise DecodeError(f"{where} has {len(data)} entries: expected {count}")
         kinds = entry_types(kind, len(data))
-        return [
-            self.decode(entry, one, f"{where}[{at}]") for at, (entry, one) in enumerate(zip(data, kinds, strict=True))
-        ]
+        entries = zip(data, kinds, strict=True)
+        return [self.decode(entry, entry_kind, f"{where}[{at}]") for at, (entry, entry_kind) in enumerate(entries)]
 
     def _decode_mapping(self, data: Any, kind: Any, where: str) -> dict[str, Any]:
         _check(data, dict, where)
@@ -148,12 +148,13 @@ class Codec(Conversion):
 
 @cache
 def _fields(kind: type, version: int | None = None) -> dict[str, Any]:
-    """Return names and types of the fields that a dataclass has in a version; by default in the newest."""
-    types, own = typing.get_type_hints(kind), [field for field in dataclasses.fields(kind) if field.init]
-    return {field.name: types[field.name] for field in own
+    """Return names and types of the fields of a dataclass in a version; by default in the newest."""
+    types = typing.get_type_hints(kind)
+    fields = [field for field in dataclasses.fields(kind) if field.init]
+    return {field.name: types[field.name] for field in fields
             if version is None or field.metadata.get(_SINCE, 0) <= version}  # fmt: skip
 
 
 def _check(data: Any, kind: type, where: str) -> None:
     if not isinstance(data, kind) or (isinstance(data, bool) and kind is not bool):
-        raise DecodeError(f"{where} is of another kind: expected {kind.__name__}")
+        raise DecodeError(f"{where} is of another type: expected {kind.__name__}")

@@ -1,7 +1,7 @@
-"""Tables of keys with defaults and bounds: the parts of a scene, and their conversion from and to plain data.
+"""Tables of keys with defaults and bounds, which are the parts of a scene, and their conversion from and to plain data.
 
-A table is a frozen dataclass; its docstring explains the keys, and its fields declare their bounds. `decode` makes one
-from plain data, and `encode` returns its data; an error names the place of an invalid value, such as `[bar] ticks`.
+A table is a frozen dataclass; its docstring explains the keys, and its fields declare their bounds. `decode` builds a
+table from plain data, and `encode` returns its data; errors name the place of an invalid value, such as `[bar] ticks`.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from typing import Any, NamedTuple
 from hexmend.errors import ParameterError
 from hexmend_app.codec.conversion import Conversion, entry_types, fixed_length
 
-#: The largest number of letters of a text, and the largest number.
-LONGEST, _FARTHEST = 200, 1e300
+#: Maximum number of letters of a text, and maximum absolute value of a number.
+LONGEST, _MAX_NUMBER = 200, 1e300
 
 
 class Option(NamedTuple):
     """Declaration of a key of a table.
 
-    `name` is its name in files, and `field` that in the dataclass. `low` and `high` bound a number, or each number of a
-    list; `most` is the largest number of entries of a list, or of letters of a text; `open_ended` admits infinity.
-    `offered` are the texts that the window offers.
+    `name` is the name in files, and `field` the name in the dataclass. `low` and `high` bound a number, or each number
+    of a list; `most` is the maximum number of entries of a list or of letters of a text; `open_ended` admits infinity.
+    `offered` are the texts that the window suggests.
     """
 
     name: str
@@ -42,25 +42,25 @@ class Option(NamedTuple):
 
     @property
     def bounds(self) -> str:
-        """The bounds in words, to be put after a number; "" for none."""
+        """Text of the bounds and the unit, to follow "a number"; "" without bounds and unit."""
         ends = [f"{end:,.10g}" for end in (self.low, self.high) if end is not None]
-        between = {0: "", 1: f" from {ends[0] if ends else 0} up", 2: " from " + " to ".join(ends)}[len(ends)]
-        return f"{between} {self.unit}".rstrip()
+        bounds = {0: "", 1: f" from {ends[0] if ends else 0} up", 2: " from " + " to ".join(ends)}[len(ends)]
+        return f"{bounds} {self.unit}".rstrip()
 
 
 def option(default: Any = None, **bounds: Any) -> Any:
-    """Declare a key; its type is the annotation of the field, and `bounds` are parameters of `Option`."""
-    made = {"default_factory": default} if callable(default) else {"default": default}
-    return dataclasses.field(**made, metadata={"key": bounds})
+    """Declare a key as a field; its type is the annotation of the field, and `bounds` are fields of `Option`."""
+    default_argument = "default_factory" if callable(default) else "default"
+    return dataclasses.field(**{default_argument: default}, metadata={"key": bounds})
 
 
 @cache
 def options_of(kind: type) -> tuple[Option, ...]:
-    """Return the keys of a table, or of another dataclass, in order."""
+    """Return the declarations of the keys of a table or another dataclass, in order."""
     types = typing.get_type_hints(kind)
     return tuple(
-        Option(one.name.rstrip("_"), one.name, types[one.name], _default(one), **one.metadata.get("key", {}))
-        for one in dataclasses.fields(kind)
+        Option(field.name.rstrip("_"), field.name, types[field.name], _default(field), **field.metadata.get("key", {}))
+        for field in dataclasses.fields(kind)
     )
 
 
@@ -68,12 +68,12 @@ def _default(field: dataclasses.Field) -> Any:
     return field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
 
 
-#: Place of a value: the names of tables, numbers of entries and the key, from the outside.
+#: Place of a value: names of tables, numbers of entries and the key, outermost first.
 Path = tuple[str | int, ...]
 
 
 class _Place(NamedTuple):
-    """Place of a value, and the key that declares its bounds."""
+    """Place of a value and the declaration of its bounds."""
 
     path: Path
     option: Option | None = None
@@ -84,25 +84,25 @@ class OptionError(ParameterError):
 
     @classmethod
     def of(cls, path: Path, value: Any, problem: str) -> OptionError:
-        """Return the error for a value; a path of the key alone has no table yet."""
+        """Return the error for a value; a path of one name is a key of a table that is not known yet."""
         place = str(path[0]) if len(path) == 1 else _place(path)
         return cls(" ".join((place, "=", _shown(value), problem)))
 
 
 @dataclass(frozen=True)
 class ConfigTable:
-    """Base of tables: values are checked and converted to their types when a table is made.
+    """Base of tables; checks values and converts them to their types on construction.
 
     Raises
     ------
     ParameterError
-        Naming the key, its value and what was expected.
+        If a value is invalid; names the key, the value and what was expected.
     """
 
     def __post_init__(self) -> None:
-        for one in options_of(type(self)):
-            value = _TABLES.decode(getattr(self, one.field), one.kind, _Place((one.name,), one))
-            object.__setattr__(self, one.field, value)
+        for option in options_of(type(self)):
+            value = _TABLES.decode(getattr(self, option.field), option.kind, _Place((option.name,), option))
+            object.__setattr__(self, option.field, value)
         self.check()
 
     def check(self) -> None:
@@ -110,16 +110,16 @@ class ConfigTable:
 
 
 def decode(kind: type, data: Any, where: Path = ()) -> Any:
-    """Return the table of a kind that plain data stand for.
+    """Return a table of a kind from plain data.
 
     Parameters
     ----------
     kind : type
         A dataclass.
     data
-        As a parser of TOML returns it.
+        Data as returned by a TOML parser.
     where : tuple
-        Its place in the file; empty for the whole file.
+        Place in the file; empty for the whole file.
 
     Raises
     ------
@@ -129,19 +129,19 @@ def decode(kind: type, data: Any, where: Path = ()) -> Any:
 
 
 def encode(table: Any) -> dict[str, Any]:
-    """Return a table as plain data: every key that has a value."""
+    """Return a table as plain data, without empty keys."""
     return _TABLES.encode(table, type(table))
 
 
 class _TableConversion(Conversion):
-    """Conversion of tables: every key has bounds, and missing keys have their defaults."""
+    """Conversion of tables: bounds are checked, and missing keys have their defaults."""
 
     def _encode_union(self, value: Any, kinds: tuple[Any, ...]) -> Any:
         return self.encode(value, type(value) if dataclasses.is_dataclass(value) else _with_shape(value, kinds))
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
-        keys = {one.name: (getattr(value, one.field), one.kind) for one in options_of(type(value))}
-        return {name: self.encode(*one) for name, one in keys.items() if one[0] not in (None, "", (), {})}
+        entries = {option.name: (getattr(value, option.field), option.kind) for option in options_of(type(value))}
+        return {name: self.encode(*entry) for name, entry in entries.items() if entry[0] not in (None, "", (), {})}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: _Place) -> Any:
         return self.decode(data, _with_shape(data, kinds), where)
@@ -151,14 +151,14 @@ class _TableConversion(Conversion):
             return data
         table = _place(where.path)
         if not isinstance(data, dict):
-            raise OptionError(f"{table} is no table: expected keys and values")
-        known = {one.name: one for one in options_of(kind)}
+            raise OptionError(f"{table} is not a table: expected keys and values")
+        known = {option.name: option for option in options_of(kind)}
         for name in data:
             if name not in known:
                 raise OptionError(f"{table} has an unknown key {str(name)[:80]!r}: expected {', '.join(known)}")
         values = {
-            known[name].field: self.decode(one, known[name].kind, _Place((*where.path, name), known[name]))
-            for name, one in data.items()
+            known[name].field: self.decode(value, known[name].kind, _Place((*where.path, name), known[name]))
+            for name, value in data.items()
         }
         try:
             return kind(**values)
@@ -174,21 +174,21 @@ class _TableConversion(Conversion):
 
     def _decode_entries(self, data: Any, kind: Any, where: _Place) -> list[Any]:
         if not isinstance(data, list | tuple):
-            raise OptionError.of(where.path, data, "is no list: expected one such as [1, 2]")
+            raise OptionError.of(where.path, data, "is not a list: expected a list such as [1, 2]")
         count = fixed_length(kind)
         most = where.option.most if count is None else count
         if most is not None and (len(data) > most or (count is not None and len(data) < count)):
             raise OptionError.of(where.path, data, f"has {len(data)} entries: expected {most}")
         entries = []
-        for number, (entry, one) in enumerate(zip(data, entry_types(kind, len(data)), strict=True), 1):
-            path = (*where.path, number) if dataclasses.is_dataclass(one) else where.path
-            entries.append(self.decode(entry, one, _Place(path, where.option)))
+        for number, (entry, entry_kind) in enumerate(zip(data, entry_types(kind, len(data)), strict=True), 1):
+            path = (*where.path, number) if dataclasses.is_dataclass(entry_kind) else where.path
+            entries.append(self.decode(entry, entry_kind, _Place(path, where.option)))
         return entries
 
     def _decode_mapping(self, data: Any, kind: Any, where: _Place) -> dict[str, Any]:
         path, option = where
         if not isinstance(data, dict):
-            raise OptionError.of(path, data, "is no table: expected one of tables by name")
+            raise OptionError.of(path, data, "is not a table: expected a table of tables by name")
         if option.most is not None and len(data) > option.most:
             raise OptionError.of(path, data, f"has {len(data)} entries: expected {option.most}")
         outside = ".".join(map(str, path))
@@ -201,7 +201,7 @@ class _TableConversion(Conversion):
         path, option = where
         if kind is bool:
             if not isinstance(data, bool):
-                raise OptionError.of(path, data, "is no switch: expected true or false")
+                raise OptionError.of(path, data, "is not a boolean: expected true or false")
             return data
         return _text(data, path, option.most or LONGEST) if kind is str else _number(data, kind, option, path)
 
@@ -210,7 +210,7 @@ _TABLES = _TableConversion()
 
 
 def _with_shape(value: Any, kinds: tuple[Any, ...]) -> Any:
-    """Return the first of several types that has the shape of a value; the last one if none has."""
+    """Return the first of several types that fits a list, a text or a number; the last one if none fits."""
     for kind in kinds[:-1]:
         shape = (list, tuple) if typing.get_origin(kind) is tuple else str if issubclass(kind, str) else int | float
         if isinstance(value, shape) and not isinstance(value, bool):
@@ -219,7 +219,7 @@ def _with_shape(value: Any, kinds: tuple[Any, ...]) -> Any:
 
 
 def _place(path: Path) -> str:
-    """Return a place in words.
+    """Return a place as text.
 
     >>> _place(()), _place(("bar", "ticks")), _place(("panels", 2, "mesh")), _place(("cut", "planes", 1, "normal"))
     ('the scene', '[bar] ticks', '[panels 2] mesh', '[cut] planes 1 normal')
@@ -233,30 +233,30 @@ def _place(path: Path) -> str:
 
 def _text(value: Any, path: Path, longest: int = LONGEST) -> str:
     if not isinstance(value, str):
-        raise OptionError.of(path, value, "is no text: expected one in quotes")
+        raise OptionError.of(path, value, "is not a text: expected a text in quotes")
     if len(value) > longest or not value.isprintable():
-        raise OptionError.of(path, value, f"is no text of a line: expected {longest} letters at most")
+        raise OptionError.of(path, value, f"is not a line of text: expected {longest} letters at most")
     return value
 
 
-def _number(value: Any, kind: type, one: Option, path: Path) -> float:
+def _number(value: Any, kind: type, option: Option, path: Path) -> float:
     whole = kind is int
-    expected = f"{'a whole number' if whole else 'a number'}{one.bounds}"
+    expected = f"{'a whole number' if whole else 'a number'}{option.bounds}"
     if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
-        raise OptionError.of(path, value, f"is no {'whole ' * whole}number: expected {expected}")
-    low, high = -math.inf if one.low is None else one.low, math.inf if one.high is None else one.high
-    # Written so that nan is refused too. Whole numbers in a file may have more digits than a float can.
-    if not low <= value <= high or not (one.open_ended or abs(value) <= _FARTHEST):
+        raise OptionError.of(path, value, f"is not a {'whole ' * whole}number: expected {expected}")
+    low, high = -math.inf if option.low is None else option.low, math.inf if option.high is None else option.high
+    # This form rejects nan, too. Whole numbers in a file may exceed the range of floats.
+    if not low <= value <= high or not (option.open_ended or abs(value) <= _MAX_NUMBER):
         raise OptionError.of(path, value, f"is out of range: expected {expected}")
     return kind(value)
 
 
 def _shown(value: Any) -> str:
-    """Return a value as errors show it."""
-    if isinstance(value, int) and abs(value) > _FARTHEST:
+    """Return the text of a value in errors."""
+    if isinstance(value, int) and abs(value) > _MAX_NUMBER:
         return "a huge number"
     try:
         text = repr(list(value) if isinstance(value, tuple) else value)
-    except RecursionError:  # tables in tables, which a parser takes deeper than that
+    except RecursionError:  # deeper nesting than `repr` supports
         return "a table"
     return text if len(text) <= 60 else f"{text[:57]}..."

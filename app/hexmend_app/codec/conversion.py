@@ -14,9 +14,9 @@ _SEQUENCES = (tuple, list, frozenset)
 
 
 class Conversion:
-    """Walks through a declared type; the kinds of conversion say what each sort of type becomes.
+    """Recursive conversion along a declared type; subclasses define the conversion of each sort of type.
 
-    `where` is the place of a value: whatever the kind of conversion names it by in errors.
+    `where` is the place of a value in errors, in a form that the subclass defines.
     """
 
     def encode(self, value: Any, kind: Any) -> Any:
@@ -32,13 +32,13 @@ class Conversion:
             return value.value
         if origin in _SEQUENCES:
             ordered = sorted(value) if origin is frozenset else value
-            return [self.encode(entry, one) for entry, one in zip(ordered, entry_types(kind, len(value)), strict=True)]
+            return [self.encode(*entry) for entry in zip(ordered, entry_types(kind, len(value)), strict=True)]
         if origin in (dict, Mapping):
             return {name: self.encode(entry, inner[1]) for name, entry in value.items()}
         return value
 
     def decode(self, data: Any, kind: Any, where: Any) -> Any:
-        """Return the value of a declared type that plain data stand for."""
+        """Return the value of a declared type from plain data."""
         origin, inner = typing.get_origin(kind), typing.get_args(kind)
         if kind is Any:
             return data
@@ -83,7 +83,7 @@ class Conversion:
 
 
 def _alternatives(kinds: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the types of a union without that of None."""
+    """Return the types of a union without NoneType."""
     return tuple(kind for kind in kinds if kind is not NoneType)
 
 

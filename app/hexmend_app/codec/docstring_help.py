@@ -1,4 +1,4 @@
-"""Help texts of the keys of a scene, from the docstrings of their tables: for forms and for the reference."""
+"""Help texts of the keys of a scene, extracted from the docstrings of their tables for forms and the reference."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from functools import cache
 
 @cache
 def helps(kind: type) -> dict[str, str]:
-    """The sentences about the parameters of a class, by name, from its NumPy docstring.
+    """Return the descriptions of the parameters of a class by name, from its NumPy docstring.
 
     >>> from hexmend_app.picture import WipeLayout
     >>> helps(WipeLayout)["mesh"]
     'Number of the mesh on the command line, from 1.'
     """
     lines = inspect.getdoc(kind).splitlines()
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     names: list[str] = []
     for line in lines[lines.index("Parameters") + 2 :] if "Parameters" in lines else ():
         head = re.fullmatch(r"(\w[\w,\s]*?)(?:\s:\s.*)?", line)
@@ -24,5 +24,5 @@ def helps(kind: type) -> dict[str, str]:
             names = head[1].split(", ")
         elif line.startswith("    "):
             for name in names:
-                found[name] = f"{found.get(name, '')} {line.strip()}".strip()
-    return found
+                texts[name] = f"{texts.get(name, '')} {line.strip()}".strip()
+    return texts

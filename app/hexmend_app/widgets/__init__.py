@@ -1,10 +1,10 @@
-"""Widgets of the viewer: they show values given by setters and announce the user's wishes by signals.
+"""Widgets of the viewer: setters set the values to show, and signals report actions of the user.
 
-Each module holds one widget and is imported by name, so that a program pays only for what it shows.
+Each module contains one widget and is imported separately, so that a program loads only the widgets it shows.
 """
 
 import os
 
-# pyqtgraph, superqt and qtawesome take whichever Qt binding they find first; there is one here.
+# Otherwise pyqtgraph, superqt and qtawesome use the first Qt binding they find.
 os.environ.setdefault("PYQTGRAPH_QT_LIB", "PySide6")
 os.environ.setdefault("QT_API", "pyside6")

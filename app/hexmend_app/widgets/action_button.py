@@ -1,4 +1,4 @@
-"""Buttons that show an action."""
+"""Button of an action."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from hexmend_app.theme.style import icon
 
 
 class ActionButton(QToolButton):
-    """Tool button that shows an action of the window: icon, text, tooltip with the keys, and whether it is enabled.
+    """Tool button that shows and triggers an action of the window.
 
     Parameters
     ----------
     icon_name : str
-        Name of the icon; by default that of the action.
+        Name of the icon; "" for that of the action.
     role : Role
         Colour of the icon.
     with_text : bool
-        The text is shown next to the icon.
+        Show the text next to the icon.
     """
 
     def __init__(self, icon_name: str = "", role: Role = TEXT, with_text: bool = False, parent: QWidget | None = None):
@@ -32,12 +32,13 @@ class ActionButton(QToolButton):
         self.setEnabled(False)  # until it shows an action
 
     def show_action(self, action: QAction) -> None:
-        """Show an action, and trigger it when pressed."""
+        """Show an action, which the button triggers when pressed."""
         self.setDefaultAction(action)
-        action.changed.connect(self._show_rest)  # emitted after the button has taken over what Qt's buttons show
-        self._show_rest()
+        action.changed.connect(self._show_names_and_icon)  # emitted after Qt has updated the button
+        self._show_names_and_icon()
 
-    def _show_rest(self) -> None:
+    def _show_names_and_icon(self) -> None:
+        """Show what Qt does not take from the action: accessible texts, and an icon of another name or colour."""
         action = self.defaultAction()
         self.setAccessibleName(action.property("name") or action.iconText())
         self.setAccessibleDescription(action.statusTip())

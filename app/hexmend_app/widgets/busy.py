@@ -1,4 +1,4 @@
-"""Progress of work in the background, with a button to cancel it."""
+"""Progress indicator of tasks in the background, with a button to cancel."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from hexmend_app.theme.style import set_help
 
 
 class Busy(QWidget):
-    """Shows the newest work in progress, with a button that ends it."""
+    """Progress indicator of the newest task, with a button that ends it."""
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._text = QLabel()
-        self._text.setAccessibleName("Busy with")
+        self._text.setAccessibleName("Current task")
         bar = QProgressBar()
         bar.setRange(0, 0)
         bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump
@@ -25,9 +25,9 @@ class Busy(QWidget):
         self._cancel = QPushButton()
         self._cancel.setFixedHeight(self._text.fontMetrics().height() + 4)
         self._cancel.clicked.connect(lambda: self._end())
-        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escaping))
-        self._escaping = ""
-        self._works: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # by owner
+        self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
+        self._escape_owner = ""
+        self._tasks: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # text, word, help, end by owner
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         for part in (self._text, bar, self._cancel):
@@ -35,32 +35,32 @@ class Busy(QWidget):
         self.hide()
 
     def show_work(
-        self, source: str, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None
+        self, owner: str, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None
     ) -> None:
-        """Show the work of an owner, with a button `word` that calls `end`, or without a button."""
-        self._works[source] = text, word, help, end or (lambda: self.done(source))
+        """Show the task of an owner, with a button `word` that calls `end`; without a button if `word` is ""."""
+        self._tasks[owner] = text, word, help, end or (lambda: self.done(owner))
         self._show()
 
     def text(self) -> str:
-        """The text shown."""
+        """Return the text shown."""
         return self._text.text()
 
     def done(self, owner: str) -> None:
-        """Remove the work of an owner."""
-        if self._works.pop(owner, None) is not None:
+        """Remove the task of an owner."""
+        if self._tasks.pop(owner, None) is not None:
             self._show()
 
     def _end(self, owner: str = "") -> None:
-        """End the work of an owner, or the newest."""
-        if self._works:
-            self._works.get(owner, list(self._works.values())[-1])[3]()
+        """End the task of an owner, or the newest task if it has none."""
+        if self._tasks:
+            self._tasks.get(owner, list(self._tasks.values())[-1])[3]()
 
     def _show(self) -> None:
-        if not self._works:
+        if not self._tasks:
             self._escape.setEnabled(False)
             self.hide()
             return
-        text, word, help, _ = list(self._works.values())[-1]
+        text, word, help, _ = list(self._tasks.values())[-1]
         self._text.setText(text)
         self._cancel.setText(word)
         set_help(self._cancel, word, help)
@@ -68,6 +68,6 @@ class Busy(QWidget):
         self.show()
 
     def take_escape(self, owner: str) -> None:
-        """Let Esc end the work of an owner; with "", Esc is not used."""
-        self._escaping = owner
-        self._escape.setEnabled(owner in self._works)
+        """Let Esc end the task of an owner; "" disables Esc."""
+        self._escape_owner = owner
+        self._escape.setEnabled(owner in self._tasks)

@@ -1,4 +1,4 @@
-"""A label that elides its text."""
+"""Label that elides its text."""
 
 from __future__ import annotations
 
@@ -8,18 +8,16 @@ from PySide6.QtWidgets import QLabel
 
 
 class ElidingLabel(QLabel):
-    """One line of plain text, elided if the label is too narrow."""
+    """Label with one line of plain text, which is elided if the label is too narrow."""
 
     def minimumSizeHint(self) -> QSize:
-        """Size of the ellipsis."""
+        """Return the size of the ellipsis."""
         return QSize(self.fontMetrics().horizontalAdvance("…"), super().minimumSizeHint().height())
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the elided text."""
-        space = self.contentsRect()
-        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, space.width())
+        rect = self.contentsRect()
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, rect.width())
         painter = QPainter(self)
         options = self.alignment().value | Qt.TextFlag.TextSingleLine.value
-        self.style().drawItemText(
-            painter, space, options, self.palette(), self.isEnabled(), text, self.foregroundRole()
-        )
+        self.style().drawItemText(painter, rect, options, self.palette(), self.isEnabled(), text, self.foregroundRole())

@@ -1,4 +1,4 @@
-"""Error report for the developers: traceback and versions."""
+"""Error report for developers: traceback and versions."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ from hexmend import __version__
 
 
 def report_of(error: BaseException) -> str:
-    """An error as text to copy."""
+    """Return the traceback of an error and the versions of Hexmend, Python and the platform as text."""
     trace = "".join(traceback.format_exception(error)).rstrip()
     return f"{trace}\nhexmend {__version__}, Python {platform.python_version()}, {platform.platform()}"

@@ -1,4 +1,4 @@
-"""Grid layout of forms in panels: labels at the left, widgets that stretch at the right."""
+"""Grid layout of forms in panels: labels on the left, stretching widgets on the right."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 
 def form_grid(parent: QWidget, widest_label: str = "") -> QGridLayout:
-    """Return the layout of `parent`, whose label column is at least as wide as a text."""
+    """Set a grid layout on `parent`, with a label column at least as wide as a text, and return it."""
     grid = QGridLayout(parent)
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setHorizontalSpacing(8)

@@ -1,4 +1,4 @@
-"""Work that is done in steps of the event loop."""
+"""Task whose steps are executed by the event loop."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from hexmend_app.widgets.busy import Busy
 
 
 class IncrementalTask(QObject):
-    """Takes one item of an iterator in each turn of the event loop, and reports progress.
+    """Task that computes one item of an iterator in each turn of the event loop, and reports progress.
 
     Parameters
     ----------
     busy : Busy
-        Where it is said, with a way out.
-    who : str
-        What `busy` knows it by.
+        Shows the progress, with a button to cancel.
+    owner : str
+        Owner of the task in `busy`.
     help : str
-        What it means to give the rest up.
+        Tooltip of the button: the effect of cancelling.
 
     Signals
     -------
     finished(list)
-        All pieces are there.
+        All items are computed.
     failed(Exception)
-        One of them is not to be had; the rest is given up.
+        An item could not be computed; the task is cancelled.
     """
 
     finished = Signal(object)
@@ -36,54 +36,54 @@ class IncrementalTask(QObject):
     def __init__(self, busy: Busy, owner: str, help: str, parent: QObject | None = None):
         super().__init__(parent)
         self._busy, self._owner, self._help = busy, owner, help
-        self._coming: Iterator[Any] | None = None
-        self._taken: list[Any] = []
-        self._say: Callable[[int], str] = str
-        self._next = QTimer(self, interval=0)
-        self._next.timeout.connect(self._take)
+        self._iterator: Iterator[Any] | None = None
+        self._items: list[Any] = []
+        self._describe: Callable[[int], str] = str
+        self._timer = QTimer(self, interval=0)
+        self._timer.timeout.connect(self._step)
 
     @property
     def going_on(self) -> bool:
         """Return True while steps are left."""
-        return self._coming is not None
+        return self._iterator is not None
 
-    def begin(self, coming: Iterator[Any], say: Callable[[int], str]) -> None:
-        """Start to take the items of a generator.
+    def begin(self, iterator: Iterator[Any], describe: Callable[[int], str]) -> None:
+        """Cancel the current task and start another.
 
         Parameters
         ----------
-        coming : generator
-            Brings no None.
-        say : callable
-            What is being done once so many pieces are there.
+        iterator : generator
+            Yields the items; None is not allowed.
+        describe : callable
+            Returns the text to show while the item of an index is computed.
         """
         self.cancel()
-        self._coming, self._say, self._taken = coming, say, []
-        self._next.start()
+        self._iterator, self._describe, self._items = iterator, describe, []
+        self._timer.start()
         self._show()
 
     def cancel(self) -> None:
         """Cancel the remaining steps."""
         if self.going_on:
-            self._next.stop()
-            self._coming.close()
-            self._coming, self._taken = None, []
+            self._timer.stop()
+            self._iterator.close()
+            self._iterator, self._items = None, []
             self._busy.done(self._owner)
 
-    def _take(self) -> None:
+    def _step(self) -> None:
         try:
-            piece = next(self._coming, None)
+            item = next(self._iterator, None)
         except Exception as error:  # any error is reported
             self.cancel()
             self.failed.emit(error)
             return
-        if piece is not None:
-            self._taken.append(piece)
+        if item is not None:
+            self._items.append(item)
             self._show()
             return
-        taken = self._taken
+        items = self._items
         self.cancel()
-        self.finished.emit(taken)
+        self.finished.emit(items)
 
     def _show(self) -> None:
-        self._busy.show_work(self._owner, self._say(len(self._taken)), "Cancel", self._help, self.cancel)
+        self._busy.show_work(self._owner, self._describe(len(self._items)), "Cancel", self._help, self.cancel)

@@ -1,4 +1,4 @@
-"""A colour and what it stands for."""
+"""Entry of a legend: a coloured rectangle with a text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexmend_app.theme.style import note
 
 
 class Swatch(QWidget):
-    """A small filled rectangle."""
+    """Small filled rectangle."""
 
     def __init__(self, colour: Role | str, parent: QWidget | None = None):
         super().__init__(parent)
@@ -19,7 +19,7 @@ class Swatch(QWidget):
         self.setFixedSize(QSize(12, 10))
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Fill as the plots do: pale inside, full at the border."""
+        """Fill the rectangle in the style of the plots: pale inside, full colour at the border."""
         painter = QPainter(self)
         painter.setPen(QColor(str(self._colour)))
         pale = QColor(str(self._colour))
@@ -29,7 +29,7 @@ class Swatch(QWidget):
 
 
 def legend_entry(text: str, colour: Role | str) -> QWidget:
-    """A swatch with its text."""
+    """Return a widget with a swatch and a text."""
     entry = QWidget()
     layout = QHBoxLayout(entry)
     layout.setContentsMargins(0, 0, 8, 0)

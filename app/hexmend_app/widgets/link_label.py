@@ -9,15 +9,15 @@ from hexmend_app.theme.style import on_theme_change
 
 
 class LinkLabel(QLabel):
-    """Rich text with links to numbers, which are followed by mouse or keys.
+    """Label of rich text with links to numbers, which are followed by mouse or keyboard.
 
-    A text that begins with a link needs a zero-width space before it: Shift+Tab cannot leave a link at the very
-    beginning of a label.
+    A text that begins with a link needs a zero-width space before it: Shift+Tab cannot leave a link at the start of a
+    label.
 
     Signals
     -------
     followed(int)
-        The user followed the link to this number.
+        The user followed a link to this number.
     """
 
     followed = Signal(int)
@@ -32,6 +32,6 @@ class LinkLabel(QLabel):
         on_theme_change(self, lambda: self.setText(self.text()))
 
     def setText(self, text: str) -> None:
-        """Set the text, with the colour that links have in the theme."""
+        """Set the text, with links in the colour of the theme."""
         self.clear()  # Qt colours links when the text is set, and ignores an unchanged text
         super().setText(text)

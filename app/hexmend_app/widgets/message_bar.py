@@ -1,4 +1,4 @@
-"""A bar over the view with errors, warnings and results."""
+"""Bar over the view with errors, warnings and results."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 from hexmend_app.theme.palette import AMBER, BLUE, INFO, WARNED, WORSE, WRONG
 from hexmend_app.theme.style import icon, on_theme_change, set_help
 
-_MAX_SHOWN = 700
-_MAX_KEPT = 100
+#: Maximum number of letters of a text that are shown, and of messages that are stored.
+_MAX_SHOWN, _MAX_STORED = 700, 100
 
 
 @dataclass
 class _Message:
-    """A message, how often it came, and as which one it came first."""
+    """Message, with the number of its repetitions and its sequence number."""
 
     kind: str
     title: str
@@ -30,33 +30,33 @@ class _Message:
     report: str = ""
 
 
-# Icon, colour of the icon and the left edge, background; the most pressing first.
+# Icon, colour of the icon and of the border, background; sorted by priority.
 _KINDS = {
     "error": ("alert-circle", WORSE, WRONG),
     "warning": ("alert", AMBER, WARNED),
     "info": ("information", BLUE, INFO),
 }
-_PRESSING = list(_KINDS)
+_PRIORITIES = list(_KINDS)
 
 
 class MessageBar(QFrame):
-    """Shows one message at a time and keeps the others until they have been seen; hidden while there is none.
+    """Bar that shows one message at a time, and is hidden without messages.
 
-    The newest error is shown, then older ones, warnings and what has been done, each the newest first. What is less
-    pressing than what is shown waits behind it. Esc dismisses the message shown. A message that repeats the last one
-    of its kind is counted, not queued.
+    Errors are shown first, then warnings and results, each with the newest first. A message with lower priority than
+    the message shown waits behind it. Esc dismisses the message shown. A message that repeats the last one of its kind
+    is counted, not queued.
 
     Attributes
     ----------
     title, text : QLabel
-        Of the message shown.
+        Title and text of the message shown.
 
     Signals
     -------
     emptied
-        The last message has gone.
+        The last message has been dismissed.
     filled
-        There is a message, and Esc is its.
+        A first message is shown, and takes Esc.
     """
 
     emptied = Signal()
@@ -83,14 +83,14 @@ class MessageBar(QFrame):
         self._next = QToolButton()
         self._next.setAutoRaise(True)
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self._next, "Next message", "Show the next of the messages that are waiting.")
+        set_help(self._next, "Next message", "Show the next message.")
         self._next.clicked.connect(self._show_next)
         self._copy, self._dismiss = QToolButton(), QToolButton()
-        for button, picture, slot in (
+        for button, icon_name, slot in (
             (self._copy, "content-copy", self._copy_message),
             (self._dismiss, "close", self.dismiss),
         ):
-            button.setIcon(icon(picture))
+            button.setIcon(icon(icon_name))
             button.setAutoRaise(True)
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(slot)
@@ -122,42 +122,41 @@ class MessageBar(QFrame):
         on_theme_change(self, self._paint)
 
     def show_error(self, title: str, text: str = "", report: str = "") -> None:
-        """Show what went wrong; it stays until dismissed. `report` is copied with it, for who is to mend it."""
+        """Show an error until it is dismissed; Copy adds `report`, which is for developers."""
         self._add(_Message("error", title, text, report=report))
 
     def show_warning(self, title: str, text: str = "") -> None:
-        """Show what to look out for; it stays until dismissed."""
+        """Show a warning until it is dismissed."""
         self._add(_Message("warning", title, text))
 
     def show_offer(self, title: str, text: str, choices: Sequence[tuple[str, Callable[[], object]]]) -> None:
-        """Show what can be done, with a button for each choice; one that is pressed dismisses it and is called."""
+        """Show a warning with a button for each choice (text, function), which dismisses it and calls the function."""
         self._add(_Message("warning", title, text, choices=tuple(choices)))
 
     def show_info(self, text: str, timeout_ms: int = 6000) -> None:
-        """Show what has been done, for `timeout_ms` milliseconds (0: until dismissed)."""
+        """Show a result for `timeout_ms` milliseconds (0: until dismissed)."""
         self._add(_Message("info", text, "", timeout_ms))
 
     def _add(self, message: _Message) -> None:
-        rank = _PRESSING.index(message.kind)
+        rank = _rank(message)
         shown = self._messages[self._at] if self._messages else None
-        first = next((at for at, one in enumerate(self._messages) if _PRESSING.index(one.kind) >= rank), None)
-        at = len(self._messages) if first is None else first
+        at = next((at for at, other in enumerate(self._messages) if _rank(other) >= rank), len(self._messages))
         last = self._messages[at] if at < len(self._messages) else None
         if last is not None and (last.kind, last.title, last.text) == (message.kind, message.title, message.text):
             last.times += 1
         else:
-            # News of what is done soon age: a newer one takes their place.
+            # A result replaces the previous one, which is out of date.
             if last is not None and last.kind == message.kind == "info":
                 self._messages.pop(at)
-            message.number = max((one.number for one in self._messages), default=0) + 1
+            message.number = max((other.number for other in self._messages), default=0) + 1
             self._messages.insert(at, message)
-            del self._messages[_MAX_KEPT:]
-        if shown is None or rank <= _PRESSING.index(shown.kind):
+            del self._messages[_MAX_STORED:]
+        if shown is None or rank <= _rank(shown):
             self._at = at
         self._refresh()
 
     def dismiss(self) -> None:
-        """Drop the message shown and show the next one, if there is one."""
+        """Remove the message shown, and show the next one if there is one."""
         if self._messages:
             self._messages.pop(self._at)
             self._refresh()
@@ -165,14 +164,14 @@ class MessageBar(QFrame):
                 self.emptied.emit()
 
     def clear(self) -> None:
-        """Drop all messages."""
+        """Remove all messages."""
         while self._messages:
             self.dismiss()
 
     def messages(self) -> list[tuple[str, str, str]]:
-        """Kind, title and text of all messages that are kept, oldest first."""
-        came = sorted(self._messages, key=lambda message: message.number)
-        return [(message.kind, message.title, message.text) for message in came]
+        """Return kind, title and text of all stored messages, oldest first."""
+        messages = sorted(self._messages, key=lambda message: message.number)
+        return [(message.kind, message.title, message.text) for message in messages]
 
     def _choose(self, choice: Callable[[], object]) -> None:
         self.dismiss()
@@ -183,8 +182,8 @@ class MessageBar(QFrame):
             button = self._choices.takeAt(1).widget()
             button.hide()
             button.deleteLater()
-        for word, choice in message.choices:
-            button = QPushButton(word)
+        for text, choice in message.choices:
+            button = QPushButton(text)
             button.clicked.connect(lambda _=False, choice=choice: self._choose(choice))
             self._choices.addWidget(button)
             button.show()
@@ -222,7 +221,7 @@ class MessageBar(QFrame):
         self._icon.setAccessibleName(message.kind)
         self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
         long = len(message.text) > _MAX_SHOWN
-        self.text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy takes all of it.)" if long else message.text)
+        self.text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy copies the full text.)" if long else message.text)
         self.text.setVisible(bool(message.text))
         self._show_choices(message)
         self._next.setVisible(len(self._messages) > 1)
@@ -231,3 +230,8 @@ class MessageBar(QFrame):
             self._timer.start(message.timeout_ms)
         self.setAccessibleName(f"{message.kind}: {message.title}")
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
+
+
+def _rank(message: _Message) -> int:
+    """Return the rank of the priority of a message; 0 is the highest."""
+    return _PRIORITIES.index(message.kind)

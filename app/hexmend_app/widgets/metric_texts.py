@@ -1,4 +1,4 @@
-"""Metrics as the widgets offer them."""
+"""Order and texts of metrics in widgets."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from hexmend.quality import METRICS, HexQuantity, Metric
 
 
 def metrics_offered() -> list[Metric]:
-    """Every metric, the thesis's own first."""
+    """Return all metrics, q first."""
     return sorted(METRICS.values(), key=lambda metric: metric.name != "q")
 
 
 def described(metric: HexQuantity) -> str:
-    """Formula, meaning, ranges and source of a metric, as a tooltip."""
+    """Return the tooltip of a metric: formula, meaning, acceptable range and source."""
     low, high = metric.acceptable
     return (
         f"<qt><b>{metric.title}</b>: {metric.formula}.<br>{metric.meaning}<br>"
@@ -20,7 +20,7 @@ def described(metric: HexQuantity) -> str:
 
 
 def in_sentence(metric: HexQuantity) -> str:
-    """The title of a metric within a sentence.
+    """Return the title of a metric as written within a sentence.
 
     >>> from hexmend.quality import METRICS
     >>> [in_sentence(METRICS[name]) for name in ("q", "jacobian", "scaled-jacobian", "min-angle")]

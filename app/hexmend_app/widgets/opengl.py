@@ -1,4 +1,4 @@
-"""OpenGL settings of the program's windows, made before the first window."""
+"""OpenGL settings of all windows, made before the first window."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from PySide6.QtWidgets import QWidget
 
 
 def choose_format() -> None:
-    """Have all OpenGL be as VTK wants it: a widget with a format of its own stays black under Wayland."""
-    chosen = QSurfaceFormat()
-    chosen.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)  # Wayland may else give one for telephones
-    chosen.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
-    chosen.setVersion(3, 2)
-    chosen.setSwapBehavior(QSurfaceFormat.SwapBehavior.DoubleBuffer)
+    """Set the default OpenGL format to that of VTK: a widget with another format stays black under Wayland."""
+    surface = QSurfaceFormat()
+    surface.setRenderableType(QSurfaceFormat.RenderableType.OpenGL)  # Wayland may default to OpenGL ES
+    surface.setProfile(QSurfaceFormat.OpenGLContextProfile.CoreProfile)
+    surface.setVersion(3, 2)
+    surface.setSwapBehavior(QSurfaceFormat.SwapBehavior.DoubleBuffer)
     for part in ("Red", "Green", "Blue", "Alpha", "Depth"):
-        getattr(chosen, f"set{part}BufferSize")(8)
-    chosen.setStencilBufferSize(0)
-    chosen.setSamples(0)  # edges are smooth in what VTK hands over
-    QSurfaceFormat.setDefaultFormat(chosen)
+        getattr(surface, f"set{part}BufferSize")(8)
+    surface.setStencilBufferSize(0)
+    surface.setSamples(0)  # VTK smooths edges itself
+    QSurfaceFormat.setDefaultFormat(surface)
 
 
 def reserve_opengl(window: QWidget) -> None:
-    """Have a window take OpenGL later: one made without it is taken down by Qt for that, and made anew on the screen.
+    """Prepare a window for an OpenGL widget that is added later: otherwise Qt would destroy and recreate the window.
 
     Parameters
     ----------
     window : QWidget
-        It has not been shown.
+        Window that has not been shown yet.
     """
     choose_format()
     QOpenGLWidget(window).hide()

@@ -1,4 +1,4 @@
-"""Widgets that lie over others, at a place given as shares of what they lie over."""
+"""Overlays: widgets that float over another widget, with positions as shares of its free width and height."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from hexmend_app.state.settings.settings import place_of
 
 _MARGIN = 8
 
-#: Share of the greatest height that is to be had anywhere, with which it stands nearer to where it belongs.
-_ENOUGH = 0.8
+#: Share of the maximum available height that a gap must have to be chosen because it is nearer.
+_SUFFICIENT_HEIGHT = 0.8
 
-_ELSEWHERE = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Move, QEvent.Type.Resize)
-_MOUSE = (
+_GEOMETRY_EVENTS = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Move, QEvent.Type.Resize)
+_MOUSE_EVENTS = (
     QEvent.Type.MouseButtonPress,
     QEvent.Type.MouseMove,
     QEvent.Type.MouseButtonRelease,
@@ -25,10 +25,10 @@ _MOUSE = (
 
 
 class Overlay(QObject):
-    """Keeps a widget over another one, whose layout knows nothing of it: what comes and goes there moves nothing.
+    """Placement of a widget over another one, outside its layout: showing the widget moves nothing.
 
-    The widget is as large as it wants to be where there is room. It never leaves what it lies over, and the mouse on it
-    is its own; the wheel goes on to what is below.
+    The widget has its preferred size if it fits, and stays within the other widget. It takes mouse events; wheel events
+    are passed to the widget below.
 
     Parameters
     ----------
@@ -36,13 +36,13 @@ class Overlay(QObject):
         Becomes a child of `over`.
     over : QWidget
     home : (x, y)
-        Where it stands, as shares of the room beside it: (0, 0) is the upper left corner, (1, 0.5) the middle of the
-        right edge.
+        Default position as shares of the free width and height: (0, 0) is the upper left corner, (1, 0.5) the middle of
+        the right edge.
     width : int, optional
-        Of the widget, where there is room; by itself it is as wide as it wants to be.
+        Maximum width in pixels; by default the preferred width.
     key : str, optional
-        Under which the settings keep its place. With it, the widget can be dragged elsewhere, and a double click puts
-        it back.
+        Key under which the settings store the position. With it, the widget can be dragged, and a double click resets
+        its position.
     """
 
     def __init__(
@@ -57,8 +57,8 @@ class Overlay(QObject):
         self._widget, self._over, self._home, self._width = widget, over, home, width
         self._setting = place_of(key, home) if key else None
         self._place = self._setting.get() if key else home
-        self._grip: QPoint | None = None  # where on the widget the mouse holds it
-        self._others: dict[QWidget, Callable[[], QRect]] = {}  # what it keeps off, and where that is in `over`
+        self._grip: QPoint | None = None  # position of a drag on the widget
+        self._others: dict[QWidget, Callable[[], QRect]] = {}  # widgets to avoid, with their areas
         widget.setParent(over)
         if key:
             widget.setCursor(Qt.CursorShape.OpenHandCursor)
@@ -72,42 +72,41 @@ class Overlay(QObject):
         return self._place
 
     def move_to(self, place: tuple[float, float]) -> None:
-        """Stand elsewhere."""
+        """Move the widget to a position, limited to [0, 1]."""
         self._place = tuple(min(max(share, 0.0), 1.0) for share in place)
         self.fit()
 
     def keep_off(self, other: QWidget, part: Callable[[], QRect] | None = None) -> None:
-        """Stand above or below another widget that lies over the same one, while that is there.
+        """Stay above or below another overlay of the same widget while that is visible.
 
         Parameters
         ----------
         other : QWidget
         part : callable, optional
-            The part of it that is to stay free, in its own coordinates; all of it by itself.
+            Returns the area of `other` to avoid, in its own coordinates; by default all of it.
         """
         self._others[other] = part or other.rect
         other.installEventFilter(self)
         self.fit()
 
     def fit(self) -> None:
-        """Stand where it has to, as large as there is room for."""
+        """Set size and position of the widget, and put it on top."""
         size = self._size()
-        space = self._space(size)
-        x, y = (round(_MARGIN + share * most) for share, most in zip(self._place, space, strict=True))
-        self._widget.setGeometry(self._next_to_others(QRect(QPoint(x, y), size)))
+        x, y = (round(_MARGIN + share * free) for share, free in zip(self._place, self._free(size), strict=True))
+        self._widget.setGeometry(self._avoiding_others(QRect(QPoint(x, y), size)))
         self._widget.raise_()
 
-    def _next_to_others(self, wanted: QRect) -> QRect:
-        """The place nearest to a wanted one, as high as there is room for, that leaves free what has to be."""
+    def _avoiding_others(self, wanted: QRect) -> QRect:
+        """Return the rectangle nearest to a wanted one that does not overlap others, lower if necessary."""
         bottom = self._over.height()
-        taken = [(bottom, bottom)]
+        occupied = [(bottom, bottom)]
         for other, part in self._others.items():
             area = part().translated(other.pos())
             if not other.isHidden() and area.left() <= wanted.right() and area.right() >= wanted.left():
-                taken.append((area.top(), area.bottom() + 1))
-        free, above = [], 0
-        for top, below in sorted(taken):
-            free.append((above + _MARGIN, top - _MARGIN))
+                occupied.append((area.top(), area.bottom() + 1))
+        gaps, above = [], 0
+        for top, below in sorted(occupied):
+            gaps.append((above + _MARGIN, top - _MARGIN))
             above = max(above, below)
 
         def within(gap: tuple[int, int]) -> QRect:
@@ -115,45 +114,46 @@ class Overlay(QObject):
             height = max(min(wanted.height(), bottom - top), 1)
             return QRect(wanted.x(), max(min(wanted.y(), bottom - height), top), wanted.width(), height)
 
-        places = [within(gap) for gap in free]
-        enough = _ENOUGH * max(place.height() for place in places)
+        rects = [within(gap) for gap in gaps]
+        sufficient = _SUFFICIENT_HEIGHT * max(rect.height() for rect in rects)
         return min(
-            (place for place in places if place.height() >= enough),
-            key=lambda place: abs(place.center().y() - wanted.center().y()),
+            (rect for rect in rects if rect.height() >= sufficient),
+            key=lambda rect: abs(rect.center().y() - wanted.center().y()),
         )
 
     def _size(self) -> QSize:
         widget = self._widget
         widget.ensurePolished()
-        wanted, most = widget.sizeHint(), self._over.size() - QSize(2 * _MARGIN, 2 * _MARGIN)
-        width = min(self._width or wanted.width(), most.width())
+        wanted, available = widget.sizeHint(), self._over.size() - QSize(2 * _MARGIN, 2 * _MARGIN)
+        width = min(self._width or wanted.width(), available.width())
         if self._width is not None and widget.hasHeightForWidth():
             wanted.setHeight(widget.heightForWidth(width))
-        return QSize(max(width, 1), max(min(wanted.height(), most.height()), 1))
+        return QSize(max(width, 1), max(min(wanted.height(), available.height()), 1))
 
-    def _space(self, size: QSize) -> tuple[int, int]:
+    def _free(self, size: QSize) -> tuple[int, int]:
+        """Return the free width and height next to a widget of a size, in pixels."""
         free = self._over.size() - size - QSize(2 * _MARGIN, 2 * _MARGIN)
         return max(free.width(), 0), max(free.height(), 0)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Follow what it lies over, and the mouse."""
+        """Update the geometry with that of the other widgets, and handle the mouse."""
         kind = event.type()
         if (
             kind in (QEvent.Type.Show, QEvent.Type.LayoutRequest)
             or (kind == QEvent.Type.Resize and watched is self._over)
-            or (kind in _ELSEWHERE and watched in self._others)
+            or (kind in _GEOMETRY_EVENTS and watched in self._others)
         ):
             self.fit()
             if kind == QEvent.Type.Show and watched is self._widget:
-                self._follow_in_tabs()
-        elif kind in _MOUSE and watched is self._widget:
-            self._follow(event)
+                self._insert_in_tab_order()
+        elif kind in _MOUSE_EVENTS and watched is self._widget:
+            self._on_mouse(event)
             event.accept()
             return True
         return super().eventFilter(watched, event)
 
-    def _follow_in_tabs(self) -> None:
-        """Let Tab come from what it lies over to what is in it."""
+    def _insert_in_tab_order(self) -> None:
+        """Insert the controls of the widget into the tab order, after the widget below."""
         tabs = Qt.FocusPolicy.TabFocus
         before = self._over
         if before.focusPolicy() & tabs:
@@ -162,8 +162,8 @@ class Overlay(QObject):
                     QWidget.setTabOrder(before, part)
                     before = part
 
-    def _follow(self, event: QMouseEvent) -> None:
-        """Move as the mouse does; what is not the mouse's to move stays."""
+    def _on_mouse(self, event: QMouseEvent) -> None:
+        """Drag the widget, or reset its position on a double click, if its position is a setting."""
         if self._setting is None:
             return
         kind, at = event.type(), event.globalPosition()
@@ -175,20 +175,20 @@ class Overlay(QObject):
         elif kind == QEvent.Type.MouseButtonRelease and self._grip is not None:
             self._grip = None
             self._widget.setCursor(Qt.CursorShape.OpenHandCursor)
-            self._keep()
+            self._store()
         elif kind == QEvent.Type.MouseButtonDblClick:
             self.move_to(self._home)
-            self._keep()
+            self._store()
 
     def _drag(self, at: QPointF) -> None:
         corner = self._over.mapFromGlobal(at).toPoint() - self._grip - QPoint(_MARGIN, _MARGIN)
-        free_space = self._space(self._widget.size())
-        here = corner.x(), corner.y()
+        free = self._free(self._widget.size())
+        position = corner.x(), corner.y()
         self.move_to(
-            tuple(was if most == 0 else x / most for x, most, was in zip(here, free_space, self._place, strict=True))
+            tuple(old if space == 0 else x / space for x, space, old in zip(position, free, self._place, strict=True))
         )
 
-    def _keep(self) -> None:
+    def _store(self) -> None:
         if self._place == self._home:
             self._setting.forget()
         else:

@@ -1,4 +1,4 @@
-"""Plots that look like the rest of the panel rather than like a plotting program."""
+"""Plots in the style of the panels."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend_app.theme.style import on_theme_change, smaller, tabular
 
 
 class CalmAxis(pg.AxisItem):
-    """An axis with thin lines and tabular figures; tick texts named in `colours` are drawn in that colour."""
+    """Axis with thin lines and tabular digits; `colours` holds the colours of tick texts by text."""
 
     def __init__(self, orientation: str):
         super().__init__(orientation)
@@ -21,29 +21,29 @@ class CalmAxis(pg.AxisItem):
         self.setStyle(tickLength=4, tickTextOffset=3, hideOverlappingLabels=False)
 
     def paint_lines(self) -> None:
-        """Take the colours of the theme that is worn."""
+        """Apply the colours of the current theme."""
         self.setPen(str(LINE))
         self.setTickPen(str(LINE))
         self.setTextPen(str(MUTED))
 
     def drawPicture(self, p: QPainter, axisSpec: tuple, tickSpecs: list, textSpecs: list) -> None:
-        """Draw as usual, and what has a colour of its own after that."""
-        own = [spec for spec in textSpecs if spec[2] in self.colours]
+        """Draw the axis, then the tick texts that have a colour of their own."""
+        coloured = [spec for spec in textSpecs if spec[2] in self.colours]
         super().drawPicture(p, axisSpec, tickSpecs, [spec for spec in textSpecs if spec[2] not in self.colours])
-        for rect, flags, text in own:
+        for rect, flags, text in coloured:
             p.setPen(pg.mkPen(str(self.colours[text])))
             p.drawText(rect, int(flags), text)
 
 
 def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
-    """A plot without buttons, menus, zooming or frame, transparent to the panel behind it."""
+    """Return a plot without buttons, menu, zooming and frame, with a transparent background."""
     axes = {"left": CalmAxis("left"), "bottom": CalmAxis("bottom")}
     plot = pg.PlotWidget(
         background=None, viewBox=view or pg.ViewBox(enableMenu=False), axisItems=axes, enableMenu=False
     )
     plot.setFrameShape(QFrame.Shape.NoFrame)
     plot.hideButtons()
-    plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # keys do nothing here
+    plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # it has no keys
     plot.viewport().setFocusPolicy(Qt.FocusPolicy.NoFocus)
     plot.setMenuEnabled(False)
     plot.getViewBox().setMouseEnabled(x=False, y=False)
@@ -52,5 +52,5 @@ def calm_plot(view: pg.ViewBox | None = None) -> pg.PlotWidget:
     for axis in axes.values():
         axis.setTickFont(font)
         on_theme_change(plot, axis.paint_lines)
-    on_theme_change(plot, plot.resetCachedContent)  # Qt keeps the panel behind it as a picture
+    on_theme_change(plot, plot.resetCachedContent)  # Qt caches the background
     return plot

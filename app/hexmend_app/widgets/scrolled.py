@@ -1,4 +1,4 @@
-"""A page of a panel that scrolls up and down where it is higher than its room."""
+"""Scroll area of a page."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 
 def scrolled(page: QWidget) -> QScrollArea:
-    """An area that a page fills in its width, and that is no stop of the Tab key itself."""
+    """Return an area that scrolls a page vertically, fits it horizontally, and is not reached by Tab."""
     area = QScrollArea()
     area.setWidget(page)
     area.setWidgetResizable(True)

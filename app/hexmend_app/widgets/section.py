@@ -1,4 +1,4 @@
-"""A part of a panel that folds away under its title."""
+"""Section of a panel that collapses under its title."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from superqt import QCollapsible
 from hexmend_app.theme.palette import BLUE, HOVER, MUTED
 from hexmend_app.theme.style import icon, on_theme_change, set_help
 
-# Qt's QWIDGETSIZE_MAX, which PySide6 does not hand on.
+# QWIDGETSIZE_MAX of Qt, which PySide6 does not provide.
 _UNBOUNDED = (1 << 24) - 1
 
 
 class Section(QCollapsible):
-    """`content` under a title that folds it.
+    """Collapsible widget under a title.
 
     Parameters
     ----------
     title : str
     content : QWidget
     help : str
-        What is found inside, as tooltip of the title.
+        Tooltip of the title.
     """
 
     def __init__(self, title: str, content: QWidget, help: str, parent: QWidget | None = None):
         super().__init__(title, parent, icon("chevron-down", MUTED), icon("chevron-right", MUTED))
-        # An animation ends on a fixed height, into which lines that appear later would not fit.
+        # An animation would end with a fixed height, which is too small for lines that appear later.
         self.setDuration(0)
         self.layout().setContentsMargins(0, 0, 0, 0)
         self.layout().setSpacing(2)
@@ -43,12 +43,12 @@ class Section(QCollapsible):
         self._fit(False)
 
     def minimumSizeHint(self) -> QSize:
-        """Return the width of the folded content too, so that the surroundings keep their width as it unfolds."""
+        """Return a size as wide as the collapsed content, so that expanding does not change the width of the panel."""
         size = super().minimumSizeHint()
         return QSize(max(size.width(), self.content().minimumSizeHint().width()), size.height())
 
     def _fit(self, open_: bool) -> None:
-        # Hidden, not only of no height, so that Tab does not walk through what cannot be seen.
+        # Hidden, not only of zero height, so that Tab does not reach collapsed widgets.
         self.content().setVisible(open_)
         self.content().setMaximumHeight(_UNBOUNDED if open_ else 0)
 

@@ -1,4 +1,4 @@
-"""Numbers and names as the widgets write them."""
+"""Texts of numbers and names in widgets."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SUBSCRIPT = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def name_in_words(name: str) -> str:
-    """A declared name as a label.
+    """Return a declared name as a label.
 
     >>> name_in_words("first_step"), name_in_words("c1"), name_in_words("delta"), name_in_words("p")
     ('First step', 'c₁', 'Delta (δ)', 'p')
@@ -26,7 +26,7 @@ def name_in_words(name: str) -> str:
 
 
 def short_number(value: float) -> str:
-    """The shortest text that reads back as `value`.
+    """Return the shortest text that is parsed as `value`.
 
     >>> short_number(1e-4), short_number(2.0), short_number(1e-07), short_number(300)
     ('0.0001', '2', '1e-7', '300')
@@ -39,7 +39,7 @@ def short_number(value: float) -> str:
 
 
 def figure(value: float | None, decimals: int = 4) -> str:
-    """A figure for the eye: counts with separators, fractions with fixed decimals, large values with six digits.
+    """Return a number as text: counts with separators, fractions with fixed decimals, large values with six digits.
 
     >>> figure(32735), figure(0.5), figure(1325.2907), figure(None), figure(3.2e11), figure(-2.5e-7)
     ('32,735', '0.5000', '1,325.29', '–', '3.2e+11', '−2.5e−07')
@@ -52,7 +52,7 @@ def figure(value: float | None, decimals: int = 4) -> str:
         text = f"{value:.4g}"
     elif abs(value) >= 10:
         text = f"{value:,.{max(0, 5 - math.floor(math.log10(abs(value))))}f}"
-    elif 0 < abs(value) < 0.5 * 10**-decimals:  # not nothing
+    elif 0 < abs(value) < 0.5 * 10**-decimals:  # fixed decimals would show 0
         text = f"{value:.2g}"
     else:
         text = f"{value:.{decimals}f}"
@@ -60,7 +60,7 @@ def figure(value: float | None, decimals: int = 4) -> str:
 
 
 def short_folder(path: Path, most: int = 40) -> str:
-    """The folder of a file, with ~ for the home folder, and of a long one its end.
+    """Return the folder of a file, with ~ for the home folder; of a long path, the end.
 
     >>> short_folder(Path("/data/meshes/bunny.vtu")), short_folder(Path("/data/meshes/bunny.vtu"), 8)
     ('/data/meshes', '…/meshes')
@@ -74,7 +74,7 @@ def short_folder(path: Path, most: int = 40) -> str:
 
 
 def position(place: float, extent: float, digits: int = 4) -> str:
-    """A position in a body of some extent, 0 where it is less than a ten-thousandth of that from it.
+    """Return a coordinate as text; 0 if it is smaller than a ten-thousandth of the extent of the body.
 
     >>> position(-1.25, 4.0), position(1e-5, 4.0)
     ('−1.25', '0')
@@ -83,7 +83,7 @@ def position(place: float, extent: float, digits: int = 4) -> str:
 
 
 def size(bytes: int) -> str:
-    """An amount of memory.
+    """Return an amount of memory as text.
 
     >>> size(123 << 20), size(1 << 30), size(3 << 29)
     ('123 MiB', '1 GiB', '1.5 GiB')
@@ -92,7 +92,7 @@ def size(bytes: int) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """A number with its noun.
+    """Return a number with a noun in singular or plural.
 
     >>> counted(1, "node"), counted(1234, "node"), counted(2, "hex")
     ('1 node', '1,234 nodes', '2 hexes')

@@ -49,7 +49,7 @@ def answer(window, feature, path, title, names, **style):
                 dialog.form.editor(name).set_value(value)
             dialog.accept()
         finally:
-            said.extend(one.text() for one in dialog.findChildren(QLabel) if one.accessibleName() == "What is wrong")
+            said.extend(one.text() for one in dialog.findChildren(QLabel) if one.accessibleName() == "Problem")
             if dialog.isVisible():
                 dialog.reject()
 

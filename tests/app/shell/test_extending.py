@@ -195,4 +195,4 @@ def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_oth
     write_archive(path, "Hexmend session", VERSION, data)
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
-    assert "the window.features.notes.3 is of another kind: expected str" in window.messages.messages()[-1][2]
+    assert "the window.features.notes.3 is of another type: expected str" in window.messages.messages()[-1][2]

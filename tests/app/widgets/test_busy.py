@@ -1,4 +1,4 @@
-"""The line that says what is going on: of several works the newest, each with its own way out."""
+"""Progress indicator: the newest of several tasks, each with its own button."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def busy(shown, ended):
     return busy
 
 
-def test_of_several_works_the_newest_is_said_and_ended(busy, ended):
+def test_the_newest_of_several_tasks_is_shown_and_ended(busy, ended):
     assert busy.text() == "Drawing…"
     button = busy.findChild(QPushButton)
     QTest.mouseClick(button, Qt.MouseButton.LeftButton)
@@ -35,12 +35,12 @@ def test_of_several_works_the_newest_is_said_and_ended(busy, ended):
     assert busy.isHidden()
 
 
-def test_who_was_never_busy_ends_nothing(busy):
+def test_an_owner_without_a_task_ends_nothing(busy):
     busy.done("run")
     assert busy.text() == "Drawing…"
 
 
-def test_escape_ends_whom_it_is_given_to(busy, ended):
+def test_escape_ends_the_task_of_its_owner(busy, ended):
     busy.take_escape("open")
     QTest.keyClick(busy, Qt.Key.Key_Escape)
     assert ended == ["open"]

@@ -1,4 +1,4 @@
-"""A label that is cut off where there is no room for it."""
+"""Labels that elide their text."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ TEXT = "1,234 of 100,000 hexes shown"
 
 
 def inked(label):
-    """The columns in which something is written, (w,) bool."""
+    """Return the columns of pixels that contain ink, (w,) bool."""
     image = label.grab().toImage().convertToFormat(QImage.Format.Format_Grayscale8)
     rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
     return np.ptp(rows[:, : image.width()], axis=0) > 60
@@ -24,13 +24,13 @@ def label(qtbot):
     return label
 
 
-def test_it_wants_room_for_all_and_needs_little(label):
+def test_its_preferred_size_fits_the_text_and_its_minimum_is_small(label):
     whole = label.fontMetrics().horizontalAdvance(TEXT)
     assert label.sizeHint().width() >= whole
     assert 0 < label.minimumSizeHint().width() < whole / 5
 
 
-def test_it_keeps_its_text_and_writes_within_its_width(label):
+def test_it_keeps_its_text_and_paints_within_its_width(label):
     label.resize(label.sizeHint())
     whole = inked(label)
     label.resize(label.width() // 2, label.height())

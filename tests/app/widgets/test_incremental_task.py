@@ -1,4 +1,4 @@
-"""Pieces come one in a turn of the event loop, until they are there, fail, or are given up."""
+"""Incremental tasks: one item per turn of the event loop, until they finish, fail or are cancelled."""
 
 import pytest
 from PySide6.QtTest import QTest
@@ -11,25 +11,25 @@ from tests.patience import PATIENCE
 
 
 class Source:
-    """A generator of numbers, which knows how many were asked for and whether it was closed."""
+    """Generator of numbers that records how many were taken and whether it was closed."""
 
     def __init__(self, count, fails_at=None):
         self.count, self.fails_at = count, fails_at
-        self.brought, self.closed = 0, False
+        self.taken, self.closed = 0, False
 
     def numbers(self):
         try:
             for number in range(self.count):
                 if number == self.fails_at:
                     raise ValueError(f"no {number}")
-                self.brought += 1
+                self.taken += 1
                 yield number
         finally:
             self.closed = True
 
 
-def say(taken):
-    return f"{taken} are there"
+def describe(count):
+    return f"{count} done"
 
 
 @pytest.fixture
@@ -38,55 +38,55 @@ def busy(shown):
 
 
 @pytest.fixture
-def pieces(busy):
-    return IncrementalTask(busy, "somebody", "Give it up.", busy)
+def task(busy):
+    return IncrementalTask(busy, "somebody", "Cancel it.", busy)
 
 
 @pytest.fixture
-def heard(pieces):
-    told = []
-    pieces.finished.connect(lambda taken: told.append(("finished", taken)))
-    pieces.failed.connect(lambda error: told.append(("failed", str(error))))
-    return told
+def signals(task):
+    signals = []
+    task.finished.connect(lambda taken: signals.append(("finished", taken)))
+    task.failed.connect(lambda error: signals.append(("failed", str(error))))
+    return signals
 
 
-def test_all_pieces_come_and_what_is_done_is_said(pieces, busy, heard, qtbot):
-    said = []
-    pieces.begin(Source(3).numbers(), lambda taken: said.append(taken) or say(taken))
-    assert pieces.going_on
-    assert busy.text() == "0 are there"
-    qtbot.waitUntil(lambda: not pieces.going_on, timeout=PATIENCE)
-    assert heard == [("finished", [0, 1, 2])]
-    assert said == [0, 1, 2, 3]
+def test_all_items_are_computed_and_progress_is_shown(task, busy, signals, qtbot):
+    counts = []
+    task.begin(Source(3).numbers(), lambda count: counts.append(count) or describe(count))
+    assert task.going_on
+    assert busy.text() == "0 done"
+    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    assert signals == [("finished", [0, 1, 2])]
+    assert counts == [0, 1, 2, 3]
     assert busy.isHidden()
 
 
-def test_the_rest_can_be_given_up(pieces, busy, heard, qtbot):
+def test_a_task_can_be_cancelled(task, busy, signals, qtbot):
     source = Source(10**9)
-    pieces.begin(source.numbers(), say)
-    qtbot.waitUntil(lambda: source.brought > 0, timeout=PATIENCE)
+    task.begin(source.numbers(), describe)
+    qtbot.waitUntil(lambda: source.taken > 0, timeout=PATIENCE)
     cancel = next(one for one in busy.findChildren(QPushButton) if one.text() == "Cancel")
     QTest.mouseClick(cancel, LEFT)
-    assert not pieces.going_on
+    assert not task.going_on
     assert source.closed
     assert busy.isHidden()
-    assert heard == []
+    assert signals == []
 
 
-def test_one_that_cannot_be_had_ends_all(pieces, busy, heard, qtbot):
+def test_a_failing_item_ends_the_task(task, busy, signals, qtbot):
     source = Source(5, fails_at=2)
-    pieces.begin(source.numbers(), say)
-    qtbot.waitUntil(lambda: not pieces.going_on, timeout=PATIENCE)
-    assert heard == [("failed", "no 2")]
-    assert (source.brought, source.closed) == (2, True)
+    task.begin(source.numbers(), describe)
+    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    assert signals == [("failed", "no 2")]
+    assert (source.taken, source.closed) == (2, True)
     assert busy.isHidden()
 
 
-def test_others_take_the_place_of_those_that_are_coming(pieces, heard, qtbot):
+def test_a_new_task_replaces_the_current_one(task, signals, qtbot):
     first = Source(10**9)
-    pieces.begin(first.numbers(), say)
-    qtbot.waitUntil(lambda: first.brought > 0, timeout=PATIENCE)
-    pieces.begin(Source(2).numbers(), say)
+    task.begin(first.numbers(), describe)
+    qtbot.waitUntil(lambda: first.taken > 0, timeout=PATIENCE)
+    task.begin(Source(2).numbers(), describe)
     assert first.closed
-    qtbot.waitUntil(lambda: not pieces.going_on, timeout=PATIENCE)
-    assert heard == [("finished", [0, 1])]
+    qtbot.waitUntil(lambda: not task.going_on, timeout=PATIENCE)
+    assert signals == [("finished", [0, 1])]

@@ -1,4 +1,4 @@
-"""Messages queue up, are counted, copied and dismissed."""
+"""Message bar: queue, repetitions, copying and dismissing."""
 
 import pytest
 from PySide6.QtCore import Qt, QTimer
@@ -28,14 +28,14 @@ def bar(window):
     return window.bar
 
 
-def test_it_is_hidden_until_there_is_something_to_say(bar):
+def test_it_is_hidden_without_messages(bar):
     assert not bar.isVisible()
     bar.show_error("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
     assert bar.isVisible()
     assert (bar.title.text(), bar.text.text()) == ("five.vtk cannot be read", "cell 12 is a VTK_WEDGE")
 
 
-def test_the_newest_error_is_shown_and_the_older_wait_behind_it(bar):
+def test_the_newest_error_is_shown_before_older_ones(bar):
     bar.show_error("first")
     bar.show_error("second")
     assert bar.title.text() == "second"
@@ -52,7 +52,7 @@ def test_the_newest_error_is_shown_and_the_older_wait_behind_it(bar):
     assert not bar.isVisible()
 
 
-def test_what_is_less_pressing_waits_behind_what_is_more(bar):
+def test_messages_wait_behind_those_of_higher_priority(bar):
     bar.show_warning("careful")
     bar.show_error("broken")
     bar.show_warning("more careful")
@@ -64,7 +64,7 @@ def test_what_is_less_pressing_waits_behind_what_is_more(bar):
     assert shown == ["broken", "more careful", "careful", "done"]
 
 
-def test_escape_dismisses_wherever_the_focus_is_and_only_while_there_is_a_message(window, bar):
+def test_escape_dismisses_a_message_wherever_the_focus_is(window, bar):
     bar.show_warning("careful")
     window.field.setFocus()
     QTest.keyClick(window.field, Qt.Key.Key_Escape)
@@ -79,7 +79,7 @@ def test_a_repeated_message_is_counted(bar):
     assert "1000" in bar.title.text()
 
 
-def test_of_many_messages_the_newest_are_kept(bar):
+def test_the_newest_of_many_messages_are_stored(bar):
     for k in range(500):
         bar.show_error(f"error {k}")
     titles = [title for _, title, _ in bar.messages()]
@@ -88,7 +88,7 @@ def test_of_many_messages_the_newest_are_kept(bar):
     assert 50 < len(titles) < 200
 
 
-def test_information_goes_by_itself_and_errors_stay(bar, qtbot):
+def test_results_disappear_after_a_while_and_errors_stay(bar, qtbot):
     bar.show_info("Saved.", timeout_ms=30)
     qtbot.waitUntil(lambda: not bar.isVisible())
     bar.show_error("stays")
@@ -96,7 +96,7 @@ def test_information_goes_by_itself_and_errors_stay(bar, qtbot):
     assert not any(timer.isActive() for timer in bar.findChildren(QTimer))
 
 
-def test_an_error_comes_before_information(bar):
+def test_an_error_is_shown_before_a_result(bar):
     bar.show_info("Saved.", timeout_ms=0)
     bar.show_error("broken")
     assert bar.title.text() == "broken"
@@ -105,7 +105,7 @@ def test_an_error_comes_before_information(bar):
     assert ("info", "Saved again.", "") in bar.messages()
 
 
-def test_copy_takes_all_of_a_long_message(bar):
+def test_copy_copies_the_full_text_of_a_long_message(bar):
     text = "line\n" * 400
     bar.show_error("long", text)
     assert len(bar.text.text()) < len(text)
@@ -113,12 +113,12 @@ def test_copy_takes_all_of_a_long_message(bar):
     assert QGuiApplication.clipboard().text() == f"long\n{text}"
 
 
-def test_markup_in_a_message_is_shown_as_it_is(bar):
+def test_markup_in_a_message_is_shown_as_plain_text(bar):
     bar.show_error("<b>a</b>", "vector<int>")
     assert bar.title.textFormat() == bar.text.textFormat() == Qt.TextFormat.PlainText
 
 
-def test_the_end_of_all_messages_is_announced_once(bar, qtbot):
+def test_emptied_is_emitted_once(bar, qtbot):
     ends = []
     bar.emptied.connect(lambda: ends.append(1))
     bar.show_error("a")

@@ -1,4 +1,4 @@
-"""Widgets that lie over others."""
+"""Overlays."""
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, QRect, QSettings, QSize, Qt
@@ -19,7 +19,7 @@ def own_settings(tmp_path):
 
 
 class Below(QWidget):
-    """What is lain over; it remembers what the mouse did to it."""
+    """Widget below an overlay, which records mouse events."""
 
     def __init__(self):
         super().__init__()
@@ -36,7 +36,7 @@ class Below(QWidget):
 
 
 class Card(QWidget):
-    """A widget of a size of its own, with a text in it."""
+    """Widget with a fixed preferred size and a text."""
 
     def __init__(self):
         super().__init__()
@@ -59,13 +59,13 @@ def laid(over, home=(1.0, 0.5), key="card"):
 
 
 @pytest.mark.parametrize(("home", "corner"), [((1.0, 0.5), (492, 100)), ((0.0, 0.0), (8, 8)), ((0.5, 1.0), (250, 192))])
-def test_it_stands_where_its_shares_say(over, home, corner):
+def test_its_position_is_given_by_shares(over, home, corner):
     card, _ = laid(over, home)
     assert (card.x(), card.y()) == corner
     assert card.size() == QSize(100, 300)
 
 
-def test_it_follows_what_it_lies_over_and_shrinks_with_it(over):
+def test_it_follows_and_shrinks_with_the_widget_below(over):
     card, _ = laid(over)
     over.resize(400, 200)
     turn()
@@ -76,7 +76,7 @@ def test_it_follows_what_it_lies_over_and_shrinks_with_it(over):
 
 
 def moved(card, by):
-    """Drag a card by its middle, as a hand does."""
+    """Drag a card by its centre."""
     start = card.mapTo(card.parentWidget(), QPoint(50, 150))
     window = card.window().windowHandle()
     QTest.mousePress(window, _LEFT, pos=start)
@@ -85,7 +85,7 @@ def moved(card, by):
     QTest.mouseRelease(window, _LEFT, pos=start + by)
 
 
-def test_a_drag_moves_it_and_nothing_below(over):
+def test_a_drag_does_not_reach_the_widget_below(over):
     card, place = laid(over)
     moved(card, QPoint(-200, 60))
     assert (card.x(), card.y()) == (292, 160)
@@ -95,7 +95,7 @@ def test_a_drag_moves_it_and_nothing_below(over):
     assert place.place == (1.0, 0.0)
 
 
-def test_its_place_is_kept_as_shares_and_a_double_click_puts_it_back(over):
+def test_its_position_is_stored_as_shares_and_reset_by_a_double_click(over):
     card, place = laid(over)
     moved(card, QPoint(-242, 0))
     again, _ = laid(over)
@@ -110,12 +110,12 @@ def test_its_place_is_kept_as_shares_and_a_double_click_puts_it_back(over):
 
 
 @pytest.mark.parametrize("kept", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
-def test_a_place_that_cannot_be_read_is_home(over, kept):
+def test_an_invalid_stored_position_is_ignored(over, kept):
     QSettings().setValue("overlay/card", kept)
     assert laid(over)[1].place == (1.0, 0.5)
 
 
-def test_without_a_key_it_stays(over):
+def test_without_a_key_it_cannot_be_dragged(over):
     card, _ = laid(over, key=None)
     before = card.geometry()
     moved(card, QPoint(-100, 20))
@@ -125,14 +125,14 @@ def test_without_a_key_it_stays(over):
 
 @pytest.fixture
 def row(over):
-    """A row of what is clicked, in the middle of what is lain over."""
+    """A row of buttons in the middle of the widget below."""
     row = QWidget(over)
     row.setGeometry(0, 230, 600, 24)
     row.show()
     return row
 
 
-def test_it_keeps_off_what_is_clicked_while_that_is_there(over, row):
+def test_it_avoids_another_overlay_while_that_is_visible(over, row):
     card, place = laid(over)
     home = card.geometry()
     place.keep_off(row)
@@ -148,7 +148,7 @@ def test_it_keeps_off_what_is_clicked_while_that_is_there(over, row):
     assert card.geometry().getRect() == (492, 92, 100, 300)  # as far away as it has to be
 
 
-def test_of_several_things_that_overlap_and_of_parts_it_keeps_off_too(over, row):
+def test_it_avoids_several_overlapping_widgets_and_areas(over, row):
     card, place = laid(over)
     inner = QWidget(over)
     inner.setGeometry(550, 245, 10, 5)
@@ -162,7 +162,7 @@ def test_of_several_things_that_overlap_and_of_parts_it_keeps_off_too(over, row)
     assert card.geometry().getRect() == (492, 8, 100, 284)
 
 
-def test_a_drag_leads_it_past_what_is_clicked(over, row):
+def test_a_drag_moves_it_past_another_overlay(over, row):
     card, place = laid(over)
     place.keep_off(row)
     below = card.y()
@@ -171,7 +171,7 @@ def test_a_drag_leads_it_past_what_is_clicked(over, row):
     assert not card.geometry().intersects(row.geometry())
 
 
-def test_the_wheel_goes_on_to_what_is_below_and_beside_it_all_does(over):
+def test_the_wheel_reaches_the_widget_below_and_so_do_clicks_outside(over):
     card, _ = laid(over)
     QTest.wheelEvent(card.window().windowHandle(), QPointF(card.geometry().center()), QPoint(0, 120))
     assert "wheel" in over.heard
@@ -179,7 +179,7 @@ def test_the_wheel_goes_on_to_what_is_below_and_beside_it_all_does(over):
     assert "press" in over.heard
 
 
-def test_a_text_has_the_height_that_its_width_makes_it(over):
+def test_a_wrapped_text_has_the_height_for_its_width(over):
     text = QLabel("word " * 60)
     text.setWordWrap(True)
     Overlay(text, over, (0.5, 0.0), width=400)

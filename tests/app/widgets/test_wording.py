@@ -8,7 +8,7 @@ from hexmend_app.widgets.wording import figure, name_in_words, short_number
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
-def test_a_short_number_reads_back_as_the_same_value(value):
+def test_a_short_number_is_parsed_as_the_same_value(value):
     assert float(short_number(value)) == value
 
 
@@ -26,5 +26,5 @@ def test_a_name_in_words_has_no_underscores_and_keeps_its_letters(name):
     assert words.lower().startswith(name.replace("_", " "))
 
 
-def test_what_is_not_finite_is_a_dash():
+def test_a_value_that_is_not_finite_is_a_dash():
     assert figure(None) == figure(float("inf")) == figure(float("nan")) == "–"

@@ -54,7 +54,7 @@ class FeatureOutcome(Feature):
         return (
             Panel(
                 id="outcome",
-                title=tr("Outcome"),
+                title=tr("Run summary"),
                 widget=self.panel,
                 place=PanelPlace.DRAWER,
                 order=50,

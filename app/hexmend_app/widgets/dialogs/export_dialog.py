@@ -29,26 +29,26 @@ from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from hexmend_app.widgets.scrolled import scrolled
 
-#: Milliseconds from the last change to the preview.
-_PAUSE = 150
+#: Milliseconds from the last change to the update of the preview.
+_PREVIEW_DELAY = 150
 
 #: Maximum length of a title or a name.
-_LONGEST = 200
+_MAX_LENGTH = 200
 
 
 class ExportDialog(SaveDialog):
-    """Edits what is called what and where it goes, beside a preview.
+    """Base of dialogs that edit title, names and path of an export next to a preview.
 
     Parameters
     ----------
-    what, name, kinds : str
-        As of `SaveDialog`.
+    subject, name, kinds : str
+        See `SaveDialog`.
     style : ChartStyle
-        Its values are shown first.
+        Initial values.
     title : str
-        What is written above by itself.
+        Default title.
     names : sequence of str
-        What curves or methods call themselves.
+        Default names of curves or methods.
     """
 
     def __init__(
@@ -64,18 +64,18 @@ class ExportDialog(SaveDialog):
         super().__init__(subject, name, kinds, parent)
         self._style = style
         self.title = QLineEdit(title)
-        self.title.setMaxLength(_LONGEST)
+        self.title.setMaxLength(_MAX_LENGTH)
         self.title.setCursorPosition(0)
-        set_help(self.title, "Title", "What stands above it; nothing, where this is empty.")
-        self.names = {own: QLineEdit(style.names.get(own) or own) for own in names}
-        for own, line in self.names.items():
-            line.setMaxLength(_LONGEST)
-            set_help(line, f"Name of {own}", "What this is called in the file.")
-        self._soon = QTimer(self, interval=_PAUSE, singleShot=True)
-        self._soon.timeout.connect(self.show_preview)
+        set_help(self.title, "Title", "Text above the chart or table; leave empty for no title.")
+        self.names = {default: QLineEdit(style.names.get(default) or default) for default in names}
+        for default, line in self.names.items():
+            line.setMaxLength(_MAX_LENGTH)
+            set_help(line, f"Name of {default}", "Its name in the exported file.")
+        self._preview_timer = QTimer(self, interval=_PREVIEW_DELAY, singleShot=True)
+        self._preview_timer.timeout.connect(self.show_preview)
 
     def lay_out(self, preview: QWidget, *forms: QWidget) -> None:
-        """Put a preview beside forms and the names, and show what would be written."""
+        """Lay out a preview next to forms, title and names."""
         settings = QWidget()
         column = QVBoxLayout(settings)
         for form in forms:
@@ -84,35 +84,35 @@ class ExportDialog(SaveDialog):
         rows.addRow("Title", self.title)
         if self.names:
             rows.addRow(QLabel("<b>Names</b>"))
-        for own, line in self.names.items():
-            called = QLabel(own)
-            called.setTextFormat(Qt.TextFormat.PlainText)
-            rows.addRow(called, line)
+        for default, line in self.names.items():
+            label = QLabel(default)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            rows.addRow(label, line)
         column.addLayout(rows)
         column.addStretch()
         area = scrolled(settings)
         area.setMinimumWidth(max(280, settings.sizeHint().width() + 28))
-        both = QHBoxLayout()
-        both.addWidget(preview, 1)
-        both.addWidget(area)
-        self.lay_out_below(both)
+        upper = QHBoxLayout()
+        upper.addWidget(preview, 1)
+        upper.addWidget(area)
+        self.lay_out_below(upper)
         for line in (self.title, *self.names.values()):
             line.textEdited.connect(self.changed)
         self.target.edited.connect(self.changed)
         self.resize(960, 560)
-        self._soon.start()
+        self._preview_timer.start()
 
     def chosen(self) -> ChartStyle:
-        """The style as it is chosen.
+        """Return the edited style.
 
         Raises
         ------
         ParameterError
-            Where a value cannot be used.
+            If a value is invalid.
         """
-        names = {own: line.text().strip() for own, line in self.names.items()}
-        known = {own: name for own, name in names.items() if name and name != own}
-        return replace(self._style, title=self.title.text().strip(), names=known)
+        names = {default: line.text().strip() for default, line in self.names.items()}
+        changed = {default: name for default, name in names.items() if name and name != default}
+        return replace(self._style, title=self.title.text().strip(), names=changed)
 
     def show_preview(self) -> None:
         """Update the preview."""
@@ -121,7 +121,7 @@ class ExportDialog(SaveDialog):
     def changed(self, *_: Any) -> None:
         """Update the preview after a delay."""
         self.refuse("")
-        self._soon.start()
+        self._preview_timer.start()
 
     def check(self) -> None:
         """Raise `FileError` or `ParameterError` if the settings cannot be written to the path."""
@@ -130,86 +130,86 @@ class ExportDialog(SaveDialog):
 
 
 def answer(dialog: ExportDialog) -> tuple[Path, ChartStyle] | None:
-    """Show a dialog: where the file goes and what it is to be like, None for nowhere. Nothing is left of the dialog."""
-    meant = dialog.exec()
+    """Run a dialog and delete it; return the path and the style, or None if it was cancelled."""
+    accepted = dialog.exec()
     dialog.deleteLater()
-    return (dialog.target.path(), dialog.chosen()) if meant else None
+    return (dialog.target.path(), dialog.chosen()) if accepted else None
 
 
 class ChartDialog(ExportDialog):
-    """Edits the style of a chart, with a preview.
+    """Dialog that edits the style of a chart, with a preview.
 
     Parameters
     ----------
     chart : Chart
-    what, name, kinds, style
-        As of `ExportDialog`.
+    subject, name, kinds, style
+        See `ExportDialog`.
     """
 
     def __init__(
-        self, chart: Chart, topic: str, name: str, kinds: str, style: ChartStyle, parent: QWidget | None = None
+        self, chart: Chart, subject: str, name: str, kinds: str, style: ChartStyle, parent: QWidget | None = None
     ):
-        super().__init__(topic, name, kinds, style, chart.title, chart.names, parent)
+        super().__init__(subject, name, kinds, style, chart.title, chart.names, parent)
         self._chart = chart
         self.preview = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
         self.preview.setMinimumSize(360, 260)
         self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
-        set_help(self.preview, "Preview", "The figure as it will be.")
+        set_help(self.preview, "Preview", "Preview of the exported figure.")
         self.form = ParameterForm(declared(ChartStyle))
         self.form.set_values(self._style.values())
         self.form.changed.connect(self.changed)
         self.lay_out(self.preview, self.form)
 
     def chosen(self) -> ChartStyle:
-        """The style as it is chosen; raises `ParameterError` for an invalid value."""
+        """Return the edited style; raise `ParameterError` if a value is invalid."""
         for problem in self.form.problems().values():
             raise ParameterError(problem)
         return replace(super().chosen(), **self.form.values())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Draw as large as there is room."""
+        """Update the preview after a delay."""
         super().resizeEvent(event)
-        self._soon.start()
+        self._preview_timer.start()
 
     def show_preview(self) -> None:
-        """Draw the figure as large as there is room."""
-        drawn = self.target.path().suffix.lower() in FIGURE_SUFFIXES
-        self.form.setEnabled(drawn)
-        if not drawn:
-            self.preview.setText("A table of the figures, without a picture.")
+        """Draw the figure as large as possible."""
+        is_figure = self.target.path().suffix.lower() in FIGURE_SUFFIXES
+        self.form.setEnabled(is_figure)
+        if not is_figure:
+            self.preview.setText("Table of values; no preview.")
             return
         ratio = self.devicePixelRatioF()
-        space = self.preview.contentsRect().size() * ratio
+        size = self.preview.contentsRect().size() * ratio
         try:
             style = self.chosen()
-            data = chart_png(self._chart.draw, style, max(10.0, space.width() / style.width * MM_PER_INCH))
+            data = chart_png(self._chart.draw, style, max(10.0, size.width() / style.width * MM_PER_INCH))
         except HexmendError as error:
             self.refuse(str(error))
             return
         image = QImage.fromData(data)
-        if image.height() > space.height() or image.width() > space.width():
+        if image.height() > size.height() or image.width() > size.width():
             aspect = Qt.AspectRatioMode.KeepAspectRatio
-            image = image.scaled(space, aspect, Qt.TransformationMode.SmoothTransformation)
+            image = image.scaled(size, aspect, Qt.TransformationMode.SmoothTransformation)
         picture = QPixmap.fromImage(image)
         picture.setDevicePixelRatio(ratio)
         self.preview.setPixmap(picture)
 
 
 class TableDialog(ExportDialog):
-    """Edits what is called what in a table, with a preview.
+    """Dialog that edits the title and the names in a table, with a preview.
 
     Parameters
     ----------
     text : callable
-        The table as Markdown; raises `ParameterError` where it cannot be made with what is chosen.
-    what, name, kinds, style, title, names
-        As of `ExportDialog`.
+        Returns the table in a style as Markdown; raises `ParameterError` if the style is invalid.
+    subject, name, kinds, style, title, names
+        See `ExportDialog`.
     """
 
     def __init__(
         self,
         text: Callable[[ChartStyle], str],
-        label: str,
+        subject: str,
         name: str,
         kinds: str,
         style: ChartStyle,
@@ -217,15 +217,15 @@ class TableDialog(ExportDialog):
         names: Sequence[str],
         parent: QWidget | None = None,
     ):
-        super().__init__(label, name, kinds, style, title, names, parent)
+        super().__init__(subject, name, kinds, style, title, names, parent)
         self._text = text
         self.preview = QTextBrowser()
         self.preview.setMinimumSize(360, 200)
-        set_help(self.preview, "Preview", "The table as it will be.")
+        set_help(self.preview, "Preview", "Preview of the exported table.")
         self.lay_out(self.preview)
 
     def chosen(self) -> ChartStyle:
-        """The style as it is chosen; raises `ParameterError` for equal names."""
+        """Return the edited style; raise `ParameterError` if names are equal."""
         style = super().chosen()
         self._text(style)
         return style

@@ -16,7 +16,7 @@ from hexmend_app.state.settings.settings import FOLDER
 
 
 class Answer(Enum):
-    """The answer to a question about unsaved work."""
+    """Answer to a question about unsaved work."""
 
     SAVE = "save"
     DISCARD = "discard"
@@ -27,82 +27,82 @@ def ask_mesh(parent: QWidget) -> str:
     """Ask for the mesh or session to open; "" if cancelled."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
     filters = f"Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{SUFFIX});;All files (*)"
-    return _ask_to_open(parent, "Open a mesh or a session", filters)
+    return _ask_to_open(parent, "Open mesh or session", filters)
 
 
 def ask_target(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the mesh to; "" if cancelled."""
     kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
-    return _ask_to_save(parent, "Save the mesh as", f"{stem}-smoothed.vtu", kinds, "VTU mesh (*.vtu)")
+    return _ask_to_save(parent, "Save mesh as", f"{stem}-smoothed.vtu", kinds, "VTU mesh (*.vtu)")
 
 
 def ask_session(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the session to; "" if cancelled."""
-    return _ask_to_save(parent, "Save the session as", f"{stem}{SUFFIX}", f"Hexmend session (*{SUFFIX})")
+    return _ask_to_save(parent, "Save session as", f"{stem}{SUFFIX}", f"Hexmend session (*{SUFFIX})")
 
 
 def ask_list(parent: QWidget, stem: str) -> str:
-    """Ask for the file to save the list of the worst elements to; "" if cancelled."""
-    return _ask_to_save(parent, "Save the list as", f"{stem}-worst.csv", "Table (*.csv)")
+    """Ask for the file to save the list of the worst hexes to; "" if cancelled."""
+    return _ask_to_save(parent, "Save list as", f"{stem}-worst.csv", "Table (*.csv)")
 
 
 def ask_recipe(parent: QWidget) -> str:
     """Ask for the recipe to load; "" if cancelled."""
-    return _ask_to_open(parent, "Load a recipe", "Recipes (*.toml);;All files (*)")
+    return _ask_to_open(parent, "Load recipe", "Recipes (*.toml);;All files (*)")
 
 
 def ask_recipe_target(parent: QWidget) -> str:
     """Ask for the file to save the recipe to; "" if cancelled."""
-    return _ask_to_save(parent, "Save the recipe as", "recipe.toml", "Recipe (*.toml)")
+    return _ask_to_save(parent, "Save recipe as", "recipe.toml", "Recipe (*.toml)")
 
 
 def ask_scene(parent: QWidget) -> str:
     """Ask for the scene to load; "" if cancelled."""
-    return _ask_to_open(parent, "Load a scene", "Scenes (*.toml);;All files (*)")
+    return _ask_to_open(parent, "Load scene", "Scenes (*.toml);;All files (*)")
 
 
 def ask_scene_target(parent: QWidget) -> str:
     """Ask for the file to save the scene to; "" if cancelled."""
-    return _ask_to_save(parent, "Save the scene as", "scene.toml", "Scene (*.toml)")
+    return _ask_to_save(parent, "Save scene as", "scene.toml", "Scene (*.toml)")
 
 
 def ask_script(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the script to; "" if cancelled."""
-    return _ask_to_save(parent, "Save the script as", f"{stem}.py", "Python script (*.py)")
+    return _ask_to_save(parent, "Save script as", f"{stem}.py", "Python script (*.py)")
 
 
 def ask_film(parent: QWidget, stem: str) -> str:
     """Ask for the file to save a film of a run to; "" if cancelled."""
     kinds = (
-        "GIF animation (*.gif);;MP4 film, for slides (*.mp4);;WebP animation, smaller and finer (*.webp);;"
-        "PNG animation, exact (*.png)"
+        "GIF animation (*.gif);;MP4 video (*.mp4);;WebP animation, smaller files (*.webp);;"
+        "PNG animation, lossless (*.png)"
     )
-    return _ask_to_save(parent, "Save the film as", f"{stem}.gif", kinds)
+    return _ask_to_save(parent, "Save film as", f"{stem}.gif", kinds)
 
 
 def ask_figures(parent: QWidget, stem: str) -> str:
-    """Ask for a new folder for figures; "" if cancelled."""
-    asked = QFileDialog.getExistingDirectory(parent, "Make the folder of figures in", str(folder()))
-    if not asked:
+    """Ask where to create a folder for figures and return the path of the new folder; "" if cancelled."""
+    parent_folder = QFileDialog.getExistingDirectory(parent, "Create folder of figures in", str(folder()))
+    if not parent_folder:
         return ""
-    remember_folder(Path(asked) / stem)
+    remember_folder(Path(parent_folder) / stem)
     names = (f"{stem}-figures{f'-{count}' if count else ''}" for count in [0, *range(2, 10_000)])
-    return next((str(path) for name in names if not (path := Path(asked) / name).exists()), "")
+    return next((str(path) for name in names if not (path := Path(parent_folder) / name).exists()), "")
 
 
 def remember_folder(path: Path) -> None:
-    """Let the next dialog start in the folder of this file."""
+    """Store the folder of a file as the folder in which the next dialog starts."""
     FOLDER.set(path.resolve().parent)
 
 
 def folder() -> Path:
-    """The folder in which dialogs start: that of the last opened or saved file, if it exists."""
-    kept = FOLDER.get()
-    return kept if kept.is_dir() else Path.home()
+    """Return the folder in which dialogs start: that of the last opened or saved file, else the home folder."""
+    last = FOLDER.get()
+    return last if last.is_dir() else Path.home()
 
 
 def named(path: str, kinds: str) -> str:
-    """A path with the suffix of the first of several kinds of file, if it has no suffix.
+    """Return a path with the suffix of the first kind of file if it has no suffix.
 
     >>> named("dir/bridge", "Table (*.csv);;Markdown (*.md)"), named("bridge.pdf", "Table (*.csv)"), named("", "(*.md)")
     ('dir/bridge.csv', 'bridge.pdf', '')
@@ -113,20 +113,19 @@ def named(path: str, kinds: str) -> str:
 def ask_replacing(parent: QWidget, path: str) -> bool:
     """Ask before an existing file is replaced; return True if it may be written."""
     try:
-        there = Path(path).exists()
-    except OSError:  # whoever writes says that there can be none
-        there = False
-    return not there or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
+        exists = Path(path).exists()
+    except OSError:  # the path is invalid, which is reported when it is written
+        exists = False
+    return not exists or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
 
 
 def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
-    """Ask for the name of a saved camera, "" if cancelled; before one of `names` is replaced, ask."""
-    free = next(name for k in range(1, len(names) + 2) if (name := f"camera {k}") not in names)
-    asked, given = QInputDialog.getText(
-        parent, "Keep the camera", "Name, for pictures and hexmend render --camera:", QLineEdit.EchoMode.Normal, free
-    )
-    name = asked.strip() if given else ""
-    return name if name not in names or _ask_yes(parent, f"There is a camera “{name}” already.", "Replace it?") else ""
+    """Ask for the name under which to save a camera; "" if cancelled. Ask again before one of `names` is replaced."""
+    default = next(name for k in range(1, len(names) + 2) if (name := f"camera {k}") not in names)
+    label = "Name, for pictures and hexmend render --camera:"
+    text, accepted = QInputDialog.getText(parent, "Save camera", label, QLineEdit.EchoMode.Normal, default)
+    name = text.strip() if accepted else ""
+    return name if name not in names or _ask_yes(parent, f"The camera “{name}” already exists.", "Replace it?") else ""
 
 
 def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
@@ -135,9 +134,8 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Question)
-    smoothed, others = f"{name} has been smoothed and not saved.", f"The cameras of {name} are others than were saved."
-    box.setText(smoothed if of_mesh else others)
-    box.setInformativeText(f"Save the {'smoothed mesh' if of_mesh else 'session'} before it is closed?")
+    box.setText(f"{name} has unsaved {'changes' if of_mesh else 'cameras'}.")
+    box.setInformativeText(f"Save the {'mesh' if of_mesh else 'session'} before closing it?")
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
@@ -149,28 +147,28 @@ def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Warning)
-    whole = re.compile(r"(?<=\d) (?=[GM]B)")  # a number stays beside its unit
-    box.setText(whole.sub("\u00a0", problem))
-    remedy = whole.sub("\u00a0", remedy)
-    box.setInformativeText(f"{remedy} If memory runs out, the system may end the program. Run it all the same?")
+    space = re.compile(r"(?<=\d) (?=[GM]B)")  # made unbreakable, to keep numbers and units together
+    box.setText(space.sub("\u00a0", problem))
+    remedy = space.sub("\u00a0", remedy)
+    box.setInformativeText(f"{remedy} If memory runs out, the system may end the program. Run anyway?")
     box.setStandardButtons(buttons.Yes | buttons.No)
     box.setDefaultButton(buttons.No)
     return box.exec() == buttons.Yes
 
 
 def show_about(parent: QWidget, version: str) -> None:
-    """Version, licence and sources."""
+    """Show version, licence and source of the mathematics."""
     QMessageBox.about(
         parent,
         "About Hexmend",
-        f"<b>Hexmend {version}</b><p>See a hexahedral mesh, and mend it while you watch.</p>"
-        "<p>Its mathematics is T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
+        f"<b>Hexmend {version}</b><p>Viewer and smoother for hexahedral meshes.</p>"
+        "<p>Its methods follow T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
         "Meshes</i>. BSD 3-clause licence.</p>",
     )
 
 
 def _ask_yes(parent: QWidget, text: str, question: str) -> bool:
-    """Ask before something is deleted; return True to go on."""
+    """Ask before data is deleted; return True to continue."""
     buttons = QMessageBox.StandardButton
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
@@ -182,11 +180,11 @@ def _ask_yes(parent: QWidget, text: str, question: str) -> bool:
     return box.exec() == buttons.Yes
 
 
-def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, chosen: str = "") -> str:
-    """Ask for a file of one of several kinds, with the default `name`; "" if cancelled."""
-    asked, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, chosen)
-    path = named(asked, kind or kinds)
-    if not path or (path != asked and not ask_replacing(parent, path)):  # the dialog has asked about its own name
+def _ask_to_save(parent: QWidget, title: str, name: str, kinds: str, kind: str = "") -> str:
+    """Ask for a file of one of several kinds, with the default `name` and `kind`; "" if cancelled."""
+    entered, kind = QFileDialog.getSaveFileName(parent, title, str(folder() / name), kinds, kind)
+    path = named(entered, kind or kinds)
+    if not path or (path != entered and not ask_replacing(parent, path)):  # the dialog has asked about `entered`
         return ""
     remember_folder(Path(path))
     return path

@@ -12,21 +12,21 @@ from hexmend_app.widgets.inputs.target_row import TargetRow
 
 
 class SaveDialog(QDialog):
-    """A path below what others edit; it closes once that can be written, and says why not.
+    """Base of dialogs with settings above a path; Save closes the dialog if the file can be written.
 
     Parameters
     ----------
-    what : str
-        What is saved, such as "the picture".
+    subject : str
+        Name of what is saved, such as "the picture".
     name : str
-        The file name proposed.
+        Default file name.
     kinds : str
-        Kinds of file, as Qt's dialogs take them.
+        Kinds of file in the notation of Qt.
 
     Attributes
     ----------
     suffixes : list of str
-        Of these kinds.
+        Suffixes of the kinds.
     """
 
     def __init__(self, subject: str, name: str, kinds: str, parent: QWidget | None = None):
@@ -34,16 +34,18 @@ class SaveDialog(QDialog):
         self.setWindowTitle(f"Save {subject}")
         self._subject = subject
         self.suffixes = re.findall(r"\*(\.\w+)", kinds)
-        self.target = TargetRow(f"Save {subject} as", name, kinds, f"Where {subject} goes: {', '.join(self.suffixes)}.")
+        self.target = TargetRow(
+            f"Save {subject} as", name, kinds, f"File to save {subject} to: {', '.join(self.suffixes)}."
+        )
         self.target.edited.connect(lambda: self.refuse(""))
         self._problem = note("", WORSE)
-        self._problem.setAccessibleName("What is wrong")
+        self._problem.setAccessibleName("Problem")
 
-    def lay_out_below(self, upper: QLayout, *others: QPushButton) -> None:
-        """Put the path, what is wrong and the buttons, with others on their left, below what is edited."""
+    def lay_out_below(self, upper: QLayout, *additional: QPushButton) -> None:
+        """Lay out path, problem and buttons, the `additional` ones on the left, below the layout of the settings."""
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Save | QDialogButtonBox.StandardButton.Cancel)
-        for other in others:
-            buttons.addButton(other, QDialogButtonBox.ButtonRole.ResetRole)
+        for button in additional:
+            buttons.addButton(button, QDialogButtonBox.ButtonRole.ResetRole)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
@@ -60,7 +62,7 @@ class SaveDialog(QDialog):
     def accept(self) -> None:
         """Close if the file can be written, else show the problem."""
         if self.target.empty:
-            self.refuse(f"Name the file that {self._subject} goes to.")
+            self.refuse(f"Enter the file to save {self._subject} to.")
             return
         try:
             self.check()

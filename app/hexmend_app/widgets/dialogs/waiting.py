@@ -1,4 +1,4 @@
-"""Waiting for work in a thread while the window stays responsive."""
+"""Wait for a task in a thread while the window stays responsive."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from PySide6.QtCore import QEventLoop, Qt, QTimer
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 #: Milliseconds until the dialog is shown, and between two checks.
-_PATIENCE, _PERIOD = 300, 20
+_DELAY, _PERIOD = 300, 20
 
 
 class WaitingDialog(QDialog):
-    """Shows the work that is waited for, and closes when it is done.
+    """Dialog that names a task and closes when it is done.
 
     Parameters
     ----------
     text : str
-        What is going on.
+        Description of the task.
     over : callable
-        Whether it is over.
+        Returns True once the task is done.
     leave : str
-        On the button that goes on without waiting; "" for no such button.
+        Text of the button that continues without waiting; "" for no button.
     parent : QWidget
     """
 
@@ -40,38 +40,34 @@ class WaitingDialog(QDialog):
         if leave:
             buttons.addButton(leave, QDialogButtonBox.ButtonRole.AcceptRole)
             buttons.accepted.connect(self.accept)
-        buttons.button(QDialogButtonBox.StandardButton.Cancel).setDefault(True)  # Enter cancels nothing
+        buttons.button(QDialogButtonBox.StandardButton.Cancel).setDefault(True)  # so that Enter does not press `leave`
         layout = QVBoxLayout(self)
         for part in (label, bar, buttons):
             layout.addWidget(part)
         self._over = over
-        self._look = QTimer(self, interval=_PERIOD)
-        self._look.timeout.connect(self._on_look)
-        self._look.start()
+        self._timer = QTimer(self, interval=_PERIOD)
+        self._timer.timeout.connect(self._check)
+        self._timer.start()
 
-    def _on_look(self) -> None:
+    def _check(self) -> None:
         if self._over():
             self.accept()
 
 
 def wait_until(parent: QWidget, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-    """Wait until work is done, with a dialog if it takes more than a moment.
+    """Wait until a task is done, and show a `WaitingDialog` if it takes more than a moment.
 
     Parameters
     ----------
     parent : QWidget
-        The window; nothing can be done in it meanwhile.
-    text : str
-        What is going on.
-    over : callable
-        Whether it is over.
-    leave : str
-        On a button that goes on without waiting; "" for no such button.
+        The window, which takes no input meanwhile.
+    text, over, leave
+        See `WaitingDialog`.
 
     Returns
     -------
     bool
-        Whether to go on: False where the user has cancelled what was to come next.
+        True to continue; False if the user has cancelled.
     """
     if not over():
         _wait_a_moment(over)
@@ -84,10 +80,10 @@ def wait_until(parent: QWidget, text: str, over: Callable[[], bool], leave: str 
 
 
 def _wait_a_moment(over: Callable[[], bool]) -> None:
-    """Wait without a dialog, which would only flash; user input is handled afterwards."""
+    """Wait for at most `_DELAY` without a dialog, which would only flash; user input is handled afterwards."""
     loop = QEventLoop()
-    look = QTimer(interval=_PERIOD)
-    look.timeout.connect(lambda: loop.quit() if over() else None)
-    look.start()
-    QTimer.singleShot(_PATIENCE, loop.quit)
+    timer = QTimer(interval=_PERIOD)
+    timer.timeout.connect(lambda: loop.quit() if over() else None)
+    timer.start()
+    QTimer.singleShot(_DELAY, loop.quit)
     loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)

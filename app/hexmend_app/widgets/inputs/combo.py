@@ -6,6 +6,6 @@ from PySide6.QtWidgets import QComboBox
 
 
 def let_shrink(combo: QComboBox, letters: int) -> None:
-    """Set the minimum width of a combo box in letters, whatever its entries."""
+    """Set the minimum width of a combo box in letters, regardless of its entries."""
     combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
     combo.setMinimumContentsLength(letters)

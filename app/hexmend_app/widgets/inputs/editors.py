@@ -1,4 +1,4 @@
-"""One editor per kind of declared parameter, all with `value`, `set_value`, `problem` and the signal `changed`."""
+"""Editors of declared parameters, one per type, with `value`, `set_value`, `problem` and the signal `changed`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Switch(QCheckBox):
         self.clicked.connect(self.changed)
 
     def value(self) -> bool:
-        """The state of the box."""
+        """Return True if the box is checked."""
         return self.isChecked()
 
     def set_value(self, value: bool) -> None:
@@ -32,7 +32,7 @@ class Switch(QCheckBox):
 
 
 class ChoiceEditor(QComboBox):
-    """Editor of one word out of several."""
+    """Editor of a choice."""
 
     changed = Signal()
     problem = ""
@@ -47,15 +47,15 @@ class ChoiceEditor(QComboBox):
         self.activated.connect(self.changed)
 
     def value(self) -> str:
-        """The word chosen, as declared."""
+        """Return the choice as declared."""
         return self.currentData()
 
     def set_value(self, value: str) -> None:
-        """Show a value, without a signal; ParameterError where it is none of the choices."""
+        """Show a value, without a signal; raise `ParameterError` if it is not among the choices."""
         self.setCurrentIndex(self.findData(self._declaration.check(value)))
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """Turn only while focused: scrolling the panel must not change what lies under the pointer."""
+        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
         if self.hasFocus():
             super().wheelEvent(event)
         else:
@@ -74,7 +74,7 @@ class Text(QLineEdit):
         self.textEdited.connect(lambda _: self.changed.emit())
 
     def value(self) -> str:
-        """The text as typed."""
+        """Return the text."""
         return self.text()
 
     def set_value(self, value: str) -> None:
@@ -86,7 +86,7 @@ Editor = Switch | ChoiceEditor | Text | NumberBox
 
 
 def editor_for(declaration: Parameter) -> Editor:
-    """The editor that fits a declaration."""
+    """Return an editor for a declared parameter."""
     if declaration.choices is not None:
         return ChoiceEditor(declaration)
     return {bool: Switch, str: Text}.get(declaration.type, NumberBox)(declaration)

@@ -1,4 +1,4 @@
-"""A form made from the keys of a table."""
+"""Form built from the keys of a table."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from hexmend_app.widgets.wording import name_in_words
 
 
 class KeyForm(QWidget):
-    """Edits some keys of a table, a row each; what nothing is said about is left to the program.
+    """Form that edits some keys of a table, one row each; an empty text stands for the default.
 
     Parameters
     ----------
-    table : Table
-        Its values are shown first.
+    table : ConfigTable
+        Initial values.
     names : sequence of str
-        The fields that are edited.
+        Fields to edit.
 
     Attributes
     ----------
@@ -46,15 +46,15 @@ class KeyForm(QWidget):
     def __init__(self, table: ConfigTable, names: Sequence[str], parent: QWidget | None = None):
         super().__init__(parent)
         self._kind = type(table)
-        self._keys = {one.field: one for one in options_of(self._kind) if one.field in names}
-        self.editors: dict[str, Editor | Suggested] = {}
+        self._keys = {option.field: option for option in options_of(self._kind) if option.field in names}
+        self.editors: dict[str, Editor | SuggestionBox] = {}
         layout = QFormLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         for name in names:
-            one = self._keys[name]
-            editor = self.editors[name] = _editor(one)
+            option = self._keys[name]
+            editor = self.editors[name] = _editor(option)
             editor.changed.connect(self._on_changed)
-            title = name_in_words(one.name) + (f" ({one.unit})" if one.unit else "")
+            title = name_in_words(option.name) + (f" ({option.unit})" if option.unit else "")
             set_help(editor, title, helps(self._kind)[name])
             label = QLabel(title)
             label.setBuddy(editor)
@@ -69,15 +69,15 @@ class KeyForm(QWidget):
         for name, editor in self.editors.items():
             value = getattr(table, name)
             editor.set_value(_text(value) if isinstance(editor, Text) else value)
-        self._say("")
+        self._show_problem("")
 
     def table(self, base: ConfigTable) -> ConfigTable:
-        """A table with the values of the form.
+        """Return a copy of `base` with the values of the form.
 
         Raises
         ------
         ParameterError
-            Where one cannot be used.
+            If a value is invalid.
         """
         values = {}
         for name, editor in self.editors.items():
@@ -89,32 +89,32 @@ class KeyForm(QWidget):
     def _on_changed(self) -> None:
         try:
             self.table(self._kind())
-            self._say("")
+            self._show_problem("")
         except ParameterError as error:
-            self._say(str(error))
+            self._show_problem(str(error))
         self.changed.emit()
 
-    def _say(self, problem: str) -> None:
+    def _show_problem(self, problem: str) -> None:
         self._problem.setText(problem)
         self._problem.setVisible(bool(problem))
 
 
-class Suggested(QComboBox):
-    """Editor of a text of which some are offered."""
+class SuggestionBox(QComboBox):
+    """Editor of a text, with a list of suggestions."""
 
     changed = Signal()
     problem = ""
 
-    def __init__(self, offered: Sequence[str], parent: QWidget | None = None):
+    def __init__(self, suggestions: Sequence[str], parent: QWidget | None = None):
         super().__init__(parent)
         self.setEditable(True)
         self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.addItems(offered)
+        self.addItems(suggestions)
         self.activated.connect(self.changed)
         self.lineEdit().textEdited.connect(lambda _: self.changed.emit())
 
     def value(self) -> str:
-        """The text as chosen or typed."""
+        """Return the text, chosen or typed."""
         return self.currentText().strip()
 
     def set_value(self, value: str) -> None:
@@ -122,32 +122,32 @@ class Suggested(QComboBox):
         self.setCurrentText(value)
 
 
-def _editor(one: Option) -> Editor | Suggested:
-    kind = one.kind
+def _editor(option: Option) -> Editor | SuggestionBox:
+    kind, name = option.kind, option.name
     if kind is bool or kind in (int, float):
-        return editor_for(Parameter(one.name, kind, one.default, one.low, one.high, None, "", ""))
-    if one.offered:
-        return Suggested(one.offered)
+        return editor_for(Parameter(name, kind, option.default, option.low, option.high, None, "", ""))
+    if option.offered:
+        return SuggestionBox(option.offered)
     if isinstance(kind, type) and issubclass(kind, StrEnum):
-        return editor_for(Parameter(one.name, str, one.default.value, None, None, tuple(kind), "", ""))
-    editor = editor_for(Parameter(one.name, str, "", None, None, None, "", ""))
-    editor.setPlaceholderText("as suits" if one.default in (None, "") else _text(one.default))
+        return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
+    editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
+    editor.setPlaceholderText("automatic" if option.default in (None, "") else _text(option.default))
     return editor
 
 
-def _read(one: Option, text: str) -> Any:
-    """The value that a text stands for."""
+def _read(option: Option, text: str) -> Any:
+    """Return the value of a text: a number, a list of numbers, or the text itself; the default of an empty text."""
     text = text.strip()
-    if not text or one.kind is str:
-        return text or one.default
+    if not text or option.kind is str:
+        return text or option.default
     try:
         numbers = [float(word) for word in re.split(r"[,;\s×]+", text.strip(" ,;"))]
     except ValueError:
-        raise ParameterError(f"{name_in_words(one.name)}: {text!r} is no number") from None
-    whole = [int(number) if number.is_integer() else number for number in numbers]
-    scalar = {int, float} & set(get_args(one.kind) or (one.kind,))
-    lists = any(get_origin(kind) is tuple for kind in get_args(one.kind))
-    return whole[0] if len(whole) == 1 and scalar else whole if lists else text
+        raise ParameterError(f"{name_in_words(option.name)}: {text!r} is not a number") from None
+    values = [int(number) if number.is_integer() else number for number in numbers]
+    takes_number = {int, float} & set(get_args(option.kind) or (option.kind,))
+    takes_list = any(get_origin(kind) is tuple for kind in get_args(option.kind))
+    return values[0] if len(values) == 1 and takes_number else values if takes_list else text
 
 
 def _text(value: Any) -> str:

@@ -1,4 +1,4 @@
-"""A small button that opens a menu."""
+"""Small button that opens a menu."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from hexmend_app.theme.style import BLUE, LINE, on_theme_change, set_help
 
 
 class MenuButton(QToolButton):
-    """Opens `menu()`, which is empty at first.
+    """Button that opens `menu()`, which is empty at first.
 
     Parameters
     ----------
     name, help : str
-        See `explain`.
+        See `hexmend_app.theme.style.set_help`.
     """
 
     def __init__(self, name: str, help: str, parent: QWidget | None = None):
@@ -30,7 +30,7 @@ class MenuButton(QToolButton):
 
 
 def _sheet() -> str:
-    """A button like the others beside it, without the arrow that a menu gives it."""
+    """Return the style sheet of the button, without the arrow of menu buttons."""
     return f"""
 QToolButton {{ background: {BUTTON}; border: 1px solid {LINE}; border-radius: 3px; padding: 3px; }}
 QToolButton:hover {{ background: {HOVER}; }}

@@ -1,4 +1,4 @@
-"""A spin box that takes any notation of a number and says what is wrong instead of changing it."""
+"""Spin box that accepts any notation of a number, and explains invalid texts instead of correcting them."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from hexmend_app.theme.palette import FIELD, MUTED, PANEL, TEXT, WORSE, WRONG, R
 from hexmend_app.theme.style import on_theme_change, smaller, tabular
 from hexmend_app.widgets.wording import short_number
 
-#: Letters of the longest unit that a box has room for behind its number.
+#: Maximum length of a unit that is shown after the number, in letters.
 LONGEST_UNIT = 6
 
 
 class NumberBox(QAbstractSpinBox):
-    """Editor of a declared number, whole or not.
+    """Editor of a declared number.
 
-    What is typed is read at each key. A text that is no admitted value stays as typed, is coloured, and `problem` says
-    what was expected; `value` is then the one from before the typing began.
+    The text is parsed at each key press. An invalid text is kept and coloured, `problem` explains what is expected, and
+    `value` is the value from before editing.
 
     Parameters
     ----------
     declaration : Parameter
-        Of type int or float; its unit is shown behind the number, unless it is longer than `LONGEST_UNIT`.
+        Of type int or float; its unit is shown after the number, unless it is longer than `LONGEST_UNIT`.
 
     Signals
     -------
     changed
-        The user changed the value, or its text became wrong or right.
+        The user changed the value, or its text became invalid or valid.
     """
 
     changed = Signal()
@@ -42,17 +42,17 @@ class NumberBox(QAbstractSpinBox):
         self._declaration = declaration
         self._value = self._committed = declaration.default
         self.problem = ""
-        # Values change while the user types on, so Qt must neither hold keys back nor correct the text.
+        # Values change while the user types, so Qt must neither delay signals nor correct the text.
         self.setKeyboardTracking(True)
         self.setFont(tabular(self.font()))
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         line = self.lineEdit()
         line.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        line.textEdited.connect(self._read)
+        line.textEdited.connect(self._parse)
         line.editingFinished.connect(self._commit)
         self._show_unit(declaration.unit if len(declaration.unit) <= LONGEST_UNIT else "")
         self.set_value(declaration.default)
-        on_theme_change(self, self._paint)
+        on_theme_change(self, self._apply_colours)
 
     def _show_unit(self, unit: str) -> None:
         line = self.lineEdit()
@@ -69,7 +69,7 @@ class NumberBox(QAbstractSpinBox):
         self.setMinimumWidth(width + self.fontMetrics().horizontalAdvance("0.00000") + 34)
 
     def value(self) -> float | int | str:
-        """The last admitted value: a number, or the declaration's word for no limit."""
+        """Return the last valid value: a number, or the declared word for no limit."""
         return self._value
 
     def set_value(self, value: float | int | str) -> None:
@@ -78,51 +78,52 @@ class NumberBox(QAbstractSpinBox):
         Raises
         ------
         ParameterError
-            Where the declaration does not admit it.
+            If the declaration does not admit it.
         """
         self._value = self._committed = self._declaration.check(value)
         self.lineEdit().setText(_text(self._value))
-        self._mark("")
+        self._set_problem("")
 
-    def _read(self, text: str) -> None:
+    def _parse(self, text: str) -> None:
         try:
             value = self._declaration.parse(text.strip())
             if not isinstance(value, str) and not math.isfinite(value):
                 raise ParameterError(f"{text} is not finite")
         except ParameterError:
-            # Not the value of what was typed so far: on the way to 1e-3 that is 1.
+            # Not the last valid text: while 1e-3 is typed, that is 1.
             self._value = self._committed
-            expected, kept = self._declaration.range, _text(self._value)
-            self._mark(f"Expected {expected}. {kept} stays in use until this is corrected.")
+            expected, previous = self._declaration.range, _text(self._value)
+            self._set_problem(f"Expected {expected}. {previous} is used until this is corrected.")
         else:
             self._value = value
-            self._mark("")
+            self._set_problem("")
         self.changed.emit()
 
-    def _mark(self, problem: str) -> None:
+    def _set_problem(self, problem: str) -> None:
         self.problem = problem
-        self._paint()
+        self._apply_colours()
 
-    def _paint(self) -> None:
-        text, ground = (WORSE, WRONG) if self.problem else (TEXT, FIELD)
-        palette = _enabled(QPalette.ColorRole.Text, text, _enabled(QPalette.ColorRole.Base, ground))
+    def _apply_colours(self) -> None:
+        text, background = (WORSE, WRONG) if self.problem else (TEXT, FIELD)
+        palette = _enabled(QPalette.ColorRole.Text, text, _enabled(QPalette.ColorRole.Base, background))
         palette.setColor(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Base, QColor(str(PANEL)))
         self.setPalette(palette)
 
     def stepBy(self, steps: int) -> None:
-        """Step a whole number by one, any other by one in its leading digit; stop at the bounds.
+        """Step an integer by one, another number by one in its leading digit; stop at the bounds.
 
-        Beyond the upper bound is no limit, where the declaration has a word for that.
+        The step after the upper bound is the declared word for no limit, if there is one.
         """
         value = self._value
         for _ in range(abs(steps)):
-            value = self._neighbour(value, 1 if steps > 0 else -1)
+            value = self._stepped(value, 1 if steps > 0 else -1)
         if value != self._value or self.problem:
             self.set_value(value)
             self.changed.emit()
         self.lineEdit().selectAll()
 
-    def _neighbour(self, value: float | str, sign: int) -> float | str:
+    def _stepped(self, value: float | str, sign: int) -> float | str:
+        """Return the next value up (sign 1) or down (-1)."""
         low = -math.inf if self._declaration.low is None else self._declaration.low
         high = math.inf if self._declaration.high is None else self._declaration.high
         if isinstance(value, str):
@@ -134,12 +135,12 @@ class NumberBox(QAbstractSpinBox):
         magnitude = abs(value) or abs(self._declaration.default) or 0.1
         exponent = math.floor(math.log10(magnitude) + 1e-9)
         if value * sign < 0 and math.isclose(abs(value), 10.0**exponent):
-            exponent -= 1  # below 1 comes 0.9, not 0
-        moved = round(value + sign * 10.0**exponent, 12 - exponent)
-        return min(max(moved, low), high)
+            exponent -= 1  # the value below 1 is 0.9, not 0
+        stepped = round(value + sign * 10.0**exponent, 12 - exponent)
+        return min(max(stepped, low), high)
 
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:
-        """The arrows that are enabled."""
+        """Return the enabled arrows."""
         flags = QAbstractSpinBox.StepEnabledFlag.StepNone
         unlimited, high, low = isinstance(self._value, str), self._declaration.high, self._declaration.low
         if not unlimited and (high is None or self._value < high or self._declaration.no_limit):
@@ -149,14 +150,14 @@ class NumberBox(QAbstractSpinBox):
         return flags
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        """Turn only while focused: scrolling the panel must not change what lies under the pointer."""
+        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
         if self.hasFocus():
             super().wheelEvent(event)
         else:
             event.ignore()
 
     def _commit(self) -> None:
-        # An admitted value is written in its shortest form once the user is done with it.
+        """Write a valid value in its shortest form after editing."""
         if not self.problem:
             self.set_value(self._value)
 
@@ -166,7 +167,7 @@ def _text(value: float | int | str) -> str:
 
 
 def _enabled(role: QPalette.ColorRole, colour: Role, palette: QPalette | None = None) -> QPalette:
-    """A palette that colours a role of what is enabled: disabled, it is to look so."""
+    """Return `palette`, by default a new one, with the colour of a role set except for disabled widgets."""
     palette = palette or QPalette()
     for group in (QPalette.ColorGroup.Active, QPalette.ColorGroup.Inactive):
         palette.setColor(group, role, QColor(str(colour)))

@@ -1,4 +1,4 @@
-"""A form made from declared parameters."""
+"""Form built from declared parameters."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from hexmend_app.widgets.wording import name_in_words, short_number
 
 @dataclass(frozen=True)
 class _Row:
-    """The widgets of a parameter: label, editor, reset button, and lines for errors and help."""
+    """Widgets of a parameter: label, editor, reset button, and labels for errors and help."""
 
     declaration: Parameter
     label: QLabel
@@ -43,27 +43,27 @@ class _Row:
 
 
 class ParameterForm(QWidget):
-    """Edits values of declared parameters, one row each.
+    """Form that edits the values of declared parameters, one row each.
 
-    The label is the parameter's name in words; its help is the tooltip, and a switch below the rows writes it out under
-    each. A value that differs from its default has a bold label and a button that resets it.
+    The help of a parameter is its tooltip; a button below the rows shows the help of all parameters. A value that
+    differs from its default has a bold label and a reset button.
 
     Parameters
     ----------
     declarations : iterable of Parameter
-        As `hexmend.parameters.declared` gives them.
+        Declarations from `hexmend.parameters.declared`.
 
     Attributes
     ----------
     rows : dict
-        What each parameter shows, by its name: label, editor, reset, problem and help.
+        Widgets of each parameter by name: label, editor, reset, problem and help.
     none : QLabel
-        Says that there is nothing to set.
+        Shown if there are no parameters.
 
     Signals
     -------
     changed
-        The user changed a value, or made one wrong or right. Setters stay silent.
+        The user changed a value, or its text became invalid or valid. Setters do not emit it.
     """
 
     changed = Signal()
@@ -76,10 +76,10 @@ class ParameterForm(QWidget):
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        self.none = note("There is nothing to set.")
-        self._defaults = self._tool("Defaults", "restore", "Set all of these parameters to their defaults.")
+        self.none = note("No parameters.")
+        self._defaults = self._button("Defaults", "restore", "Reset all parameters to their defaults.")
         self._defaults.clicked.connect(self._reset_all)
-        self._explain = self._tool("Explain", "help-circle-outline", "Write out what each parameter means.")
+        self._explain = self._button("Explain", "help-circle-outline", "Show the help of each parameter.")
         self._explain.setCheckable(True)
         self._explain.toggled.connect(self._show_help)
         foot = QHBoxLayout()
@@ -94,7 +94,7 @@ class ParameterForm(QWidget):
         self.set_declarations(declarations)
 
     @staticmethod
-    def _tool(text: str, icon_name: str, help: str) -> QToolButton:
+    def _button(text: str, icon_name: str, help: str) -> QToolButton:
         button = QToolButton()
         button.setText(text)
         button.setIcon(icon(icon_name))
@@ -105,20 +105,20 @@ class ParameterForm(QWidget):
         return button
 
     def set_declarations(self, declarations: Iterable[Parameter]) -> None:
-        """Show other parameters, at their defaults; not from a signal of an editor that this replaces."""
+        """Replace the rows by other parameters at their defaults; not to be called from a signal of an editor."""
         declarations = list(declarations)
-        if declarations and declarations == [row.declaration for row in self.rows.values()]:  # to make rows takes time
+        if declarations and declarations == [row.declaration for row in self.rows.values()]:  # creating rows is slow
             self.set_values({declaration.name: declaration.default for declaration in declarations})
             return
         while (item := self._grid.takeAt(0)) is not None:
-            # At once: deleted later, rows stay for as long as the loop does not return to where they were made.
+            # At once: `deleteLater` takes effect only when the event loop that created the rows continues.
             shiboken6.delete(item.widget())
         before = self._explain.previousInFocusChain()
         self.rows = {d.name: self._make_row(3 * i, d) for i, d in enumerate(declarations)}
-        # Qt puts what is made later at the end of the whole window.
+        # Qt appends new widgets to the tab order of the whole window.
         parts = [part for row in self.rows.values() for part in (row.editor, row.reset)]
-        for one, following in pairwise([before, *parts, self._explain, self._defaults]):
-            self.setTabOrder(one, following)
+        for previous, following in pairwise([before, *parts, self._explain, self._defaults]):
+            self.setTabOrder(previous, following)
         self.none.setVisible(not self.rows)
         self._explain.setVisible(bool(self.rows))
         self._defaults.setVisible(bool(self.rows))
@@ -130,7 +130,6 @@ class ParameterForm(QWidget):
         editor = editor_for(declaration)
         default = declaration.default
         shown = short_number(default) if isinstance(default, float) else str(default)
-        # An unbounded float says nothing worth reading about its range.
         tip = f"{escape(declaration.help)}<br><i>{escape(declaration.range.capitalize())}; default {escape(shown)}.</i>"
         set_help(editor, name, tip)
         editor.setAccessibleDescription(declaration.help)
@@ -139,15 +138,15 @@ class ParameterForm(QWidget):
             label.setText(f"{escape(name)}<br><small>{escape(declaration.unit)}</small>")
         label.setWordWrap(True)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        label.setMinimumWidth(_longest_word(label, name))
+        label.setMinimumWidth(_longest_word_width(label, name))
         label.setBuddy(editor)
         label.setToolTip(editor.toolTip())
         reset = QToolButton()
         reset.setIcon(icon("restore", BLUE))
         reset.setAutoRaise(True)
         reset.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(reset, f"Reset {name}", f"Changed; set it back to its default, {escape(shown)}.")
-        # The button's place is kept while it is hidden, so that editors do not change width.
+        set_help(reset, f"Reset {name}", f"Reset to the default, {escape(shown)}.")
+        # Keep the space of the hidden button, so that editors do not change width.
         policy = reset.sizePolicy()
         policy.setRetainSizeWhenHidden(True)
         reset.setSizePolicy(policy)
@@ -162,16 +161,16 @@ class ParameterForm(QWidget):
         return row
 
     def values(self) -> dict[str, Any]:
-        """Values by name; where a text is wrong, the value from before it was typed."""
+        """Return the values by name; of an invalid text, the value from before editing."""
         return {name: row.editor.value() for name, row in self.rows.items()}
 
     def set_values(self, values: Mapping[str, Any]) -> None:
-        """Show values, without a signal; parameters that are not named keep theirs.
+        """Show values, without a signal; parameters that are not named keep their values.
 
         Raises
         ------
         ParameterError
-            For a name that the form does not have or a value that is not admitted.
+            If a name is unknown or a value is invalid.
         """
         for name, value in values.items():
             if name not in self.rows:
@@ -180,15 +179,15 @@ class ParameterForm(QWidget):
         self._refresh()
 
     def editor(self, name: str) -> Editor:
-        """The editor of a parameter."""
+        """Return the editor of a parameter."""
         return self.rows[name].editor
 
     def problems(self) -> dict[str, str]:
-        """The problems by parameter; empty if there are none."""
+        """Return the problems by parameter; empty if there are none."""
         return {name: row.editor.problem for name, row in self.rows.items() if row.editor.problem}
 
     def show_problem(self) -> None:
-        """Lead the user to the first wrong value."""
+        """Focus the editor of the first invalid value."""
         for name in self.problems():
             self.rows[name].editor.setFocus(Qt.FocusReason.OtherFocusReason)
             return
@@ -218,8 +217,8 @@ class ParameterForm(QWidget):
             row.help.setVisible(shown)
 
 
-def _longest_word(label: QLabel, text: str) -> int:
-    """Pixels that a wrapped text needs at least, as it is written where a value is not its default."""
+def _longest_word_width(label: QLabel, text: str) -> int:
+    """Return the minimum width of a wrapped text in bold, in pixels."""
     label.ensurePolished()
     bold = QFont(label.font())
     bold.setBold(True)

@@ -1,4 +1,4 @@
-"""A row of joined buttons of which one is chosen."""
+"""Row of joined buttons of which exactly one is checked."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hexmend_app.theme.style import on_theme_change, set_help, smaller
 
 
 def _stop_at_checked(button: QAbstractButton, checked: bool) -> None:
-    """Let Tab come to the chosen one alone; Qt leaves it at whichever the focus comes to first, from either side."""
+    """Let Tab reach the checked button only; Qt would stop at the first button from either side."""
     button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if checked else Qt.FocusPolicy.ClickFocus)
 
 
@@ -30,18 +30,18 @@ QPushButton:focus {{ border: 1px solid {BLUE}; outline: none; }}
 
 
 class Segmented(QWidget):
-    """Chooses one of a few words that are all in sight; arrow keys walk through them.
+    """Control that chooses one of a few visible options; arrow keys move between them.
 
     Parameters
     ----------
     name : str
-        Accessible name of the whole.
+        Accessible name of the control.
     options : iterable of (key, text, help)
 
     Signals
     -------
     chosen(key)
-        The user chose.
+        The user chose an option.
     """
 
     chosen = Signal(str)
@@ -63,7 +63,7 @@ class Segmented(QWidget):
             button.setProperty("place", "first" if at == 0 else "last" if at == len(options) - 1 else "")
             set_help(button, f"{name}: {text}", help)
             button.clicked.connect(lambda _=False, key=key: self.chosen.emit(key))
-            # The chosen one is bold; its width must not depend on that.
+            # The checked button is bold; its width must not depend on that.
             button.setFont(smaller(button.font()))
             font = button.font()
             font.setBold(True)
@@ -77,13 +77,13 @@ class Segmented(QWidget):
         self.set_value(options[0][0])
 
     def value(self) -> str:
-        """Key of the chosen option."""
+        """Return the key of the chosen option."""
         return next(key for key, button in self._buttons.items() if button.isChecked())
 
     def set_value(self, key: str) -> None:
-        """Show a choice, without a signal."""
+        """Choose an option, without a signal."""
         self._buttons[key].setChecked(True)
 
     def button(self, key: str) -> QPushButton:
-        """The button of an option."""
+        """Return the button of an option."""
         return self._buttons[key]

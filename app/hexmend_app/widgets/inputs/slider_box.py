@@ -1,4 +1,4 @@
-"""A slider and a box for one whole number."""
+"""Slider and spin box for a whole number."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from hexmend_app.theme.style import set_help, tabular
 
 
 class SliderBox(QWidget):
-    """Chooses a whole number from 0 upwards, roughly by the slider or exactly in the box.
+    """Editor of a whole number from 0: roughly with a slider or exactly in a spin box.
 
     Parameters
     ----------
     name, help : str
-        See `explain`.
+        See `hexmend_app.theme.style.set_help`.
     most : int
-        The largest number.
+        Maximum.
     suffix : str
-        Stands behind the number.
+        Text after the number.
 
     Signals
     -------
     changed(int)
-        The user chose.
+        The user chose a number.
     """
 
     changed = Signal(int)
@@ -50,19 +50,19 @@ class SliderBox(QWidget):
         self.set_help(help)
 
     def value(self) -> int:
-        """The number."""
+        """Return the number."""
         return self._value
 
     def set_value(self, value: int) -> None:
         """Show a number, without a signal."""
         self._value = value
         for part in (self._slider, self._box):
-            if part.value() != value:  # or what is being typed would be written anew
+            if part.value() != value:  # otherwise the text would be replaced during typing
                 with QSignalBlocker(part):
                     part.setValue(value)
 
     def set_most(self, most: int) -> None:
-        """Take another largest number, without a signal."""
+        """Set the maximum, without a signal."""
         for part in (self._slider, self._box):
             with QSignalBlocker(part):
                 part.setRange(0, most)
@@ -70,26 +70,26 @@ class SliderBox(QWidget):
         self._slider.setPageStep(max(1, most // 10))
 
     def set_help(self, help: str) -> None:
-        """Explain it otherwise, for example why it is disabled."""
+        """Set the help text, for example the reason for which the control is disabled."""
         for part in (self, self._slider, self._box):
             set_help(part, self._name, help)
 
     def set_box_width(self, width: int) -> None:
-        """Make the box as wide as others that stand above and below it."""
+        """Set the width of the box, to align it with others."""
         self._box.setFixedWidth(width)
 
     def box_width(self) -> int:
-        """Preferred width of the box."""
+        """Return the preferred width of the box."""
         return self._box.sizeHint().width()
 
     def eventFilter(self, part: QObject, event: QEvent) -> bool:
-        """Turn only while focused: scrolling the panel must not change what lies under the pointer."""
+        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
         if event.type() == QEvent.Type.Wheel and not part.hasFocus():
             event.ignore()
             return True
         return super().eventFilter(part, event)
 
     def _choose(self, value: int) -> None:
-        if value != self._value:  # a box tells again what was typed as it is left
+        if value != self._value:  # a box emits its value again when it loses the focus
             self.set_value(value)
             self.changed.emit(value)

@@ -1,4 +1,4 @@
-"""A file that something is written to: typed, or chosen in a dialog of the desktop."""
+"""Row that edits the path of a file to write."""
 
 from __future__ import annotations
 
@@ -13,22 +13,23 @@ from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, 
 
 
 class TargetRow(QWidget):
-    """Edits the path of a file.
+    """Text field for the path of a file, with a button that opens a file dialog.
 
     Parameters
     ----------
     title : str
-        Of the dialog that chooses it.
+        Title of the file dialog.
     name : str
-        The file name proposed.
+        Default file name.
     kinds : str
-        Kinds of file, as Qt's dialogs take them; a name without a suffix gets that of the first.
+        Kinds of file in the notation of Qt; a name without a suffix gets that of the first kind.
     help : str
+        Tooltip of the text field.
 
     Signals
     -------
     edited
-        The user named another file.
+        The path has changed.
     """
 
     edited = Signal()
@@ -36,7 +37,7 @@ class TargetRow(QWidget):
     def __init__(self, title: str, name: str, kinds: str, help: str, parent: QWidget | None = None):
         super().__init__(parent)
         self._title, self._kinds = title, kinds
-        self._replaced = ""  # the file that may be replaced, as a dialog of the desktop has asked
+        self._replaced = ""  # path that the file dialog has confirmed to be replaced
         self.line = QLineEdit(str(folder() / name))
         set_help(self.line, "File", help)
         self.line.textChanged.connect(lambda: self.edited.emit())
@@ -52,18 +53,18 @@ class TargetRow(QWidget):
 
     @property
     def empty(self) -> bool:
-        """Return True without a path."""
+        """True if no path is entered."""
         return not self.line.text().strip()
 
     def path(self) -> Path:
-        """The file; a name without a suffix gets one."""
+        """Return the path; a name without a suffix gets one."""
         path = Path(self.line.text())
-        with suppress(RuntimeError):  # of nobody's home
+        with suppress(RuntimeError):  # unknown home folder
             path = path.expanduser()
         return Path(named(str(path), self._kinds))
 
     def committed(self) -> bool:
-        """Ask before an existing file is replaced; return True if it may be written."""
+        """Ask before an existing file is replaced; return True if the file may be written."""
         path = str(self.path())
         if path != self._replaced and not ask_replacing(self, path):
             return False
@@ -73,5 +74,5 @@ class TargetRow(QWidget):
     def _browse(self) -> None:
         path, kind = QFileDialog.getSaveFileName(self, self._title, self.line.text(), self._kinds)
         if path:
-            self._replaced = path  # with a suffix that it has not it is another file
+            self._replaced = path  # another file if a suffix is appended
             self.line.setText(named(path, kind or self._kinds))

@@ -1,4 +1,4 @@
-"""Look and keyboard navigation of tables of elements."""
+"""Style and keyboard navigation of tables."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from hexmend_app.theme.style import PANEL, on_theme_change, tabular
 
 
 def shape_table(table: QTableView, name: str, stretched: int) -> None:
-    """Let one row at a time be chosen, without grid and row numbers, and one column take the room that is left.
+    """Style a table: single selection of rows, no grid and row numbers, and one stretched column.
 
     Parameters
     ----------
     table : QTableView
-        With its columns known.
+        Table with its model or columns set.
     name : str
         Accessible name.
     stretched : int
+        Column that fills the remaining width.
     """
     table.setFont(tabular(table.font()))
     table.setAccessibleName(name)

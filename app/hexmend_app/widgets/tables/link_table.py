@@ -1,4 +1,4 @@
-"""A table in which some cells are links."""
+"""Table in which some cells are links."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from PySide6.QtWidgets import QTableWidget, QWidget
 
 
 class LinkTable(QTableWidget):
-    """Links are followed by a click on their cell, or by Enter in their row.
+    """Table in which a link is followed by a click on its cell, or by Enter in its row.
 
     Signals
     -------
     link_activated(str)
+        The user followed this link.
     """
 
     link_activated = Signal(str)
@@ -24,7 +25,7 @@ class LinkTable(QTableWidget):
         self.cellClicked.connect(lambda row, column: self._follow(self._links.get((row, column))))
 
     def set_link(self, row: int, column: int, link: str | None) -> None:
-        """Let a cell be a link, or none."""
+        """Make a cell a link; None removes its link."""
         if link is None:
             self._links.pop((row, column), None)
         else:
@@ -40,7 +41,7 @@ class LinkTable(QTableWidget):
             super().keyPressEvent(event)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Show by the pointer's shape where a click does something."""
+        """Show a pointing hand over links."""
         index = self.indexAt(event.position().toPoint())
         over = (index.row(), index.column()) in self._links
         self.viewport().setCursor(Qt.CursorShape.PointingHandCursor if over else Qt.CursorShape.ArrowCursor)

@@ -172,7 +172,7 @@ def test_closing_asks_about_unsaved_cameras_of_a_session(window, saved, tmp_path
     window.refresh()
     assert window.isWindowModified()
     assert not window.may_leave()
-    assert questions == ["The cameras of work.hexmend are others than were saved."]
+    assert questions == ["work.hexmend has unsaved cameras."]
 
 
 def test_the_dialog_is_deleted_when_closed(window, saved, qtbot, monkeypatch):

@@ -1,4 +1,4 @@
-"""The dialog that asks what a chart or a table is to be like."""
+"""Dialogs that export charts and tables."""
 
 import pytest
 from PySide6.QtWidgets import QFileDialog, QMessageBox
@@ -14,18 +14,18 @@ WORDS = ("the histogram", "bridge.svg", "SVG figure (*.svg);;Counts (*.csv)", Ch
 
 @pytest.fixture
 def dialog(qtbot, tmp_path):
-    asks = ChartDialog(HISTOGRAM, *WORDS)
-    qtbot.addWidget(asks)
-    asks.show()
-    asks.target.line.setText(str(tmp_path / "a.svg"))
-    return asks
+    dialog = ChartDialog(HISTOGRAM, *WORDS)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    dialog.target.line.setText(str(tmp_path / "a.svg"))
+    return dialog
 
 
-def test_it_begins_with_what_the_chart_calls_itself(dialog):
+def test_the_initial_style_has_the_title_of_the_chart(dialog):
     assert dialog.chosen() == ChartStyle(title="bridge")
 
 
-def test_what_is_edited_is_what_is_chosen(dialog):
+def test_edited_values_are_in_the_chosen_style(dialog):
     dialog.form.editor("width").set_value(85.0)
     dialog.title.setText("")
     dialog.names["at the start"].setText("as given")
@@ -34,19 +34,19 @@ def test_what_is_edited_is_what_is_chosen(dialog):
     assert dialog.result() == ChartDialog.DialogCode.Accepted
 
 
-def test_it_shows_what_will_be_written(dialog, qtbot):
+def test_the_preview_follows_the_style(dialog, qtbot):
     qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
     before = dialog.preview.pixmap().toImage()
     dialog.names["at the start"].setText("a name that is much longer")
     dialog.names["at the start"].textEdited.emit("")
     qtbot.waitUntil(lambda: dialog.preview.pixmap().toImage() != before, timeout=PATIENCE)
     dialog.target.line.setText("a.csv")
-    qtbot.waitUntil(lambda: "without a picture" in dialog.preview.text(), timeout=PATIENCE)
+    qtbot.waitUntil(lambda: "no preview" in dialog.preview.text(), timeout=PATIENCE)
     assert not dialog.form.isEnabled()
 
 
 @pytest.mark.parametrize("file", ["~nobody-of-this-name/x.svg", "x" * 300 + ".svg"])
-def test_a_path_that_cannot_be_is_for_the_writer_to_refuse(dialog, qtbot, file):
+def test_an_impossible_path_is_left_to_the_writer(dialog, qtbot, file):
     dialog.target.line.setText(file)
     qtbot.waitUntil(lambda: not dialog.preview.pixmap().isNull(), timeout=PATIENCE)
     dialog.accept()
@@ -54,39 +54,39 @@ def test_a_path_that_cannot_be_is_for_the_writer_to_refuse(dialog, qtbot, file):
     assert not dialog.isVisible()
 
 
-@pytest.mark.parametrize(("file", "said"), [("", "Name the file"), ("a.gif", ".gif")])
-def test_a_file_that_cannot_be_written_is_said_before(dialog, qtbot, file, said):
+@pytest.mark.parametrize(("file", "problem"), [("", "Enter the file"), ("a.gif", ".gif")])
+def test_a_missing_or_unsupported_file_name_is_a_problem(dialog, qtbot, file, problem):
     dialog.target.line.setText(file)
     dialog.accept()
     assert dialog.isVisible()
-    assert any(said in text for text in texts(dialog))
+    assert any(problem in text for text in texts(dialog))
 
 
-def test_a_size_that_cannot_be_is_said(dialog, qtbot):
+def test_an_invalid_size_is_a_problem(dialog, qtbot):
     dialog.form.editor("height").set_value(5.0)
     dialog.accept()
     assert dialog.isVisible()
     assert any("at least 20 mm" in text for text in texts(dialog))
 
 
-def test_a_file_that_is_there_is_asked_about_once(dialog, qtbot, tmp_path, monkeypatch):
+def test_replacing_an_existing_file_is_asked_once(dialog, qtbot, tmp_path, monkeypatch):
     (tmp_path / "a.svg").touch()
-    asked = []
-    monkeypatch.setattr(QMessageBox, "exec", lambda box: asked.append(box.text()) or QMessageBox.StandardButton.No)
+    questions = []
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: questions.append(box.text()) or QMessageBox.StandardButton.No)
     dialog.accept()
     assert dialog.isVisible()
-    assert len(asked) == 1
-    browse = next(one for one in dialog.target.children() if getattr(one, "text", str)() == "Browse…")
+    assert len(questions) == 1
+    browse = next(child for child in dialog.target.children() if getattr(child, "text", str)() == "Browse…")
     for name in ("a", "a.svg"):
         monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_, n=name: (str(tmp_path / n), "SVG (*.svg)"))
         browse.click()
         dialog.accept()
-        assert len(asked) == 2  # of a.svg itself the desktop's dialog had asked
+        assert len(questions) == 2  # the file dialog has asked about a.svg itself
     assert dialog.target.path() == tmp_path / "a.svg"
     assert not dialog.isVisible()
 
 
-def test_a_table_is_shown_under_the_names_that_are_typed(qtbot):
+def test_the_preview_of_a_table_has_the_typed_names(qtbot):
     dialog = TableDialog(lambda style: f"**{style.names.get('mend', 'mend')}**", *WORDS, "bridge", ["mend"])
     qtbot.addWidget(dialog)
     dialog.show()
@@ -97,7 +97,7 @@ def test_a_table_is_shown_under_the_names_that_are_typed(qtbot):
 
 
 def texts(dialog):
-    """What the dialog says under its fields."""
+    """Return the problems that the dialog shows."""
     from PySide6.QtWidgets import QLabel
 
-    return [label.text() for label in dialog.findChildren(QLabel) if label.accessibleName() == "What is wrong"]
+    return [label.text() for label in dialog.findChildren(QLabel) if label.accessibleName() == "Problem"]

@@ -1,4 +1,4 @@
-"""Dialogs that ask for files: one folder for all, and names that can be written."""
+"""Dialogs that ask for files: their common folder, and suffixes of names."""
 
 import pytest
 from PySide6.QtCore import QSettings
@@ -17,7 +17,7 @@ OPENING = ("ask_mesh", "ask_recipe")
 
 @pytest.fixture
 def answers(qapp, tmp_path, monkeypatch):
-    """What the desktop's dialogs answer, and where they began."""
+    """Replace file dialogs: set their answer, and record the folder in which they start."""
     for kind in (QSettings.Format.NativeFormat, QSettings.Format.IniFormat):
         QSettings.setPath(kind, QSettings.Scope.UserScope, str(tmp_path / "settings"))
 
@@ -36,7 +36,7 @@ def answers(qapp, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", [*SAVING, *OPENING])
-def test_every_dialog_begins_where_the_last_one_ended(answers, tmp_path, name):
+def test_every_dialog_starts_in_the_folder_of_the_last_file(answers, tmp_path, name):
     one, other = tmp_path / "one", tmp_path / "other"
     one.mkdir()
     other.mkdir()
@@ -48,19 +48,19 @@ def test_every_dialog_begins_where_the_last_one_ended(answers, tmp_path, name):
 
 
 @pytest.mark.parametrize("name", [*SAVING, *OPENING])
-def test_a_dialog_that_is_cancelled_changes_nothing(answers, tmp_path, name):
+def test_a_cancelled_dialog_changes_nothing(answers, tmp_path, name):
     questions.remember_folder(tmp_path / "mesh.vtu")
     assert getattr(questions, name)(None, *SAVING.get(name, ())) == ""
     assert questions.folder() == tmp_path
 
 
-def test_a_folder_that_is_gone_is_not_begun_in(answers, tmp_path):
+def test_dialogs_do_not_start_in_a_deleted_folder(answers, tmp_path):
     questions.remember_folder(tmp_path / "gone" / "mesh.vtu")
     assert questions.folder().is_dir()
 
 
 @pytest.mark.parametrize("name", SAVING)
-def test_a_name_without_a_suffix_gets_the_first_that_is_offered_or_the_one_chosen(answers, tmp_path, name):
+def test_a_name_without_a_suffix_gets_that_of_the_chosen_or_first_kind(answers, tmp_path, name):
     answers.name = str(tmp_path / "result")
     assert getattr(questions, name)(None, *SAVING[name]).startswith(f"{answers.name}.")
     answers.kind = "Something (*.some)"
@@ -68,12 +68,12 @@ def test_a_name_without_a_suffix_gets_the_first_that_is_offered_or_the_one_chose
 
 
 @pytest.mark.parametrize("name", SAVING)
-def test_another_suffix_is_left_for_the_writer_to_refuse(answers, tmp_path, name):
+def test_another_suffix_is_left_to_the_writer(answers, tmp_path, name):
     answers.name = str(tmp_path / "result.docx")
     assert getattr(questions, name)(None, *SAVING[name]) == answers.name
 
 
-def test_a_file_that_the_dialog_did_not_ask_about_is_not_replaced_unasked(answers, tmp_path, monkeypatch):
+def test_replacing_a_file_is_asked_if_the_file_dialog_did_not(answers, tmp_path, monkeypatch):
     (tmp_path / "list.csv").write_text("another")
     answers.name = str(tmp_path / "list")
     monkeypatch.setattr(QMessageBox, "exec", lambda self: QMessageBox.StandardButton.No)

@@ -1,4 +1,4 @@
-"""Forms made from declarations of every kind."""
+"""Forms of declared parameters of every type."""
 
 import dataclasses
 import gc
@@ -24,7 +24,7 @@ _LEFT = Qt.MouseButton.LeftButton
 
 @dataclass(frozen=True)
 class AllKinds(Parametrised):
-    """A declaration of every kind."""
+    """Parameters of every type."""
 
     delta: float = parameter(0.01, low=0, high=10, unit="mean edge length³", help="Softness of the barrier.")
     free_value: float = parameter(-3.5, help="A number without bounds.")
@@ -64,12 +64,12 @@ def type_into(editor, text):
     QTest.keyClicks(line, text)
 
 
-def test_defaults_stand_at_first_and_make_the_thing(form):
+def test_initial_values_are_the_defaults(form):
     assert AllKinds(**form.values()) == AllKinds()
     assert not named(form, QToolButton, "Defaults").isEnabled()
 
 
-def test_values_come_back_as_they_were_set_without_a_signal(form, changes):
+def test_set_values_are_returned_without_a_signal(form, changes):
     form.set_values(_OTHER)
     assert form.values() == AllKinds(**form.values()).values() == _OTHER
     assert changes == []
@@ -77,7 +77,7 @@ def test_values_come_back_as_they_were_set_without_a_signal(form, changes):
 
 
 @pytest.mark.parametrize(("text", "value"), [("1e-4", 1e-4), (" 2.5E-3", 2.5e-3), ("10", 10.0), (".5", 0.5)])
-def test_any_notation_of_a_number_is_taken(form, changes, text, value):
+def test_any_notation_of_a_number_is_accepted(form, changes, text, value):
     type_into(form.editor("delta"), text)
     assert form.values()["delta"] == value
     assert changes[-1]["delta"] == value
@@ -85,7 +85,7 @@ def test_any_notation_of_a_number_is_taken(form, changes, text, value):
 
 
 @pytest.mark.parametrize("text", ["11", "-1", "abc", "1,5", "nan", "inf", ""])
-def test_a_wrong_text_is_explained_and_left_alone(form, text):
+def test_an_invalid_text_is_explained_and_kept(form, text):
     editor = form.editor("delta")
     if text:
         type_into(editor, text)
@@ -100,7 +100,7 @@ def test_a_wrong_text_is_explained_and_left_alone(form, text):
     assert form.values()["delta"] == 0.01  # as before the typing
 
 
-def test_an_admitted_number_is_shortened_on_leaving(form):
+def test_a_valid_number_is_shortened_when_the_focus_leaves(form):
     editor = form.editor("delta")
     type_into(editor, "0.500")
     QTest.keyClick(editor, Qt.Key.Key_Tab)
@@ -108,12 +108,12 @@ def test_an_admitted_number_is_shortened_on_leaving(form):
 
 
 @pytest.mark.parametrize("text", ["0", "201", "3.5"])
-def test_whole_numbers_have_bounds_too(form, text):
+def test_integers_have_bounds(form, text):
     type_into(form.editor("max_cuts"), text)
     assert "a whole number from 1 to 200" in form.problems()["max_cuts"]
 
 
-def test_keys_and_clicks_reach_every_kind(form, changes):
+def test_every_type_is_edited_by_keys_and_clicks(form, changes):
     QTest.keyClick(form.editor("max_cuts"), Qt.Key.Key_Up)
     QTest.mouseClick(form.editor("take_back_where_the_attached_minimum_falls"), _LEFT, pos=QPoint(8, 8))
     form.editor("weights").setFocus()
@@ -124,14 +124,14 @@ def test_keys_and_clicks_reach_every_kind(form, changes):
     assert len(changes) == 4
 
 
-def test_tab_walks_through_all_editors_in_order(form):
+def test_tab_reaches_all_editors_in_order(form):
     form.editor(_NAMES[0]).setFocus()
     for name in _NAMES[1:]:
         QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
         assert QApplication.focusWidget() is form.editor(name)
 
 
-def test_a_modified_value_is_marked_and_reset_alone(form, changes):
+def test_a_modified_value_is_marked_and_reset_separately(form, changes):
     form.set_values(_OTHER)
     row = form.rows["delta"]
     assert row.label.font().bold()
@@ -143,7 +143,7 @@ def test_a_modified_value_is_marked_and_reset_alone(form, changes):
     assert len(changes) == 1
 
 
-def test_defaults_mend_wrong_texts_and_values(form, changes):
+def test_defaults_replace_invalid_texts_and_values(form, changes):
     form.set_values(_OTHER)
     type_into(form.editor("delta"), "x")
     QTest.mouseClick(named(form, QToolButton, "Defaults"), _LEFT)
@@ -152,7 +152,7 @@ def test_defaults_mend_wrong_texts_and_values(form, changes):
     assert not named(form, QToolButton, "Defaults").isEnabled()
 
 
-def test_help_is_a_tooltip_and_can_be_written_out(form):
+def test_help_is_a_tooltip_and_can_be_shown(form):
     for declaration in declared(AllKinds):
         assert declaration.help in form.editor(declaration.name).toolTip()
         assert form.editor(declaration.name).accessibleName()
@@ -164,14 +164,14 @@ def test_help_is_a_tooltip_and_can_be_written_out(form):
         assert label.text() == declaration.help
 
 
-def test_unknown_names_and_values_are_refused(form):
+def test_unknown_names_and_values_raise(form):
     with pytest.raises(ParameterError, match="no parameter 'lambda'"):
         form.set_values({"lambda": 1})
     with pytest.raises(ParameterError, match="out of range"):
         form.set_values({"delta": 11})
 
 
-def test_the_wheel_changes_only_what_has_the_focus(form):
+def test_the_wheel_changes_only_focused_editors(form):
     form.editor("label").setFocus()
 
     def turn(widget):
@@ -209,7 +209,7 @@ def test_other_declarations_replace_the_rows(form):
     assert not any(button.isVisible() for button in form.findChildren(QToolButton))
 
 
-def test_the_same_declarations_again_are_shown_by_the_same_rows_at_their_defaults(form, changes):
+def test_equal_declarations_reuse_the_rows_at_their_defaults(form, changes):
     old = form.editor("delta")
     form.set_values({"delta": 2.0})
     type_into(form.editor("max_cuts"), "many")
@@ -222,7 +222,7 @@ def test_the_same_declarations_again_are_shown_by_the_same_rows_at_their_default
     assert changes == []
 
 
-def test_rows_that_are_replaced_are_gone_at_once(form):
+def test_replaced_rows_are_deleted_at_once(form):
     def widgets():
         return len(form.findChildren(QWidget))
 
@@ -238,7 +238,7 @@ def test_rows_that_are_replaced_are_gone_at_once(form):
 
 @settings(max_examples=40)
 @given(start=st.floats(0, 10), steps=st.lists(st.integers(-12, 12), max_size=6))
-def test_stepping_stays_in_bounds_and_moves_the_way_it_says(qapp, start, steps):
+def test_stepping_stays_in_bounds_and_has_the_right_sign(qapp, start, steps):
     box = NumberBox(declared(AllKinds)[0])
     box.set_value(start)
     for step in steps:
@@ -257,7 +257,7 @@ def test_stepping_down_from_one_passes_through_tenths(qapp):
     assert box.value() == 1.0
 
 
-def test_beyond_the_upper_bound_is_the_word_for_no_limit(qapp):
+def test_the_step_after_the_upper_bound_is_no_limit(qapp):
     box = NumberBox(Parameter("room", float, 0.3, 0.0, 10.0, None, "", "", "unlimited"))
     box.set_value(9.0)
     box.stepBy(3)
@@ -271,7 +271,7 @@ def test_beyond_the_upper_bound_is_the_word_for_no_limit(qapp):
     assert "or unlimited" in box.problem
 
 
-def test_in_a_narrow_form_no_word_of_a_name_is_cut_off(form):
+def test_a_narrow_form_shows_every_word_of_a_name(form):
     form.resize(form.minimumSizeHint())
     for name in ("delta", "free_value", "max_cuts"):
         label = next(one for one in form.findChildren(QLabel) if one.buddy() is form.editor(name))

@@ -1,4 +1,4 @@
-"""A row of buttons of which one is chosen, by keys."""
+"""Rows of joined buttons, used by keyboard."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexmend_app.widgets.inputs.segmented import Segmented
 
 @pytest.fixture
 def between(shown):
-    """A choice of three between two fields."""
+    """Three joined buttons between two text fields."""
     widget = QWidget()
     column = QVBoxLayout(widget)
     widget.before, widget.after = QLineEdit(), QLineEdit()
@@ -24,7 +24,7 @@ def between(shown):
 
 @pytest.mark.parametrize("chosen", ["small", "middle", "large"])
 @pytest.mark.parametrize("back", [False, True], ids=["Tab", "Shift+Tab"])
-def test_tab_comes_to_the_chosen_one_alone_from_either_side(between, chosen, back):
+def test_tab_reaches_only_the_checked_button_from_either_side(between, chosen, back):
     between.choice.set_value(chosen)
     first, last = (between.after, between.before) if back else (between.before, between.after)
     first.setFocus()
@@ -35,7 +35,7 @@ def test_tab_comes_to_the_chosen_one_alone_from_either_side(between, chosen, bac
     assert QApplication.focusWidget() is last
 
 
-def test_arrow_keys_choose(between, qtbot):
+def test_arrow_keys_check_buttons(between, qtbot):
     between.before.setFocus()
     QTest.keyClick(between.before, Qt.Key.Key_Tab)
     with qtbot.waitSignal(between.choice.chosen, timeout=1000) as told:
