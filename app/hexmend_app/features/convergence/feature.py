@@ -44,7 +44,7 @@ class FeatureConvergence(Feature):
         self._throttler.triggered.connect(self._show)
         panel.from_zero_changed.connect(self._show)
         panel.toggled.connect(self._on_toggled)
-        panel.forget_requested.connect(timeline.forget)
+        panel.forget_requested.connect(timeline.delete)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
 

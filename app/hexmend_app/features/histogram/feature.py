@@ -87,7 +87,7 @@ class FeatureHistogram(Feature):
         look = self._view.look
         if self._view.counted is None and look.quality_range and look.quality_range.metric != look.scale.metric:
             self._view.counted = look.quality_range.metric
-        self.session.run.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
+        self.session.run.request_metrics({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()

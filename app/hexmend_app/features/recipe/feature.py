@@ -109,7 +109,7 @@ class FeatureRecipe(Feature):
         # The iteration tells apart two pauses without a refresh between them.
         paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
         if self._seen.changed("paused at", paused_at) and paused_at is not None:
-            self.session.run_setup.show_at_work(smoothing.work.stages[number - 1])
+            self.session.run_setup.show_active(smoothing.work.stages[number - 1])
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
@@ -134,7 +134,7 @@ class FeatureRecipe(Feature):
         except HexmendError as error:
             self.host.messages.show_error("The recipe was not loaded", str(error))
             return
-        self._draft.take(recipe)
+        self._draft.load(recipe)
         self._select(0)
 
     def ask_save(self) -> None:

@@ -33,7 +33,7 @@ class FeatureTimeline(Feature):
         bar = self.panel = TimelineBar()
         bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
-        bar.delete_requested.connect(lambda: timeline.forget(timeline.record))
+        bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20

@@ -76,14 +76,14 @@ class History:
         self._moments[start] = RecordedIteration(record, 0)
         return record
 
-    def add(self, record: RunRecord, iteration: Iteration, places: bool = True) -> None:
-        """Keep an iteration, its positions too unless `places` is false; called by the thread that made it.
+    def add(self, record: RunRecord, iteration: Iteration, positions: bool = True) -> None:
+        """Record an iteration, and its node positions unless `positions` is False; called in the thread of the run.
 
-        Nothing is kept of a run that has been removed: its thread may still make the iteration that it was at.
+        Iterations of a run that has been removed are ignored: its thread may still be at work.
         """
         numbers = {name: value for name, value in iteration.diagnostics.items() if isinstance(value, (int, float, str))}
         row = numbers | iteration.row()
-        offsets = record.compact(iteration.points) if iteration.number and places else None
+        offsets = record.compact(iteration.points) if iteration.number and positions else None
         with self._lock:
             if not any(one is record for one in self.records):
                 return

@@ -57,7 +57,7 @@ class Session(SessionParts):
         self.camera_request.look_through(metadata.scene.camera_of(metadata.panels[0]))
         self.saved_cameras.add_all(metadata.scene.cameras)
         if metadata.recipe is not None:
-            self.recipe_draft.take(metadata.recipe)
+            self.recipe_draft.load(metadata.recipe)
 
     def _on_change(self, *_: object) -> None:
         self.changed.emit()

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.slow
 #: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
-    "session.boundary_classifier", "session.run_setup.begun", "session.run.record", "session.run.advice", "session.run.work",
+    "session.boundary_classifier", "session.run_setup.active_stage", "session.run.record", "session.run.advice", "session.run.work",
     "session.run.phase", "action panel", "action drawer",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.

@@ -99,7 +99,7 @@ def test_what_somebody_else_chooses_is_shown(panel, setup, heard):
 def test_what_is_set_while_a_run_is_paused_is_a_change_of_it(panel, setup):
     changes = []
     panel.change_requested.connect(changes.append)
-    setup.begun = setup.stage
+    setup.active_stage = setup.stage
     panel.set_state("paused")
     panel.run_or_pause()
     assert changes == []
