@@ -106,7 +106,7 @@ class FeatureConvergence(Feature):
             shown=record.plotted,
             current=record is self._timeline.record,
             running=self._run.busy and record is self._run.record,
-            stored=lambda: self._history.kept(record),
+            stored=lambda: self._history.recorded_numbers(record),
         )
 
     def _mark(self) -> None:

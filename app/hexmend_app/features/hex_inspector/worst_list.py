@@ -22,7 +22,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
-from hexmend_app.state.mesh.worst_hexes import Worst
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.widgets.action_button import ActionButton
 from hexmend_app.widgets.metric_texts import described, metrics_offered
@@ -195,11 +195,11 @@ class WorstList(QWidget):
             self._text.setText("No mesh is open.")
             return
         metric = METRICS[self.chosen_metric]
-        worst = Worst.of(mesh, figures, metric.name)
+        worst = WorstHexes.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
-        self._model.fill(worst.elements, worst.values, worst.jacobians, worst.states)
-        listed = "" if worst.elements.size == mesh.n_hexes else f"The {worst.elements.size:,} worst of "
+        self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)
+        listed = "" if worst.hexes.size == mesh.n_hexes else f"The {worst.hexes.size:,} worst of "
         order = "" if metric.name == "scaled-jacobian" else "; ties sorted by scaled Jacobian"
         self._text.setText(f"{listed}{counted(mesh.n_hexes, 'hex')}, {figures.n_inverted:,} inverted{order}")
         self._select_row()

@@ -126,7 +126,7 @@ class FeatureHistogram(Feature):
     def _keep(self) -> None:
         now = self._document.now
         moment = self.session.history.moment_of(now)
-        self._snapshots.keep("kept" if moment is None else moment.name, now)
+        self._snapshots.add("kept" if moment is None else moment.name, now)
 
     def _show_snapshots(self) -> None:
         snapshots = self._snapshots.all

@@ -83,7 +83,7 @@ class FeatureTimeline(Feature):
             self.panel.set_run(history.records.index(record))
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
-                self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
+                self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
 

@@ -173,7 +173,7 @@ class Timeline(QObject):
     def _go_by(self, by: int) -> None:
         if self.record is None:
             return
-        numbers = self.history.kept(self.record).tolist()
+        numbers = self.history.recorded_numbers(self.record).tolist()
         shown = self._shown.number if self._shown is not None and self._shown.record is self.record else 0
         ahead = [n for n in numbers if n > shown] if by > 0 else [n for n in reversed(numbers) if n < shown]
         if ahead:

@@ -201,7 +201,7 @@ def test_a_session_of_the_second_version_knows_no_cameras(window, qtbot, tmp_pat
     look = data["window"]["view"]["look"]
     del data["window"]["cameras"], look["left"], look["structure"]["extra"]
     write_archive(path, "Hexmend session", 2, data)
-    window.session.saved_cameras.keep("of another", Camera("+x"))
+    window.session.saved_cameras.add("of another", Camera("+x"))
     open_and_wait(qtbot, window, path)
     assert window.session.saved_cameras.all == {}
 
