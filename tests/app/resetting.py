@@ -85,7 +85,7 @@ class Resetting:
             if session.run_setup.values_of(method.name) not in ({}, method().values()):
                 session.run_setup.choose(Stage(method(), StoppingCriteria()))
         session.run_setup.choose(Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria()))
-        session.run_setup.begun = None
+        session.run_setup.active_stage = None
         while session.recipe_draft.stages:
             session.recipe_draft.remove(0)
         session.recipe_draft.rename("")

@@ -58,8 +58,8 @@ def live(window, qtbot):
     session.selection.choose(7)
     session.view.set_clip(PlaneClip.at((1, 0, 0), middle))
     session.view.isolate([7], 1)
-    session.snapshots.keep("kept", session.document.now)
-    session.saved_cameras.keep("kept", Camera("+y"))
+    session.snapshots.add("kept", session.document.now)
+    session.saved_cameras.add("kept", Camera("+y"))
     session.side_views.show("start", session.document.start)
     window.messages.show_error("Something is wrong", "And that is what it is.")
     for panel in window.docks.ids():

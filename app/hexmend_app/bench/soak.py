@@ -147,7 +147,7 @@ def _window() -> Iterator[Window]:
     finally:
         end_run(window.session)
         if window.session.document.is_open:
-            window.session.document.saved(window.session.document.path)
+            window.session.document.mark_saved(window.session.document.path)
         window.close()
 
 
@@ -166,7 +166,7 @@ def _round(window: Window, path: Path, method: str, folder: Path) -> None:
     for change in (session.commands.undo, session.commands.redo, session.commands.reset):
         change()
         draw(window)
-    session.document.saved(saved)
+    session.document.mark_saved(saved)
 
 
 def _open(window: Window, path: Path) -> None:

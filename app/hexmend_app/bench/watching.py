@@ -31,11 +31,11 @@ def _row(window: Window) -> dict[str, Any]:
 
     stops = [_stop(window) for _ in range(_STOPS)]
     for record in list(window.session.history.records):
-        window.session.timeline.forget(record)
+        window.session.timeline.delete(record)
     window.session.history.limit = LIMIT
     seconds = _run(window, _ITERATIONS)
     history, record = window.session.history, window.session.timeline.record
-    numbers = history.kept(record)
+    numbers = history.recorded_numbers(record)
     scrubbed = numbers[np.linspace(0, len(numbers) - 1, _SCRUBBED).astype(int)]
     return {
         "scrub_ms": _scrub(window, scrubbed),

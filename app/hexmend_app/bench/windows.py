@@ -44,7 +44,7 @@ def measure_meshes(meshes: Iterable[Mesh], row: Callable[[Window], dict[str, Any
         rows.append({"mesh": mesh.name, "hexes": mesh.n_hexes, **row(window)})
         document = window.session.document
         document.commit("measured", document.now)  # otherwise closing would ask to save
-        document.saved(document.path)
+        document.mark_saved(document.path)
         window.close()
         app.processEvents()
     return {"meshes": rows}

@@ -108,7 +108,7 @@ class CameraAnimation(QObject):
         self.arrive()
         self.changed.emit()
 
-    def journey(self) -> tuple[list[CameraPose], list[CameraPose], CameraPose | None]:
+    def pose_history(self) -> tuple[list[CameraPose], list[CameraPose], CameraPose | None]:
         """Return the poses before and after the current pose, oldest first, and the bookmarked pose."""
         before, after = self._poses.around(pose_of(self._camera))
         return before, after, self._remembered

@@ -113,18 +113,18 @@ class CameraView(QWidget):
         return pose_of(self.viewport.camera, self.up)
 
     @property
-    def journey(self) -> PoseHistoryData:
+    def pose_history(self) -> PoseHistoryData:
         """History of camera poses."""
-        before, after, remembered = self.travel.journey()
+        before, after, remembered = self.travel.pose_history()
         poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
         return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
 
-    def set_pose(self, pose: CameraPose, journey: PoseHistoryData | None = None) -> None:
+    def set_pose(self, pose: CameraPose, pose_history: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
         self.panes.eye.up = pose.axis
         self._move_camera(partial(apply_pose, self.viewport.camera, pose))
-        if journey is not None:
-            self.travel.resume(journey.before, journey.after, journey.left)
+        if pose_history is not None:
+            self.travel.resume(pose_history.before, pose_history.after, pose_history.left)
 
     @property
     def up(self) -> str:

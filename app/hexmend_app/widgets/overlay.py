@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QWidget
 
-from hexmend_app.state.settings.settings import place_of
+from hexmend_app.state.settings.settings import overlay_position
 
 _MARGIN = 8
 
@@ -55,7 +55,7 @@ class Overlay(QObject):
     ):
         super().__init__(widget)
         self._widget, self._over, self._home, self._width = widget, over, home, width
-        self._setting = place_of(key, home) if key else None
+        self._setting = overlay_position(key, home) if key else None
         self._place = self._setting.get() if key else home
         self._grip: QPoint | None = None  # position of a drag on the widget
         self._others: dict[QWidget, Callable[[], QRect]] = {}  # widgets to avoid, with their areas
@@ -190,6 +190,6 @@ class Overlay(QObject):
 
     def _store(self) -> None:
         if self._place == self._home:
-            self._setting.forget()
+            self._setting.clear()
         else:
             self._setting.set(self._place)

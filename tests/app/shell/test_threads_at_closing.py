@@ -104,7 +104,7 @@ def test_another_mesh_is_opened_while_the_session_of_the_first_is_being_written(
     before = session.document.now
     with monkeypatch.context() as patch:
         patch.setattr(Task, "wait", lambda self: pytest.fail("the window waits for a thread"))
-        session.document.saved(mesh_file)
+        session.document.mark_saved(mesh_file)
         open_and_wait(qtbot, kept, mesh_file)
     assert session.document.now.mesh is not before.mesh
     (folder,) = windows.iterdir()

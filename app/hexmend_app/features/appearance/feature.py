@@ -138,7 +138,7 @@ class FeatureAppearance(Feature):
         """Displacement shown by colours or arrows, or None."""
         look = self._view.look
         needed = look.scale.metric in DISPLACEMENT_QUANTITIES or look.traces.arrows is not Arrows.NONE
-        return self.session.comparison_bases.movement(look.traces.since) if needed else None
+        return self.session.comparison_bases.displacement(look.traces.since) if needed else None
 
     @property
     def _drawable(self) -> Look:

@@ -160,8 +160,8 @@ class FeatureCamera(Feature):
     def refresh(self) -> None:
         """Restore the camera of an opened session, and the camera from before an isolation once it ends."""
         if self.session.camera_request.wanted is not None and self._draws:
-            self._apply(self.session.camera_request.wanted, self.session.camera_request.journey)
-            self.session.camera_request.wanted, self.session.camera_request.journey = None, PoseHistoryData()
+            self._apply(self.session.camera_request.wanted, self.session.camera_request.pose_history)
+            self.session.camera_request.wanted, self.session.camera_request.pose_history = None, PoseHistoryData()
         isolated = self.session.view.look.isolation is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
@@ -216,7 +216,7 @@ class FeatureCamera(Feature):
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
         success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
-        self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.keep(name, camera), success)
+        self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
 
     def go(self, name: str) -> None:
         """Apply a saved camera."""
@@ -253,12 +253,12 @@ class FeatureCamera(Feature):
         """Return the pose and its history: those of the view, or those that it is to take."""
         request = self.session.camera_request
         if request.wanted is not None and request.wanted.pose is not None:
-            return CameraData(request.wanted.pose, request.journey)
-        return CameraData(self.canvas.pose, self.canvas.journey) if self._draws else CameraData()
+            return CameraData(request.wanted.pose, request.pose_history)
+        return CameraData(self.canvas.pose, self.canvas.pose_history) if self._draws else CameraData()
 
     def _restore(self, data: CameraData) -> None:
         camera = None if data.pose is None else Camera.at(data.pose)
-        self.session.camera_request.look_through(camera, data.history)
+        self.session.camera_request.request(camera, data.history)
 
     def _ready(self) -> bool:
         return self.canvas is not None

@@ -45,7 +45,7 @@ class FeatureConvergence(Feature):
         self._throttler.triggered.connect(self._show)
         panel.from_zero_changed.connect(self._show)
         panel.toggled.connect(self._on_toggled)
-        panel.forget_requested.connect(timeline.forget)
+        panel.forget_requested.connect(timeline.delete)
         panel.picked.connect(timeline.go_soon)
         panel.save_requested.connect(self.ask)
 
@@ -107,7 +107,7 @@ class FeatureConvergence(Feature):
             shown=record.plotted,
             current=record is self._timeline.record,
             running=self._run.busy and record is self._run.record,
-            stored=lambda: self._history.kept(record),
+            stored=lambda: self._history.recorded_numbers(record),
         )
 
     def _mark(self) -> None:

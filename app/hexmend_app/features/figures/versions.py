@@ -73,7 +73,7 @@ def _run_recipe(session: Session) -> Recipe | None:
         return None
     if isinstance(work, Recipe):
         return work
-    stage = session.run_setup.begun or Stage(work)
+    stage = session.run_setup.active_stage or Stage(work)
     stop = replace(stage.stop, max_iterations=moment.record.newest)  # the user may have stopped it
     return Recipe.of(replace(stage, stop=stop), title=work.title)
 

@@ -10,7 +10,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend.report.documents import write_text
-from hexmend_app.state.mesh.worst_hexes import Worst
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 
 
 def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
@@ -29,7 +29,7 @@ def write_worst(path: str | Path, mesh: Mesh, metric: str = "q") -> None:
         If the suffix is not .csv or the file cannot be written; an existing file is left unchanged.
     """
     suffix_for(Path(path), "a list", (".csv",))
-    worst, out = Worst.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
+    worst, out = WorstHexes.of(mesh, measure(mesh.points, mesh.hexes), metric), io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["hex", metric, "scaled-jacobian", "state"])
     columns = worst.hexes.tolist(), worst.values.tolist(), worst.jacobians.tolist(), worst.states

@@ -22,7 +22,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 from hexmend_app.codec.checks import check_known
 from hexmend_app.features.hex_inspector.worst_model import HEX, JACOBIAN, STATE, VALUE, WorstModel
-from hexmend_app.state.mesh.worst_hexes import Worst
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 from hexmend_app.theme.style import icon, note, set_help
 from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
@@ -202,7 +202,7 @@ class WorstList(QWidget):
             self._text.setText(tr("No mesh is open."))
             return
         metric = METRICS[self.chosen_metric]
-        worst = Worst.of(mesh, figures, metric.name)
+        worst = WorstHexes.of(mesh, figures, metric.name)
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)

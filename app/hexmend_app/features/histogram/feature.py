@@ -88,7 +88,7 @@ class FeatureHistogram(Feature):
         look = self._view.look
         if self._view.counted is None and look.quality_range and look.quality_range.metric != look.scale.metric:
             self._view.counted = look.quality_range.metric
-        self.session.run.want({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
+        self.session.run.request_metrics({look.scale.metric, self.metric} - DISPLACEMENT_QUANTITIES.keys())
         self.panel.set_metric(self.metric, self._view.counted is None and self.metric == look.scale.metric)
         if self._document.is_open and self.panel.isVisible():
             self._count()
@@ -127,7 +127,7 @@ class FeatureHistogram(Feature):
     def _keep(self) -> None:
         now = self._document.now
         moment = self.session.history.moment_of(now)
-        self._snapshots.keep("kept" if moment is None else moment.name, now)
+        self._snapshots.add("kept" if moment is None else moment.name, now)
 
     def _show_snapshots(self) -> None:
         snapshots = self._snapshots.all

@@ -66,7 +66,7 @@ class FeatureMovement(Feature):
 
     @property
     def _displacement(self) -> Displacement:
-        return self.session.comparison_bases.movement(self._view.look.traces.since)
+        return self.session.comparison_bases.displacement(self._view.look.traces.since)
 
     def _show_newly_inverted(self) -> None:
         now = self._document.now

@@ -118,7 +118,7 @@ class FeatureNodeStep(Feature):
         self._list_nodes()
         smoother, node = self.session.run_setup.smoother, self._selection.node
         reason = reason_for_no_step(self.session, smoother)
-        last_step = self._node_sweep.made_by(smoother)
+        last_step = self._node_sweep.last_step_of(smoother)
         if reason:
             self._cancel_request()
             self._draw_message(reason)

@@ -109,7 +109,7 @@ class FeatureRecipe(Feature):
         # The iteration tells apart two pauses without a refresh between them.
         paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
         if self._seen.changed("paused at", paused_at) and paused_at is not None:
-            self.session.run_setup.show_at_work(smoothing.work.stages[number - 1])
+            self.session.run_setup.show_active(smoothing.work.stages[number - 1])
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
@@ -129,7 +129,7 @@ class FeatureRecipe(Feature):
 
     def load(self, path: str | Path) -> None:
         """Load the recipe of a file; if that fails, show the error and keep the present recipe."""
-        if self.host.try_and_report(tr("The recipe was not loaded"), lambda: self._draft.take(read_recipe(path))):
+        if self.host.try_and_report(tr("The recipe was not loaded"), lambda: self._draft.load(read_recipe(path))):
             self._select(0)
 
     def ask_save(self) -> None:

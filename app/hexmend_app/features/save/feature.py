@@ -162,7 +162,7 @@ class FeatureSave(Feature):
         work = session.run.work
         if work is None or session.document.now is session.document.start:
             return None
-        stage = session.run_setup.begun
+        stage = session.run_setup.active_stage
         return work if isinstance(work, Recipe) else Recipe.of(stage if stage is not None else work)
 
     def write_picture(self, path: Path, scene: Scene) -> bool:

@@ -174,8 +174,8 @@ class SmoothingPanel(QWidget):
 
     def _change(self, stage: Stage) -> None:
         """Request the rest of the run with `stage` if it differs from the active one."""
-        if stage != self._setup.begun:
-            self._setup.begun = stage
+        if stage != self._setup.active_stage:
+            self._setup.active_stage = stage
             self.change_requested.emit(stage)
 
     def _show_problem(self) -> None:

@@ -34,7 +34,7 @@ class FeatureTimeline(Feature):
         bar = self.panel = TimelineBar()
         bar.run_chosen.connect(lambda at: timeline.choose(session.history.records[at]))
         bar.number_chosen.connect(lambda number: timeline.go_soon(timeline.record, number))
-        bar.delete_requested.connect(lambda: timeline.forget(timeline.record))
+        bar.delete_requested.connect(lambda: timeline.delete(timeline.record))
         bar.limit_changed.connect(self._set_limit)
         bar.speed_changed.connect(self._set_speed)
         session.history.limit = settings.HISTORY_MEGABYTES.get() << 20
@@ -84,7 +84,7 @@ class FeatureTimeline(Feature):
             self.panel.set_run(history.records.index(record))
             active = self._smoothing.busy and record is self._smoothing.record
             if self._seen.changed("track", record, record.newest, history.bytes, active, len(record.pauses)):
-                self.panel.set_track(record.newest, history.kept(record), record.pauses, history.bytes)
+                self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
 

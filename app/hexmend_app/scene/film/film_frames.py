@@ -28,7 +28,7 @@ class FilmFrame:
 
 def chosen_iterations(history: History, record: RunRecord, frames: int) -> list[int]:
     """Return the numbers of at most `frames` recorded iterations, including the first and the last."""
-    recorded = history.kept(record)
+    recorded = history.recorded_numbers(record)
     positions = np.linspace(0, len(recorded) - 1, min(frames, len(recorded)))
     return recorded[np.unique(positions.round().astype(int))].tolist()
 

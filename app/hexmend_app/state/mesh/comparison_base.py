@@ -10,7 +10,7 @@ from hexmend_app.state.mesh.history import History
 
 
 class ComparisonBases:
-    """Finds the moments to compare with; what was found last is remembered.
+    """Computes displacements from earlier states to the current one; the last is cached.
 
     Parameters
     ----------
@@ -21,38 +21,38 @@ class ComparisonBases:
     def __init__(self, document: Document, records: History):
         self._document, self._history = document, records
         self._last: tuple[tuple, Displacement] | None = None
-        self._before: tuple[State, ReferenceState] | None = None
-        self._measured: tuple[history.RecordedIteration, State] | None = None
+        self._reference: tuple[State, ReferenceState] | None = None
+        self._iteration: tuple[history.RecordedIteration, State] | None = None
 
-    def movement(self, since: Since) -> Displacement:
-        """From then until what is shown now."""
+    def displacement(self, since: Since) -> Displacement:
+        """Return the displacement from an earlier state to the one shown."""
         now = self._document.now
         shown = self._history.moment_of(now)
-        asked = (now, since, shown)
-        if self._last is None or self._last[0] != asked:
-            state, name = self._find(since, shown)
-            before = self._moment(state, name)
-            self._last = asked, Displacement(self._document.start.mesh, before, now.mesh.points, now.figures)
+        key = (now, since, shown)
+        if self._last is None or self._last[0] != key:
+            reference = self._reference_state(*self._find(since, shown))
+            self._last = key, Displacement(self._document.start.mesh, reference, now.mesh.points, now.figures)
         return self._last[1]
 
-    def _moment(self, state: State, name: str) -> ReferenceState:
-        """A state to compare with: the same as long as it is the one, with what is known of its surface."""
-        if self._before is None or self._before[0] is not state or self._before[1].name != name:
-            self._before = state, ReferenceState(state.mesh.points, state.figures, name)
-        return self._before[1]
+    def _reference_state(self, state: State, name: str) -> ReferenceState:
+        """Return the reference of a state; the last is cached, as it caches data of its surface."""
+        if self._reference is None or self._reference[0] is not state or self._reference[1].name != name:
+            self._reference = state, ReferenceState(state.mesh.points, state.figures, name)
+        return self._reference[1]
 
     def _find(self, since: Since, shown: history.RecordedIteration | None) -> tuple[State, str]:
+        """Return the earlier state and its name; `shown` is the iteration that the document shows."""
         if since is Since.OPENED or shown is None:
             return self._document.start, "opening"
         record = shown.record
         if since is Since.ITERATION and shown.number:
-            kept = self._history.kept(record)
-            before = history.RecordedIteration(record, int(kept[kept < shown.number].max()))
+            numbers = self._history.recorded_numbers(record)
+            before = history.RecordedIteration(record, int(numbers[numbers < shown.number].max()))
             if before.number:
                 return self._state(before), before.name
         return record.start, f"{record.name} began"
 
-    def _state(self, moment: history.RecordedIteration) -> State:
-        if self._measured is None or self._measured[0] != moment:
-            self._measured = moment, self._history.state(moment, self._document.now.mesh)
-        return self._measured[1]
+    def _state(self, iteration: history.RecordedIteration) -> State:
+        if self._iteration is None or self._iteration[0] != iteration:
+            self._iteration = iteration, self._history.state(iteration, self._document.now.mesh)
+        return self._iteration[1]

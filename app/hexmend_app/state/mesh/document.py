@@ -1,4 +1,4 @@
-"""The open mesh: where it came from, where its nodes are now, and the way back."""
+"""The document: the open mesh, its file, and its changes with undo and redo."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ from hexmend.quality import ElementQuality, Summary, measure, summarise
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """A mesh with its figures.
+    """A mesh with its quality.
 
     Parameters
     ----------
     mesh : Mesh
     figures : ElementQuality
+        Quality of each hex.
     summary : Summary
+        Statistics of the quality.
     """
 
     mesh: Mesh
@@ -29,14 +31,14 @@ class State:
 
     @classmethod
     def of(cls, mesh: Mesh) -> State:
-        """Measure a mesh."""
+        """Measure a mesh and return its state."""
         figures = measure(mesh.points, mesh.hexes)
         return cls(mesh, figures, summarise(mesh, figures))
 
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """A state that undo can come back to, and what led to it."""
+    """A recorded state, and the title of the change that led to it."""
 
     title: str
     state: State
@@ -49,14 +51,14 @@ class DocumentData:
     Parameters
     ----------
     path : str or None
-        Of the file that was opened or saved last.
+        File that was opened or saved last.
     changes : tuple of Change
     at : int
-        Which of them is recorded as the mesh as it is.
+        Index of the current change.
     saved : State or None
-        What is on disk.
+        State in the file.
     now : State
-        What is shown.
+        State that is shown.
     """
 
     path: str | None
@@ -70,7 +72,7 @@ class DocumentData:
             raise ValueError(f"there is no change {self.at} among {len(self.changes)}")
         hexes = self.changes[self.at].state.mesh.hexes
         if self.now.mesh.hexes is not hexes:
-            raise ValueError("what is shown is another mesh than that of its changes")
+            raise ValueError("the mesh shown is not that of its changes")
 
 
 class Document(QObject):
@@ -79,11 +81,18 @@ class Document(QObject):
     Signals
     -------
     mesh_replaced
-        Another mesh is open (or the first), or the same has other hexes or nodes.
+        A mesh was opened, or the hexes or nodes of the mesh have changed.
     points_moved
-        The same mesh, its nodes elsewhere: an iteration, undo, redo, reset.
+        The node positions have changed: by an iteration, undo, redo or reset.
     changes_changed
-        What undo, redo or saving would do has changed.
+        The list of changes, the current change or the saved state has changed.
+
+    Attributes
+    ----------
+    path : Path or None
+        File of the mesh.
+    now : State or None
+        The state that is shown; None if no mesh is open.
     """
 
     mesh_replaced = Signal()
@@ -105,7 +114,7 @@ class Document(QObject):
 
     @property
     def start(self) -> State:
-        """The mesh as it was opened, or as a change left it that gave it other hexes or nodes."""
+        """The state as opened, or after the last change of the hexes or nodes."""
         hexes = self._changes[self._at].state.mesh.hexes
         at = self._at
         while at > 0 and self._changes[at - 1].state.mesh.hexes is hexes:
@@ -131,7 +140,7 @@ class Document(QObject):
         return self.is_open and self._changes[self._at].state is not self._saved
 
     def replace(self, state: State, path: Path | None) -> None:
-        """Open another mesh; its changes begin anew, and its boundary as it is now is what any run slides on."""
+        """Open a mesh and discard the previous changes; runs slide nodes on its present boundary."""
         state = replace(state, mesh=state.mesh.keeping_surface())
         self.path = path
         self.now = state
@@ -141,19 +150,25 @@ class Document(QObject):
         self.changes_changed.emit()
 
     def preview(self, state: State) -> None:
-        """Show nodes on their way; no change is recorded."""
+        """Show a state without recording a change."""
         self.now = state
         self.points_moved.emit()
 
     @property
     def previews(self) -> bool:
-        """True if the state shown is no recorded change: nodes in motion, or an earlier iteration."""
+        """True if the state shown is not the current change: an iteration of a run or of the history."""
         return self.is_open and self.now is not self._changes[self._at].state
 
     def commit(self, title: str, state: State, show: bool = True) -> None:
-        """Record where the nodes are now, what is pinned and what is tagged, as one change that undo takes back.
+        """Record a state as a change, unless its positions, pins, tags and hexes are those of the current change.
 
-        Without `show`, what is previewed stays in view.
+        Parameters
+        ----------
+        title : str
+            Title of the change in Undo and Redo.
+        state : State
+        show : bool
+            False to leave the state shown as it is.
         """
         before, after = self._changes[self._at].state.mesh, state.mesh
         if any(getattr(after, part) is not getattr(before, part) for part in ("points", "pinned", "hex_sets", "hexes")):
@@ -176,22 +191,19 @@ class Document(QObject):
         return self._changes[self._at + 1].title if self._at + 1 < len(self._changes) else None
 
     def undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         if self._at > 0:
             self._at -= 1
             self._show()
 
     def redo(self) -> None:
-        """Do again what was taken back."""
+        """Redo the change that was undone last."""
         if self._at + 1 < len(self._changes):
             self._at += 1
             self._show()
 
     def reset(self) -> None:
-        """Put the nodes back to where they were when the mesh was opened; undo takes that back too.
-
-        What was pinned or tagged since stays so.
-        """
+        """Move the nodes back to their positions as opened, as one change; pins and tags stay."""
         start = self.start
         if not np.array_equal(self.now.mesh.points, start.mesh.points):
             mesh = self.now.mesh.with_points(start.mesh.points)
@@ -199,16 +211,16 @@ class Document(QObject):
 
     @property
     def recorded(self) -> State:
-        """The mesh as it was changed last, which undo would come back from; a mesh is open."""
+        """The state of the current change; a mesh is open."""
         return self._changes[self._at].state
 
-    def saved(self, path: Path, state: State | None = None) -> bool:
-        """Remember that a state is on disk, the one that is shown where none is named.
+    def mark_saved(self, path: Path, state: State | None = None) -> bool:
+        """Mark a state as saved, by default the one shown, unless its mesh is no longer open.
 
         Returns
         -------
         bool
-            Whether its mesh is open still; nothing is remembered of another.
+            True if its mesh is still open.
         """
         state = self.now if state is None else state
         is_open = any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes)

@@ -1,4 +1,4 @@
-"""Elements that have a name of their own, to be shown alone: the inverted, the locked, the mended..."""
+"""Named groups of hexes that can be isolated: inverted, locked, mended, ..."""
 
 from __future__ import annotations
 
@@ -8,34 +8,38 @@ from hexmend.boundary.displacement import MENDED, NEWLY_INVERTED, STILL_INVERTED
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, locked_hexes
 
-#: Those that a movement tells apart.
-_MOVED = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
+#: Groups that a displacement defines.
+_OF_DISPLACEMENT = {"newly inverted": NEWLY_INVERTED, "still inverted": STILL_INVERTED, "mended": MENDED}
 
-KINDS = ("inverted", "locked", *_MOVED)
+GROUPS = ("inverted", "locked", *_OF_DISPLACEMENT)
 
 
-def hexes_of_group(kind: str, mesh: Mesh, figures: ElementQuality, movement: Displacement | None = None) -> np.ndarray:
-    """The hexes of a kind, (k,) int64.
+def hexes_of_group(
+    group: str, mesh: Mesh, figures: ElementQuality, displacement: Displacement | None = None
+) -> np.ndarray:
+    """Return the hexes of a group, (k,) int64.
 
     Parameters
     ----------
-    kind : str
-        One of `KINDS`.
+    group : str
+        One of `GROUPS`.
     mesh : Mesh
     figures : ElementQuality
-        Of this mesh.
-    movement : Displacement, optional
-        What tells apart the newly inverted, the still inverted and the mended; without it there are none.
+        Quality of the mesh.
+    displacement : Displacement, optional
+        Defines the newly inverted, still inverted and mended hexes; without it these groups are empty.
 
     Raises
     ------
     KeyError
-        For another kind.
+        If there is no such group.
     """
-    if kind not in KINDS:
-        raise KeyError(f"there is no kind of hexes {kind!r}: known are {', '.join(KINDS)}")
-    if kind == "inverted":
+    if group not in GROUPS:
+        raise KeyError(f"there is no group of hexes {group!r}: known are {', '.join(GROUPS)}")
+    if group == "inverted":
         return np.flatnonzero(figures.inverted)
-    if kind == "locked":
+    if group == "locked":
         return np.flatnonzero(locked_hexes(mesh.points, mesh.hexes, mesh.fixed, figures.inverted))
-    return np.empty(0, np.int64) if movement is None else np.flatnonzero(movement.inversion_changes == _MOVED[kind])
+    if displacement is None:
+        return np.empty(0, np.int64)
+    return np.flatnonzero(displacement.inversion_changes == _OF_DISPLACEMENT[group])

@@ -13,7 +13,7 @@ from hexmend_app.codec.codec import since
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.mesh.run_record import NodeOffsets, RunRecord
 
-#: Numbers that every iteration has, whatever the method tells besides.
+#: Columns that the row of every iteration has, for any method.
 _FIGURES = ("seconds", "q_min", "q_mean", "inverted", "largest_move")
 
 
@@ -38,32 +38,29 @@ class RecordData:
     def __post_init__(self) -> None:
         numbers = [number for number, _ in self.offsets]
         if numbers != sorted(set(numbers)) or not set(numbers) <= set(range(1, len(self.rows))):
-            raise ValueError(f"{self.name!r} keeps iterations that it has not made")
+            raise ValueError(f"{self.name!r} has positions of iterations that do not exist")
         if (self.slot or 0) < 0:
             raise ValueError(f"{self.name!r} has the slot {self.slot}")
         for at, row in enumerate(self.rows):
             figures = [row.get(name) for name in _FIGURES]
-            if row.get("iteration") != at or not all(isinstance(one, int | float) for one in figures):
-                raise ValueError(f"iteration {at} of {self.name!r} lacks figures")
+            if row.get("iteration") != at or not all(isinstance(figure, int | float) for figure in figures):
+                raise ValueError(f"iteration {at} of {self.name!r} lacks values of {', '.join(_FIGURES)}")
         if (self.result is None) != (self.end is None) or not 0 <= (self.result or 0) < len(self.rows):
             raise ValueError(f"{self.name!r} has no iteration {self.result}, which is its result")
 
     def check(self) -> None:
-        """Raise `ValueError` unless its positions can be the run's; all are looked at, which is a worker's task."""
-        nodes = self.start.mesh.n_nodes
-        for one in {id(offsets.nodes): offsets for _, offsets in self.offsets}.values():
-            inside = one.nodes.dtype == np.int32 and (
-                not one.nodes.size or 0 <= one.nodes.min() <= one.nodes.max() < nodes
-            )
-            if one.nodes.ndim != 1 or not inside:
-                raise ValueError(f"{self.name!r} has moved nodes that the mesh has not")
-        for number, one in self.offsets:
+        """Raise `ValueError` if the positions are invalid; to be called in a worker, as it examines all of them."""
+        n_nodes = self.start.mesh.n_nodes
+        for nodes in {id(offsets.nodes): offsets.nodes for _, offsets in self.offsets}.values():
+            if nodes.dtype != np.int32 or not _within(nodes, n_nodes):
+                raise ValueError(f"{self.name!r} has moved nodes that the mesh does not have")
+        for number, offsets in self.offsets:
             if (
-                one.displacements.shape != (one.nodes.size, 3)
-                or one.displacements.dtype != np.float32
-                or not np.isfinite(one.displacements).all()
+                offsets.displacements.shape != (offsets.nodes.size, 3)
+                or offsets.displacements.dtype != np.float32
+                or not np.isfinite(offsets.displacements).all()
             ):
-                raise ValueError(f"iteration {number} of {self.name!r} has lost its positions")
+                raise ValueError(f"iteration {number} of {self.name!r} has invalid positions")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +78,7 @@ class HistoryData:
             self._check(run, number, len(self.records))
 
     def check(self) -> None:
-        """Raise `ValueError` unless positions can be those of their runs."""
+        """Raise `ValueError` if the positions of a run are invalid."""
         for record in self.records:
             record.check()
 
@@ -91,7 +88,7 @@ class HistoryData:
 
 
 def to_data(record: RunRecord, at: Mapping[RunRecord, int], offsets: Mapping[int, NodeOffsets]) -> RecordData:
-    """Return the data of a run, whose parent is the run with that number."""
+    """Return the data of a run; `at` has the numbers of the runs, with which the data refer to the parent."""
     parent = record.parent
     same = ("name", "title", "start", "result", "end", "message", "advice", "slot", "plotted")
     return RecordData(
@@ -104,7 +101,7 @@ def to_data(record: RunRecord, at: Mapping[RunRecord, int], offsets: Mapping[int
 
 
 def _within(numbers: np.ndarray, count: int) -> bool:
-    """Return True if an array is a list of whole numbers from 0 to below `count`."""
+    """Return True if an array is one-dimensional, of signed integers from 0 to below `count`."""
     if numbers.ndim != 1 or numbers.dtype.kind != "i":
         return False
     return not numbers.size or 0 <= int(numbers.min()) <= int(numbers.max()) < count

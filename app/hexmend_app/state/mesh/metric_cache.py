@@ -1,4 +1,4 @@
-"""Values of metrics, worked out once for all that shows them: colours, range filter and histogram."""
+"""Cache of metric values for all that shows them: colours, range filter and histogram."""
 
 from __future__ import annotations
 
@@ -8,32 +8,32 @@ import numpy as np
 
 from hexmend.quality import METRICS, ElementQuality
 
-#: Metrics that are remembered of one mesh at one time: those that are looked at by turns.
+#: Maximum number of cached metrics of one state.
 _MOST = 3
 
-#: Values by metric, of each mesh at one time.
-REMEMBERED: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
+#: Values by metric, for the quality of each state.
+CACHE: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
 
 
 def metric_values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
-    """Value of each hex, (m,) float64, to be read only; remembered as long as `figures` lives.
+    """Return the value of each hex, (m,) float64, not to be modified; cached as long as `figures` lives.
 
-    A worker that calls this before it hands its figures over spares the window the work.
+    Workers call this in advance to relieve the window.
 
     Parameters
     ----------
     metric : str
-        A name of `hexmend.quality.METRICS`.
+        Name in `hexmend.quality.METRICS`.
     points : (n, 3) float64
     hexes : (m, 8) int32
     figures : ElementQuality
-        Of the hexes at these points.
+        Quality of the hexes at these points.
     """
-    known = REMEMBERED.setdefault(figures, {})
-    found = known.get(metric)
-    if found is None:
-        found = METRICS[metric].of(points, hexes, figures)
-        while len(known) >= _MOST:
-            known.pop(next(iter(known)), None)
-        known[metric] = found
-    return found
+    cached = CACHE.setdefault(figures, {})
+    values = cached.get(metric)
+    if values is None:
+        values = METRICS[metric].of(points, hexes, figures)
+        while len(cached) >= _MOST:
+            cached.pop(next(iter(cached)), None)
+        cached[metric] = values
+    return values

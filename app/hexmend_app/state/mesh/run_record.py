@@ -1,4 +1,4 @@
-"""Record of one run: all figures, and node positions as far as memory lasts."""
+"""Record of one run: the quality of all iterations, and node positions up to a memory limit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class NodeOffsets:
     Parameters
     ----------
     nodes : (k,) int32
-        All others are where they were.
+        The nodes that have moved.
     displacements : (k, 3) float32
     """
 
@@ -30,7 +30,7 @@ class NodeOffsets:
 
     @property
     def nbytes(self) -> int:
-        """Memory in bytes, without the node positions, which many states share."""
+        """Memory in bytes, without `nodes`, which many iterations share."""
         return self.displacements.nbytes
 
 
@@ -40,35 +40,35 @@ class RunRecord:
     Attributes
     ----------
     name : str
-        Its own: the method's title, with a number where it ran before.
+        Unique name: the title, with a number if there are several runs.
     title : str
-        The method's title.
+        Title of the method or recipe.
     start : State
-        Where it began, as it was.
-    parent : Moment or None
-        The iteration of another run that it went on from.
+        State before the run.
+    parent : RecordedIteration or None
+        Iteration of another run from which this run started.
     rows : list of dict
-        Of every iteration, `Iteration.row` and what numbers its notes hold; number 0 first.
+        `Iteration.row` of every iteration from number 0, with its scalar diagnostics.
     result : int or None
         Number of the iteration that is the run's result; None until it has ended.
     end : State or None
-        The result, as it was.
+        State of the result.
     message : str
-        What came out, in sentences; "" until it has ended.
+        Outcome in sentences; "" until the run has ended.
     pauses : dict
-        The break-points that it paused at, in words, by the number of the iteration.
+        Descriptions of the breakpoints reached, by iteration.
     advice : Advice or None
-        Why it ended and what to do, once it has.
+        Why the run ended and what to do; None until it has ended.
     work : Smoother, Recipe or None
-        What it does; None of a run that a session has kept.
+        The method or recipe; None for a run from a session file.
     stop : StoppingCriteria or None
-        Its limits; None of a recipe, which has its own.
+        None for a recipe, whose stages have their own.
     changes : list of (int, Stage)
-        What was chosen on the way, with the number of the iteration after which it was.
+        Iterations after which the method was switched, and the new stages.
     slot : int
-        From 0; it keeps its colour while others come and go.
+        Number of its colour, from 0, which does not change when other runs are removed.
     plotted : bool
-        Whether it is seen in charts.
+        True to show the run in charts.
     """
 
     def __init__(self, name: str, title: str, start: State, parent: RecordedIteration | None, slot: int = 0):
@@ -83,9 +83,9 @@ class RunRecord:
         self.work: Smoother | Recipe | None = None
         self.stop: StoppingCriteria | None = None
         self.changes: list[tuple[int, Stage]] = []
-        self._moved = start.mesh.free  # so far: where the boundary slides, there are others than the free ones
+        self._moved = start.mesh.free  # grows if boundary nodes slide
         self._nodes = np.flatnonzero(self._moved).astype(np.int32)
-        self._offsets: dict[int, NodeOffsets] = {}  # from the start, by number
+        self._offsets: dict[int, NodeOffsets] = {}  # by iteration
 
     @property
     def newest(self) -> int:
@@ -93,27 +93,27 @@ class RunRecord:
         return len(self.rows) - 1
 
     def numbers(self) -> np.ndarray:
-        """Numbers of the iterations whose positions are there, ascending, (k,) int."""
+        """Return the numbers of the iterations whose positions are recorded, ascending, (k,) int."""
         numbers = np.array([0, *self._offsets])  # a dict keeps the order of adding
         return numbers if self.end is None or self.result in self._offsets else np.union1d(numbers, self.result)
 
     def compact(self, points: np.ndarray) -> NodeOffsets:
-        """Compute the displacements of the nodes that have moved since the start."""
-        path = points - self.start.mesh.points
-        moved = self._moved | path.any(axis=1)
+        """Return the displacements of the nodes that have moved since the start."""
+        displacements = points - self.start.mesh.points
+        moved = self._moved | displacements.any(axis=1)
         if np.count_nonzero(moved) > self._nodes.size:
             self._moved, self._nodes = moved, np.flatnonzero(moved).astype(np.int32)
-        return NodeOffsets(self._nodes, path[self._nodes].astype(np.float32))
+        return NodeOffsets(self._nodes, displacements[self._nodes].astype(np.float32))
 
     def points(self, number: int) -> np.ndarray:
-        """Node positions, (n, 3) float64: exact at the start and for the result, otherwise within rounding.
+        """Return the node positions at an iteration, (n, 3) float64: exact for the start and the result.
 
-        A way from the start is kept as float32, so that a node is off by 6e-8 of its way at most.
+        Other iterations have rounding errors of at most 6e-8 of the displacement, which is stored as float32.
 
         Raises
         ------
         KeyError
-            For an iteration that was thinned out.
+            If the positions of the iteration were dropped.
         """
         if number == 0:
             return self.start.mesh.points

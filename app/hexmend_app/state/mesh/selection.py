@@ -1,4 +1,4 @@
-"""The element and the node that are looked at."""
+"""The selected hex and node."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.mesh.document import Document
-from hexmend_app.state.mesh.worst_hexes import Worst
+from hexmend_app.state.mesh.worst_hexes import WorstHexes
 
 
 @dataclass(frozen=True)
@@ -19,15 +19,15 @@ class SelectionData:
     node: int | None
 
     def check(self, hexes: int, nodes: int) -> None:
-        """Raise `ValueError` unless a mesh of so many hexes and nodes has them."""
+        """Raise `ValueError` if a mesh with these numbers of hexes and nodes does not have the selected ones."""
         if not (0 <= (self.hex or 0) < hexes and 0 <= (self.node or 0) < nodes):
-            raise ValueError(f"hex {self.hex} or node {self.node} is chosen, which the mesh has not")
+            raise ValueError(f"hex {self.hex} or node {self.node} is selected, which the mesh does not have")
 
 
 class Selection(QObject):
-    """One element of the open mesh and one of its nodes, or none.
+    """The selected hex of the open mesh, and the selected one of its nodes.
 
-    Numbers that the open mesh does not have select nothing: a list that still shows the mesh before may name them.
+    Numbers that the open mesh does not have select nothing: a list may still show the previous mesh.
 
     Parameters
     ----------
@@ -37,13 +37,13 @@ class Selection(QObject):
     -------
     changed
     visited(hexes)
-        A hex, or several together, are to be brought before the camera; a tuple of int.
+        The camera should show some hexes; a tuple of int.
 
     Attributes
     ----------
     hex, node : int or None
     worst_metric : str
-        The metric by which the worst hexes are found.
+        Metric by which the worst hexes are ranked.
     """
 
     changed = Signal()
@@ -58,7 +58,7 @@ class Selection(QObject):
         document.mesh_replaced.connect(lambda: self.choose(None))
 
     def choose(self, hex: int | None, node: int | None = None) -> None:
-        """Look at another element and node, or at none; says nothing where nothing changes."""
+        """Select a hex and a node, or none; emit `changed` if the selection differs."""
         if not self._document.has_hex(hex):
             hex = node = None
         if not self._document.has_node(node):
@@ -68,24 +68,24 @@ class Selection(QObject):
             self.changed.emit()
 
     def rank_by(self, metric: str) -> None:
-        """Choose the metric by which the worst hexes are found."""
+        """Set the metric by which the worst hexes are ranked."""
         self.worst_metric = metric
 
     def worst_hexes(self) -> np.ndarray:
-        """Return the worst hexes of the mesh as it is shown, (k,) int64, the worst first; the mesh is open."""
+        """Return the worst hexes of the mesh shown, (k,) int64, worst first; a mesh is open."""
         now = self._document.now
-        return Worst.of(now.mesh, now.figures, self.worst_metric).hexes
+        return WorstHexes.of(now.mesh, now.figures, self.worst_metric).hexes
 
     def to_data(self) -> SelectionData:
         """Return the data for a session file."""
         return SelectionData(self.hex, self.node)
 
     def restore(self, data: SelectionData) -> None:
-        """Look at what a session has kept."""
+        """Restore the selection of a session file."""
         self.choose(data.hex, data.node)
 
     def visit(self, *hexes: int) -> None:
-        """Bring a hex, or several together, before the camera; one alone is looked at too."""
+        """Let the camera show some hexes; a single hex is selected too."""
         hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
         if not hexes:
             return

@@ -1,4 +1,4 @@
-"""Places of the open mesh's nodes that the user keeps, to compare how quality was distributed then."""
+"""Snapshots of the node positions, to compare the distributions of quality."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.mesh.document import Document, State
 
-#: How many can be kept: as many as there are colours that all kinds of colour vision tell apart.
+#: Maximum number of snapshots: as many as there are colours that all kinds of colour vision distinguish.
 MOST = 6
 
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """A moment of the open mesh.
+    """Snapshot of the open mesh.
 
-    Only the points are kept, which a change that undo remembers shares: the figures of a million hexes would take as
-    much again, and are measured anew when another metric is looked at.
+    Only the points are stored, which are usually shared with a recorded change. The quality, which would take as much
+    memory again, is measured when it is needed.
 
     Parameters
     ----------
     slot : int
-        From 0 to `MOST` - 1; it keeps its colour while others come and go.
+        Number of its colour, from 0 to `MOST` - 1, which does not change when other snapshots are removed.
     name : str
     points : (n, 3) float64
     inverted : (m,) bool
@@ -36,10 +36,10 @@ class Snapshot:
     inverted: np.ndarray
 
     def check(self, hexes: int, nodes: int) -> None:
-        """Raise `ValueError` unless it is a moment of a mesh of so many hexes and nodes."""
+        """Raise `ValueError` if this is no snapshot of a mesh with these numbers of hexes and nodes."""
         fits = self.points.shape == (nodes, 3) and self.points.dtype == np.float64
         if not fits or self.inverted.shape != (hexes,) or self.inverted.dtype != bool or not 0 <= self.slot < MOST:
-            raise ValueError(f"what is kept as {self.name!r} is of another mesh")
+            raise ValueError(f"the snapshot {self.name!r} is of another mesh")
 
 
 class Snapshots(QObject):
@@ -67,28 +67,28 @@ class Snapshots(QObject):
         return len(self.all) == MOST
 
     def of(self, state: State) -> Snapshot | None:
-        """Find the snapshot of a state; None if there is none."""
-        return next((one for one in self.all if one.points is state.mesh.points), None)
+        """Return the snapshot of a state; None if there is none."""
+        return next((snapshot for snapshot in self.all if snapshot.points is state.mesh.points), None)
 
-    def keep(self, name: str, state: State) -> None:
-        """Keep a moment, unless there are as many as can be; a name that one has already gets a number."""
+    def add(self, name: str, state: State) -> None:
+        """Add a snapshot, unless there are `MOST`; a number is appended to a name that is in use."""
         if not self.full:
-            slot = min(set(range(MOST)) - {one.slot for one in self.all})
-            names = {one.name for one in self.all}
+            slot = min(set(range(MOST)) - {snapshot.slot for snapshot in self.all})
+            names = {snapshot.name for snapshot in self.all}
             name = next(free for k in range(1, MOST + 1) if (free := f"{name} ({k})" if k > 1 else name) not in names)
-            self._take(*self.all, Snapshot(slot, name, state.mesh.points, state.figures.inverted))
+            self._set(*self.all, Snapshot(slot, name, state.mesh.points, state.figures.inverted))
 
     def remove(self, slot: int) -> None:
-        """Keep one no longer."""
-        self._take(*(one for one in self.all if one.slot != slot))
+        """Remove a snapshot."""
+        self._set(*(snapshot for snapshot in self.all if snapshot.slot != slot))
 
     def rename(self, slot: int, name: str) -> None:
-        """Call one otherwise."""
-        self._take(*(dataclasses.replace(one, name=name) if one.slot == slot else one for one in self.all))
+        """Rename a snapshot."""
+        self._set(*(dataclasses.replace(one, name=name) if one.slot == slot else one for one in self.all))
 
     def clear(self) -> None:
-        """Keep none: another mesh is open."""
-        self._take()
+        """Remove all snapshots."""
+        self._set()
 
     def to_data(self) -> tuple[Snapshot, ...]:
         """Return the data for a session file."""
@@ -96,9 +96,9 @@ class Snapshots(QObject):
 
     def restore(self, data: tuple[Snapshot, ...]) -> None:
         """Restore the snapshots of a session file."""
-        self._take(*data)
+        self._set(*data)
 
-    def _take(self, *all: Snapshot) -> None:
+    def _set(self, *all: Snapshot) -> None:
         if all != self.all:
             self.all = all
             self.changed.emit()

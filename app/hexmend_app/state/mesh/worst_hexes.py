@@ -10,12 +10,12 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality, locked_hexes, rank_worst
 from hexmend_app.state.mesh.metric_cache import metric_values
 
-#: Maximum number of hexes in the list, which is built again at every iteration.
+#: Maximum number of hexes in the list, which is rebuilt at every iteration.
 MAX_LISTED = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class Worst:
+class WorstHexes:
     """The worst hexes by a metric, worst first.
 
     Parameters
@@ -34,7 +34,7 @@ class Worst:
     states: list[str]
 
     @classmethod
-    def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> Worst:
+    def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> WorstHexes:
         """Find the worst hexes of a mesh by the metric with this name in `METRICS`."""
         values = metric_values(metric, mesh.points, mesh.hexes, figures)
         worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)

@@ -1,9 +1,9 @@
-"""Several methods on the open mesh, one after another and beside the window, for one table of results."""
+"""Comparison of methods: runs several methods on the open mesh in the background, for a table of results."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -16,7 +16,7 @@ from hexmend.study.table_row import Row, run_one
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.tasks.task import Task
 
-#: Milliseconds between two looks at how far the methods are.
+#: Milliseconds between two updates of the progress.
 _PERIOD = 100
 
 
@@ -27,9 +27,9 @@ class MethodResult:
     Parameters
     ----------
     row : Row
-        Of the core's table: figures, time, outcome.
+        Row of the table: quality, time, outcome.
     state : State or None
-        The mesh as the method left it; None where it failed.
+        The resulting mesh; None if the method failed.
     """
 
     row: Row
@@ -47,12 +47,12 @@ class ComparisonData:
 
     def __post_init__(self) -> None:
         if self.results and self.initial is None:
-            raise ValueError("there are results of a comparison that began with nothing")
+            raise ValueError("there are results of a comparison without an initial state")
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Of the core's table."""
-        return tuple(one.row for one in self.results)
+        """Rows of the table."""
+        return tuple(result.row for result in self.results)
 
     @property
     def interrupted(self) -> bool:
@@ -60,14 +60,14 @@ class ComparisonData:
         return len(self.results) < self.asked or any(row.outcome == "stopped" for row in self.rows)
 
     def record(self) -> dict[str, Any]:
-        """The table of what is done, for `hexmend.report`, as `hexmend compare` writes it."""
+        """Return the record of the finished methods for `hexmend.report`, as `hexmend compare` writes it."""
         initial = self.initial
         return compare.Comparison(initial.mesh, initial.summary, self.stop, self.rows, self.interrupted).record()
 
 
 @dataclass(frozen=True)
 class ComparisonProgress:
-    """Progress of a comparison: active method, its place among all, iterations done and seconds they took."""
+    """Progress of a comparison: active method, its index, number of methods, iterations done and their seconds."""
 
     method: str
     at: int
@@ -76,46 +76,53 @@ class ComparisonProgress:
     seconds: float = 0.0
 
 
-class _Work:
-    """Methods one after another on one mesh; what is done is in `done`, in their order."""
+class _ComparisonTask:
+    """Runs methods one after another on one mesh in a thread; their results are in `done`."""
 
     def __init__(self, state: State, smoothers: Sequence[Smoother], stop: StoppingCriteria):
         self.task = Task("smoother comparison", self._run, yields=True)
         self.done: list[MethodResult] = []
         self.progress = ComparisonProgress(smoothers[0].name, 0, len(smoothers))
-        self._order = (state, smoothers, stop)
+        self._inputs = (state, smoothers, stop)
 
     def _run(self, task: Task) -> None:
-        """Run the methods, in the thread; a method that fails has a row, and the others continue."""
-        state, smoothers, stop = self._order
+        """Run the methods in the thread; if one fails, its row says so and the others continue."""
+        state, smoothers, stop = self._inputs
         for at, smoother in enumerate(smoothers):
             if task.cancelled.is_set():
                 break
             self.progress = ComparisonProgress(smoother.name, at, len(smoothers))
-            row, _ = run_one(state.mesh, smoother, stop, self._watch)
-            self.done.append(_compared(row))
+            row, _ = run_one(state.mesh, smoother, stop, self._on_iteration)
+            self.done.append(_result_of(row))
 
-    def _watch(self, run: Run) -> bool:
-        was, last = self.progress, run.last
-        self.progress = ComparisonProgress(was.method, was.at, was.of, last.number, last.seconds)
+    def _on_iteration(self, run: Run) -> bool:
+        last = run.last
+        self.progress = replace(self.progress, iteration=last.number, seconds=last.seconds)
         return not self.task.cancelled.is_set()
 
 
-def _compared(row: Row) -> MethodResult:
+def _result_of(row: Row) -> MethodResult:
     if row.mesh is None:
         return MethodResult(row, None)
     return MethodResult(row, State(row.mesh, measure(row.mesh.points, row.mesh.hexes), row.after))
 
 
 class Comparison(QObject):
-    """Runs methods on the mesh as it is, which itself stays as it is.
+    """Runs methods on the current mesh, which is left unchanged.
 
     Signals
     -------
     changed
-        There are other results, or the work has begun or ended.
+        The results have changed, or the comparison has started or ended.
     progressed
-        The method at work is further.
+        The progress of the active method has changed.
+
+    Attributes
+    ----------
+    initial : State or None
+        State that the methods start from; None if nothing was compared.
+    results : tuple of MethodResult
+        Results of the finished methods.
     """
 
     changed = Signal()
@@ -124,15 +131,15 @@ class Comparison(QObject):
     def __init__(self, document: Document, parent: QObject | None = None):
         super().__init__(parent)
         self._document = document
-        self._work: _Work | None = None
+        self._work: _ComparisonTask | None = None
         self._stop = StoppingCriteria()
         self._asked = 0
         self.initial: State | None = None
         self.results: tuple[MethodResult, ...] = ()
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
-        self._timer.timeout.connect(self._look)
-        document.mesh_replaced.connect(self._empty)
+        self._timer.timeout.connect(self._update)
+        document.mesh_replaced.connect(self._clear)
 
     @property
     def busy(self) -> bool:
@@ -141,17 +148,17 @@ class Comparison(QObject):
 
     @property
     def progress(self) -> ComparisonProgress | None:
-        """Progress of the work; None if none is active."""
+        """Progress of the comparison; None if none is active."""
         return self._work and self._work.progress
 
     @property
     def stop(self) -> StoppingCriteria:
-        """The limits of the work that was begun last."""
+        """Stopping criteria of the last comparison."""
         return self._stop
 
     @property
     def ending(self) -> bool:
-        """True if the work ends after the current iteration."""
+        """True if the comparison ends after the current iteration."""
         return self._work is not None and self._work.task.cancelled.is_set()
 
     @property
@@ -160,49 +167,49 @@ class Comparison(QObject):
         return not self.busy and self.to_data().interrupted
 
     def start(self, smoothers: Sequence[Smoother], stop: StoppingCriteria) -> None:
-        """Run these on the document's mesh as it is now, one after another; what was compared before is forgotten."""
+        """Run methods on the current mesh, one after another; the results of the previous comparison are discarded."""
         if self.busy or not self._document.is_open or not smoothers:
             return
         self.initial, self.results = self._document.now, ()
         self._stop, self._asked = stop, len(smoothers)
-        self._work = _Work(self.initial, tuple(smoothers), stop)
+        self._work = _ComparisonTask(self.initial, tuple(smoothers), stop)
         self._work.task.start()
         self._timer.start()
         self.changed.emit()
 
     def cancel(self) -> None:
-        """End the work after the iteration at hand; what the method reached is its result, and the others have none."""
+        """End the comparison after the current iteration, which is the result of its method; the rest have none."""
         if self._work is not None:
             self._work.task.cancel()
             self.progressed.emit()
 
     def of(self, method: str) -> MethodResult | None:
-        """The result of a method; None where there is none yet."""
-        return next((one for one in self.results if one.row.method == method), None)
+        """Return the result of a method; None if there is none yet."""
+        return next((result for result in self.results if result.row.method == method), None)
 
     def to_data(self) -> ComparisonData:
         """Return the data of the finished methods for a session file."""
         return ComparisonData(self.initial, self._stop, self._asked, self.results)
 
     def restore(self, data: ComparisonData) -> None:
-        """Take what a session has kept for what was compared last."""
+        """Restore the comparison of a session file."""
         self.close()
         self.initial, self._stop, self._asked, self.results = data.initial, data.stop, data.asked, data.results
         self.changed.emit()
 
     def close(self) -> None:
-        """Ask the work to end after the iteration at hand; nothing is emitted any more."""
+        """Cancel the comparison without further signals."""
         self._timer.stop()
         if self._work is not None:
             self._work.task.drop()
             self._work = None
 
-    def _empty(self) -> None:
+    def _clear(self) -> None:
         self.close()
         self.initial, self.results, self._asked, self._stop = None, (), 0, StoppingCriteria()
         self.changed.emit()
 
-    def _look(self) -> None:
+    def _update(self) -> None:
         work = self._work
         over = work.task.over
         done = tuple(work.done)

@@ -1,4 +1,4 @@
-"""A sweep of a local method that the user makes node by node, as one change of the document."""
+"""Sweep of a local method that the user runs node by node, as one change of the document."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from hexmend_app.state.mesh.document import Document, State
 
 @dataclass(frozen=True, eq=False)
 class SweepResult:
-    """A sweep that is recorded.
+    """Result of a sweep.
 
     Parameters
     ----------
     before, after : State
     smoother : LocalDescent
     steps : int
-        Nodes that were visited one by one.
+        Number of nodes that were visited one by one.
     finished : bool
-        Whether all others were, at once.
+        True if all other nodes were then visited at once.
     """
 
     before: State
@@ -35,23 +35,22 @@ class SweepResult:
 class NodeSweep(QObject):
     """Steps through the nodes of a sweep.
 
-    The document shows where the nodes are on the way; that is recorded when the sweep is over or left, which whatever
-    else changes the mesh has to see to first.
+    The document previews the node positions, which are recorded as one change when the sweep ends. Everything else that
+    changes the mesh has to call `leave` first.
 
     Signals
     -------
     changed
-        A node was visited, or the sweep was left.
-
-    recorded(Swept)
-        A sweep is over or left, and the document holds what it came to as one change.
+        A node was visited, or the sweep has ended.
+    recorded(SweepResult)
+        The sweep has ended, and the document has its result as one change.
 
     Attributes
     ----------
     sweep : Sweep or None
-        The one under way.
+        The active sweep.
     last : NodeStep or None
-        The step that was made last.
+        The last step.
     """
 
     changed = Signal()
@@ -63,14 +62,14 @@ class NodeSweep(QObject):
         self.sweep: Sweep | None = None
         self.last: NodeStep | None = None
         self._smoother: LocalDescent | None = None
-        self._state: State | None = None  # that the last step led to
-        self._before: State | None = None  # that the sweep began with
-        self._steps = 0  # made one by one
-        document.mesh_replaced.connect(self._forget)
+        self._state: State | None = None  # after the last step
+        self._before: State | None = None  # before the sweep
+        self._steps = 0  # nodes visited one by one
+        document.mesh_replaced.connect(self._clear)
         document.points_moved.connect(self._on_moved)
 
-    def made_by(self, smoother: LocalDescent) -> NodeStep | None:
-        """The step of this method that led to the mesh as it is now; None where something else did."""
+    def last_step_of(self, smoother: LocalDescent) -> NodeStep | None:
+        """Return the last step if it was made by this method and led to the current mesh; otherwise None."""
         if self._state is None or self._document.now is not self._state or smoother != self._smoother:
             return None
         return self.last
@@ -81,23 +80,24 @@ class NodeSweep(QObject):
         return self.sweep and self.sweep.title
 
     def advance(self, smoother: LocalDescent, count: int = 1) -> None:
-        """Visit that many more nodes of the sweep under way, or of a new one."""
-        sweep = self._begun(smoother)
+        """Visit the next nodes of the active sweep, or of a new one."""
+        sweep = self._active_sweep(smoother)
         for _, step in zip(range(count), sweep, strict=False):
             self.last = step
         self._steps = sweep.done
         self._show()
 
     def finish(self, smoother: LocalDescent) -> None:
-        """Visit all remaining nodes; the step of the last is reported."""
-        self.last = self._begun(smoother).finish()
+        """Visit all remaining nodes; `last` is the step of the last one."""
+        self.last = self._active_sweep(smoother).finish()
         self._show()
 
     def leave(self) -> None:
-        """End the sweep where it is, as one change that undo takes back; nothing happens where none is under way."""
+        """End the active sweep, if any, at its current node, and record it as one change."""
         self._record(show=True)
 
-    def _begun(self, smoother: LocalDescent) -> Sweep:
+    def _active_sweep(self, smoother: LocalDescent) -> Sweep:
+        """Return the active sweep of a method; start one if there is none."""
         if self.sweep is not None and self.sweep.smoother != smoother:
             self.leave()
         if self.sweep is None:
@@ -114,7 +114,7 @@ class NodeSweep(QObject):
             self.changed.emit()
 
     def _on_moved(self) -> None:
-        """Leave the sweep where something else is shown, which stays in view."""
+        """End the sweep if the document shows another state, which stays in view."""
         if self._document.now is not self._state:
             self._record(show=False)
 
@@ -128,5 +128,5 @@ class NodeSweep(QObject):
             self._before = None
             self.changed.emit()
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self.sweep = self.last = self._state = self._before = None

@@ -1,4 +1,4 @@
-"""The recipe that is put together: methods to be run one after another."""
+"""The recipe that the user edits: methods to be run one after another."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class RecipeDraft(QObject):
     Attributes
     ----------
     title : str
-        "" where it is that of the methods.
+        "" to use the titles of the methods.
     stages : tuple of Stage
 
     Signals
@@ -40,7 +40,7 @@ class RecipeDraft(QObject):
 
     @property
     def recipe(self) -> Recipe | None:
-        """Recipe that can be run and saved; None while there is no stage."""
+        """Recipe to run or save; None if there is no stage."""
         return Recipe.of(*self.stages, title=self.title) if self.stages else None
 
     def to_data(self) -> RecipeDraftData:
@@ -48,16 +48,16 @@ class RecipeDraft(QObject):
         return RecipeDraftData(self.title, self.stages)
 
     def restore(self, data: RecipeDraftData) -> None:
-        """Go on with what a session has kept."""
+        """Restore the recipe of a session file."""
         self._set(data.stages, data.title)
 
-    def take(self, recipe: Recipe) -> None:
-        """Go on with this recipe."""
-        own = Recipe.of(*recipe.stages).title
-        self._set(recipe.stages, "" if recipe.title == own else recipe.title)
+    def load(self, recipe: Recipe) -> None:
+        """Replace the stages and the title by those of a recipe."""
+        default = Recipe.of(*recipe.stages).title
+        self._set(recipe.stages, "" if recipe.title == default else recipe.title)
 
     def rename(self, title: str) -> None:
-        """Give it another title."""
+        """Set the title."""
         self._set(self.stages, title.strip())
 
     def add(self, stage: Stage) -> None:
@@ -65,15 +65,15 @@ class RecipeDraft(QObject):
         self._set((*self.stages, stage))
 
     def replace(self, at: int, stage: Stage) -> None:
-        """Let a stage be another."""
+        """Replace a stage."""
         self._set((*self.stages[:at], stage, *self.stages[at + 1 :]))
 
     def remove(self, at: int) -> None:
-        """Take a stage out."""
+        """Remove a stage."""
         self._set((*self.stages[:at], *self.stages[at + 1 :]))
 
     def move(self, at: int, to: int) -> None:
-        """Put a stage at another place."""
+        """Move a stage to another position."""
         others = [*self.stages[:at], *self.stages[at + 1 :]]
         self._set((*others[:to], self.stages[at], *others[to:]))
 

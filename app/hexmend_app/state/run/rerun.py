@@ -1,4 +1,4 @@
-"""Runs made again without a window, or found in a session, with all that a window keeps of them: for its scripts."""
+"""Run records for recorded scripts: of runs that are repeated without a window, or read from a session."""
 
 from __future__ import annotations
 
@@ -27,42 +27,42 @@ def rerun(
     slot: int = 0,
     plotted: bool = True,
 ) -> RunRecord:
-    """Run a method or a recipe, and keep what a window keeps of it.
+    """Run a method or a recipe, and record it as the window does.
 
     Parameters
     ----------
     name : str
-        What the run is called.
+        Name of the run.
     mesh, work, stop
         As for `hexmend.run.iterate`.
     until : int, optional
-        The iteration after which it is ended; without it, it ends by itself.
+        Iteration after which the run is ended; by default it runs until it stops.
     changes : iterable of (int, Stage)
-        What it goes on with, and after which iteration.
+        Iterations after which the method was switched, and the new stages.
     keep : collection of int
-        Iterations whose positions are kept; those of the start and the result always are.
-    parent : (Record, int), optional
-        The iteration of another run that it goes on from.
+        Iterations whose node positions are recorded; those of the start and the result always are.
+    parent : (RunRecord, int), optional
+        Iteration of another run from which this run starts.
     slot : int
-        What its colour goes by.
+        Number of its colour.
     plotted : bool
-        Whether charts show it.
+        True to show the run in charts.
 
     Returns
     -------
-    Record
+    RunRecord
     """
-    history, run, due = History(math.inf), iterate(mesh, work, stop), list(changes)
+    history, run, pending = History(math.inf), iterate(mesh, work, stop), list(changes)
     record = history.begin(work.title, State.of(mesh))
     record.name, record.slot, record.plotted = name, slot, plotted
     record.parent = None if parent is None else RecordedIteration(*parent)
     history.add(record, run.start)
-    _change(run, due, 0)
+    _switch_method(run, pending, 0)
     if until == 0:
         run.close()
     for it in run:
-        history.add(record, it, places=it.number in keep)
-        _change(run, due, it.number)
+        history.add(record, it, positions=it.number in keep)
+        _switch_method(run, pending, it.number)
         if it.number == until:
             run.close()
     result = run.result()
@@ -71,14 +71,14 @@ def rerun(
 
 
 def recorded(session: SessionData, at: int) -> RunRecord:
-    """A run that a session has kept, by its number from 0."""
+    """Return the record of a run in a session, by its number from 0."""
     history = History(math.inf)
     history.restore(session.history)
     return history.records[at]
 
 
-def _change(run: Run, due: list[tuple[int, Stage]], number: int) -> None:
-    """Go on with what is chosen after an iteration."""
-    while due and due[0][0] == number and run.outcome is None:
-        stage = due.pop(0)[1]
+def _switch_method(run: Run, pending: list[tuple[int, Stage]], number: int) -> None:
+    """Make the changes of the method that are due after an iteration."""
+    while pending and pending[0][0] == number and run.outcome is None:
+        stage = pending.pop(0)[1]
         run.switch_method(stage.smoother, stage.stop)

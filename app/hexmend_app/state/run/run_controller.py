@@ -1,4 +1,4 @@
-"""Smoothing as the window sees it: run, pause, step, stop, and the newest iteration thirty times a second."""
+"""Controller of runs: start, pause, step, stop, and the newest iteration thirty times a second."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.history import History, RecordedIteration, RunRecord
 from hexmend_app.state.run.worker import IterationFrame, Worker
 
-#: Milliseconds between two looks into the mailbox.
+#: Milliseconds between two checks of the mailbox.
 _PERIOD = 33
 
 
@@ -41,27 +41,27 @@ class RunController(QObject):
     ----------
     phase : Phase
     work : Smoother, Recipe or None
-        What the run does that goes on or went on last.
-    record : Record or None
-        The history's of the run that goes on or went on last.
+        Method or recipe of the active or last run.
+    record : RunRecord or None
+        Record of the active or last run.
     advice : Advice or None
-        Why the run that went on last ended, and what to do.
+        Why the last run ended, and what to do.
     following : bool
-        Whether iterations are shown as they come; the user may look at earlier ones meanwhile.
+        True if iterations are shown as they come; False while the user looks at earlier ones.
     iterating : bool
-        The signals that are being sent are about a new iteration, and nothing else.
+        True while the signals being emitted are about a new iteration only.
 
     Signals
     -------
     phase_changed
-    iterated(Frame)
-        The newest iteration; those between two looks are not shown, but in the history.
-    hit(Frame)
-        The run has reached a break-point and pauses.
+    iterated(IterationFrame)
+        The newest iteration. Iterations between two checks of the mailbox are not emitted, but recorded.
+    hit(IterationFrame)
+        The run has reached a breakpoint and pauses.
     ended(Result)
-        The run is over, and the document holds its last iteration as one change.
+        The run has ended, and the document has its result as one change.
     failed(Exception)
-        The method raised; the document is as it was before the run.
+        The method raised an exception; the document has the last iteration before it, if there is one.
     """
 
     phase_changed = Signal()
@@ -78,7 +78,7 @@ class RunController(QObject):
         self.iterating = False
         self._worker: Worker | None = None
         self._title = ""
-        self._after: list[Callable[[], object]] = []  # what is done once the run has ended
+        self._after_end: list[Callable[[], object]] = []
         self._metrics: frozenset[str] = frozenset()
         self._breakpoints = Breakpoints()
         self.work: Smoother | Recipe | None = None
@@ -88,8 +88,8 @@ class RunController(QObject):
         self.phase = Phase.IDLE
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD)
-        self._timer.timeout.connect(self._look)
-        document.mesh_replaced.connect(self._on_another)
+        self._timer.timeout.connect(self._update)
+        document.mesh_replaced.connect(self._on_mesh_replaced)
 
     @property
     def busy(self) -> bool:
@@ -99,7 +99,16 @@ class RunController(QObject):
     blocks_editing = busy
 
     def start(self, smoother: Smoother | Recipe, stop: StoppingCriteria | None, iterations: float = math.inf) -> None:
-        """Begin a run on the document's mesh and make that many iterations of it; a recipe has limits of its own."""
+        """Start a run on the current mesh, and pause it after some iterations.
+
+        Parameters
+        ----------
+        smoother : Smoother or Recipe
+        stop : StoppingCriteria or None
+            None for a recipe, whose stages have their own.
+        iterations : float
+            Iterations after which the run pauses; by default it does not.
+        """
         if self.busy or not self._document.is_open:
             return
         self._before = self._document.now
@@ -114,14 +123,14 @@ class RunController(QObject):
         self._worker.task.start()
         self._timer.start()
 
-    def want(self, metrics: Iterable[str]) -> None:
-        """Have the worker measure these metrics of every iteration, so that the window need not."""
+    def request_metrics(self, metrics: Iterable[str]) -> None:
+        """Let the worker compute these metrics for every iteration, to relieve the window."""
         self._metrics = frozenset(metrics)
         if self._worker is not None:
             self._worker.metrics = self._metrics
 
     def break_at(self, breakpoints: Breakpoints) -> None:
-        """Pause at these from now on."""
+        """Set the breakpoints at which runs pause."""
         self._breakpoints = breakpoints
         if self._worker is not None:
             self._worker.breakpoints = breakpoints
@@ -132,32 +141,32 @@ class RunController(QObject):
         return self._breakpoints
 
     def follow(self, on: bool) -> None:
-        """Show iterations as they come, beginning with the newest, or stay where the user looks."""
+        """Show iterations as they come, starting with the newest, or stop doing so."""
         self.following = on
         if on and self._worker is not None and self._worker.last is not None:
             self._preview(self._worker.last)
 
     def pause(self) -> None:
-        """Pause after the iteration at hand."""
+        """Pause after the current iteration."""
         if self._worker is not None:
             self._worker.grant(0)
 
     def resume(self) -> None:
-        """Go on, and show it."""
+        """Resume the run, and show its iterations."""
         if self._worker is not None:
             self.following = True
             self._worker.grant(math.inf)
-            self._look()
+            self._update()
 
     def step(self, iterations: int = 1) -> None:
-        """Make so many more iterations, show them, and pause."""
+        """Run some more iterations, show them, and pause."""
         if self._worker is not None:
             self.following = True
             self._worker.grant_more(iterations)
-            self._look()
+            self._update()
 
     def change(self, stage: Stage) -> None:
-        """Do the rest of the stage at hand by another method, with other values or other limits."""
+        """Continue the current stage with another method, other values or other limits."""
         if self._worker is not None:
             self._worker.change(stage)
             if isinstance(self.work, Recipe):
@@ -166,35 +175,35 @@ class RunController(QObject):
                 self.work = Recipe.of(*stages, title=self.work.title)
 
     def stop(self) -> None:
-        """End the run after the iteration at hand, or once it is prepared; what was reached stays."""
+        """End the run after the current iteration, or when it is prepared, and keep its result."""
         if self._worker is not None:
             self._worker.end()
             if self.phase is Phase.PREPARING:
                 self._set_phase(Phase.STOPPING)
 
     def end(self, then: Callable[[], object]) -> None:
-        """End the run after the iteration at hand, record what was reached, and do something then.
+        """End the run after the current iteration, record its result, then call a function.
 
-        Where no run is under way it is done at once; several are done in the order in which they were asked for.
+        The function is called at once if no run is active; several functions are called in the order of the calls.
         """
         if self._worker is None:
             then()
             return
-        self._after.append(then)
+        self._after_end.append(then)
         self._worker.end()
         self._set_phase(Phase.STOPPING)
 
-    def _on_another(self) -> None:
-        """Forget the run on the mesh that was open, and what was begun while the other was read."""
+    def _on_mesh_replaced(self) -> None:
+        """Discard the run on the previous mesh, and breakpoints at its hexes and nodes."""
         self.close()
         self.work = self.record = self.advice = None
-        self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # others would be meant
+        self._breakpoints = replace(self._breakpoints, hex=None, node=None)  # numbers of the previous mesh
         self._set_phase(Phase.IDLE)
 
     def close(self) -> None:
-        """Ask the run to end after the iteration at hand; nothing of it is shown or recorded any more."""
+        """Cancel the run; nothing more of it is shown or recorded."""
         self._timer.stop()
-        self._after.clear()
+        self._after_end.clear()
         if self._worker is not None:
             self._worker.end()
             self._worker.task.drop()
@@ -202,7 +211,7 @@ class RunController(QObject):
             self._history.finish(self.record, None, None, "")
             self._set_phase(Phase.IDLE)
 
-    def _look(self) -> None:
+    def _update(self) -> None:
         worker = self._worker
         if worker is None:
             return
@@ -235,7 +244,7 @@ class RunController(QObject):
         self._timer.stop()
         worker.task.wait()
         self._worker = None
-        error, last = worker.task.error, worker.last  # the last good iteration
+        error, last = worker.task.error, worker.last
         reached = None if last is None else RecordedIteration(self.record, last.iteration.number)
         message = worker.task.result.message if error is None else f"Failed: {error}."
         self._history.finish(self.record, reached, last and last.state, message)
@@ -253,9 +262,9 @@ class RunController(QObject):
             self.advice = self.record.advice = worker.advice
             self._set_phase(Phase.FINISHED)
             self.ended.emit(worker.task.result)
-        after, self._after = self._after, []
-        for act in after:
-            act()
+        callbacks, self._after_end = self._after_end, []
+        for callback in callbacks:
+            callback()
 
     def _set_phase(self, phase: Phase) -> None:
         if phase is not self.phase:

@@ -1,4 +1,4 @@
-"""Set-up of the next run: the method with its values and limits, as the user has set them."""
+"""Set-up of the next run: the method, its values and limits, as the user has set them."""
 
 from __future__ import annotations
 
@@ -25,35 +25,35 @@ class RunSetupData:
     def __post_init__(self) -> None:
         for method, values in self.values.items():
             from_values(METHODS[method], values, owner=method)
-        today = {
+        current = {
             method: {current_name(METHODS[method], name): value for name, value in values.items()}
             for method, values in self.values.items()
         }
-        object.__setattr__(self, "values", today)
+        object.__setattr__(self, "values", current)
 
 
 class RunSetup(QObject):
-    """The method at hand, and what was last set for the others.
+    """The selected method, and the last values of all methods.
 
     Signals
     -------
     changed
-        The method, a value or a limit is another.
+        The method, a value or a limit has changed.
     chosen
-        Somebody else than the user's hand has set `stage`: forms show it.
+        The program has set `stage`: forms show it.
     refused
-        Somebody wanted the stage while one of its values is wrong.
+        The stage was requested while one of its values is invalid.
 
     Attributes
     ----------
     method : str
-        Name of the method at hand.
+        Name of the selected method.
     stage : Stage or None
-        The method with its values and limits; None while one of them is wrong.
-    begun : Stage or None
-        What the run under way is doing: only what is set otherwise from then on is a change of it.
+        The method with its values and limits; None while one of them is invalid.
+    active_stage : Stage or None
+        The stage that the active run executes; only a different stage changes that run.
     reason : str
-        Why somebody else has chosen the stage; "" once the user has changed it.
+        Why the program has chosen the stage; "" after the user has changed it.
     """
 
     changed = Signal()
@@ -64,33 +64,33 @@ class RunSetup(QObject):
         super().__init__(parent)
         self.method = DEFAULT_METHOD
         self.stage: Stage | None = Stage(METHODS[DEFAULT_METHOD](), StoppingCriteria())
-        self.begun: Stage | None = None
+        self.active_stage: Stage | None = None
         self.reason = ""
         self._values: dict[str, dict[str, Any]] = {}
 
     @property
     def smoother(self) -> Smoother | None:
-        """The method with its values; None while something is wrong."""
+        """The method with its values; None while one of them is invalid."""
         return self.stage and self.stage.smoother
 
     def set(self, method: str, values: Mapping[str, Any], stage: Stage | None) -> None:
-        """Take what forms show: a method, the values that are admitted, and all of it, or None where one is wrong."""
+        """Set the input of forms: a method, its valid values, and the stage, None if a value is invalid."""
         self._values[method] = dict(values)
         if (method, stage) != (self.method, self.stage):
             self.method, self.stage, self.reason = method, stage, ""
             self.changed.emit()
 
     def choose(self, stage: Stage, reason: str = "") -> None:
-        """Set the method, its values and the limits, with the reason."""
+        """Choose the stage for the user, for a reason; forms show it."""
         self.method, self.stage = stage.smoother.name, stage
         self._values[self.method] = stage.smoother.values()
         self.reason = reason
         self.chosen.emit()
         self.changed.emit()
 
-    def show_at_work(self, stage: Stage) -> None:
-        """Set what the run under way is doing."""
-        self.begun = stage
+    def show_active(self, stage: Stage) -> None:
+        """Choose the stage that the active run executes."""
+        self.active_stage = stage
         self.choose(stage)
 
     def to_data(self) -> RunSetupData:
@@ -99,22 +99,22 @@ class RunSetup(QObject):
         return RunSetupData(stage, self.reason, {method: dict(values) for method, values in self._values.items()})
 
     def restore(self, data: RunSetupData) -> None:
-        """Set what a session has kept."""
+        """Restore the set-up of a session file."""
         self._values = {method: dict(values) for method, values in data.values.items()}
-        self.begun = None
+        self.active_stage = None
         self.choose(data.stage, data.reason)
 
     def values_of(self, method: str) -> dict[str, Any]:
-        """Values that were last set for a method; empty if there are none."""
+        """Return the values that were last set for a method; empty if there are none."""
         return dict(self._values.get(method, {}))
 
     def smoother_of(self, method: str) -> Smoother:
-        """A method with what was last set for it."""
+        """Return a method with the values that were last set for it."""
         return METHODS[method](**self.values_of(method))
 
-    def use(self, use: Callable[[Stage], object]) -> None:
-        """Hand the stage over, unless a value is wrong: then forms say which."""
+    def use(self, function: Callable[[Stage], object]) -> None:
+        """Call a function with the stage; if a value is invalid, emit `refused`, for forms to show which."""
         if self.stage is None:
             self.refused.emit()
         else:
-            use(self.stage)
+            function(self.stage)

@@ -1,4 +1,4 @@
-"""Position in the history, and navigation in it: to any iteration, step by step, or by playing."""
+"""Navigation in the history of runs: to any iteration, step by step, or by playing."""
 
 from __future__ import annotations
 
@@ -23,24 +23,23 @@ class TimelineData:
 
 
 class Timeline(QObject):
-    """Goes through the iterations of the open mesh's runs; whatever shows the document follows.
+    """Shows iterations of the runs on the open mesh in the document.
 
-    Going to an iteration changes nothing that undo would take back. A method that is run there begins a run of its own:
-    a branch.
+    Showing an iteration is no change that can be undone. A method that is run from there starts a new run: a branch.
 
     Attributes
     ----------
-    record : Record or None
-        The run that is gone through.
+    record : RunRecord or None
+        The selected run.
     speed : float
-        Iterations that are played a second.
+        Iterations per second when playing.
 
     Signals
     -------
     runs_changed
-        There is another run, or one less.
-    grown
-        There are more iterations, or another run is gone through.
+        A run was added or removed.
+    extended
+        There are more iterations, or another run was selected.
     moved
         Another iteration is shown, or none.
     playing_changed
@@ -60,19 +59,19 @@ class Timeline(QObject):
         self.speed: float = SPEED
         self._runs: list[RunRecord] = []
         self._shown: RecordedIteration | None = None
-        self._wanted: RecordedIteration | None = None
+        self._target: RecordedIteration | None = None
         self._soon = QTimer(self, singleShot=True, interval=0)
-        self._soon.timeout.connect(self._go_where_wanted)
+        self._soon.timeout.connect(self._go_to_target)
         self._clock = QTimer(self)
-        self._clock.timeout.connect(self._play_on)
-        document.mesh_replaced.connect(self._on_another)
+        self._clock.timeout.connect(self._play_next)
+        document.mesh_replaced.connect(self._on_mesh_replaced)
         document.points_moved.connect(self._on_moved)
         smoothing.iterated.connect(lambda frame: self.extended.emit())
         smoothing.phase_changed.connect(self._on_phase)
 
     @property
     def moment(self) -> RecordedIteration | None:
-        """The iteration that is shown; None where what is shown is none."""
+        """The iteration that is shown; None if the document shows another state."""
         return self._shown
 
     @property
@@ -86,7 +85,7 @@ class Timeline(QObject):
         return self._clock.isActive()
 
     def go(self, record: RunRecord, number: int) -> None:
-        """Show the iteration of a run that is nearest to one and still kept."""
+        """Show an iteration of a run, or the nearest one whose node positions are recorded."""
         if self._smoothing.busy:
             newest = record is self._smoothing.record and number >= record.newest
             self._smoothing.follow(newest)
@@ -97,17 +96,17 @@ class Timeline(QObject):
             self._document.preview(state)
 
     def go_soon(self, record: RunRecord, number: int) -> None:
-        """Go there as soon as there is nothing else to do: of many wishes only the last counts."""
-        self._wanted = RecordedIteration(record, number)
+        """Show an iteration when the event loop is idle; of several calls only the last counts."""
+        self._target = RecordedIteration(record, number)
         self._soon.start()
 
     def step(self, by: int) -> None:
-        """Go so many kept iterations on, or back where `by` is below zero, and hold."""
+        """Pause, and go forward by some recorded iterations, or backward if `by` is negative."""
         self.pause()
-        self._continue(by)
+        self._go_by(by)
 
     def go_to_newest(self) -> None:
-        """Show the newest iteration, and, while the run goes on, those that come."""
+        """Show the newest iteration; if the run is active, also those that follow."""
         self.pause()
         if self._smoothing.busy and self.record is self._smoothing.record:
             self._smoothing.follow(True)
@@ -115,12 +114,12 @@ class Timeline(QObject):
             self.go(self.record, self.record.newest)
 
     def set_speed(self, speed: float) -> None:
-        """Play so many iterations a second."""
+        """Set the number of iterations played per second."""
         self.speed = speed
         self._clock.setInterval(round(1000 / speed))
 
     def play(self) -> None:
-        """Show the kept iterations one after another from here on; at the end, from the start."""
+        """Play the recorded iterations from the shown one; at the end, from the start."""
         if self.record is None:
             return
         if self._shown is None or self._shown.number >= self.record.newest:
@@ -135,7 +134,7 @@ class Timeline(QObject):
             self.playing_changed.emit()
 
     def choose(self, record: RunRecord) -> None:
-        """Go through another run, from its result or its newest iteration on."""
+        """Select another run, and show its result or newest iteration."""
         self.pause()
         self.record = record
         self.extended.emit()
@@ -147,20 +146,21 @@ class Timeline(QObject):
         return TimelineData(records.index(self.record) if self.record in records else None)
 
     def restore(self, data: TimelineData) -> None:
-        """Go through what a session has kept, once the history has its runs."""
-        self._take_newest()
+        """Restore the selected run of a session file; the history is restored first."""
+        self._update_runs()
         if data.record is not None:
             self.record = self.history.records[data.record]
             self.extended.emit()
 
-    def forget(self, record: RunRecord) -> None:
-        """Keep a run no longer; not one that goes on."""
+    def delete(self, record: RunRecord) -> None:
+        """Delete a run, unless it is active."""
         if self._smoothing.busy and record is self._smoothing.record:
             return
         self.history.remove(record)
-        self._take_newest()
+        self._update_runs()
 
-    def _take_newest(self) -> None:
+    def _update_runs(self) -> None:
+        """Select the newest run if the selected one is gone, and emit the signals of what has changed."""
         if self.record not in self.history.records:
             self.pause()
             self.record = self.history.records[-1] if self.history.records else None
@@ -170,25 +170,25 @@ class Timeline(QObject):
             self.runs_changed.emit()
         self.extended.emit()
 
-    def _continue(self, by: int) -> None:
+    def _go_by(self, by: int) -> None:
         if self.record is None:
             return
-        numbers = self.history.kept(self.record).tolist()
-        at = self._shown.number if self._shown is not None and self._shown.record is self.record else 0
-        later = [n for n in numbers if n > at] if by > 0 else [n for n in reversed(numbers) if n < at]
-        if later:
-            self.go(self.record, later[min(abs(by), len(later)) - 1])
+        numbers = self.history.recorded_numbers(self.record).tolist()
+        shown = self._shown.number if self._shown is not None and self._shown.record is self.record else 0
+        ahead = [n for n in numbers if n > shown] if by > 0 else [n for n in reversed(numbers) if n < shown]
+        if ahead:
+            self.go(self.record, ahead[min(abs(by), len(ahead)) - 1])
 
-    def _play_on(self) -> None:
+    def _play_next(self) -> None:
         before = self._shown
-        self._continue(1)
+        self._go_by(1)
         if self._shown is before:
             self.pause()
 
-    def _go_where_wanted(self) -> None:
-        if self._wanted is not None and self._wanted.record in self.history.records:
-            self.go(self._wanted.record, self._wanted.number)
-        self._wanted = None
+    def _go_to_target(self) -> None:
+        if self._target is not None and self._target.record in self.history.records:
+            self.go(self._target.record, self._target.number)
+        self._target = None
 
     def _on_moved(self) -> None:
         shown = self.history.moment_of(self._document.now)
@@ -199,14 +199,14 @@ class Timeline(QObject):
                 self.extended.emit()
             self.moved.emit()
 
-    def _on_another(self) -> None:
+    def _on_mesh_replaced(self) -> None:
         self.pause()
         self.history.clear()
-        self._take_newest()
+        self._update_runs()
 
     def _on_phase(self) -> None:
         if self._smoothing.phase in (Phase.PREPARING, Phase.RUNNING):
             self.pause()
         if self._smoothing.phase is Phase.PREPARING:
             self.record = self._smoothing.record
-        self._take_newest()
+        self._update_runs()

@@ -1,4 +1,4 @@
-"""The thread that a smoother runs in, and the mailbox between it and the window."""
+"""Worker thread of a run, and the mailbox that passes its iterations to the window."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hexmend_app.state.tasks.task import Task
 
 @dataclass(frozen=True, eq=False)
 class IterationFrame:
-    """An iteration with what the window shows of it, measured in the worker, and the break-point that it reached."""
+    """An iteration, its state, measured in the worker, and the breakpoint that it reached."""
 
     iteration: Iteration
     state: State
@@ -29,52 +29,52 @@ class IterationFrame:
 
 
 class Mailbox:
-    """One slot: a new frame takes the place of one that nobody has fetched yet.
-
-    The window is never behind by more than one frame and never keeps a queue of meshes in memory.
-    """
+    """Slot for one frame, which a newer frame replaces: the window is never behind, and no meshes queue up."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._frame: IterationFrame | None = None
 
     def put(self, frame: IterationFrame) -> None:
-        """Leave the newest frame."""
+        """Replace the frame by a newer one."""
         with self._lock:
             self._frame = frame
 
     def take(self) -> IterationFrame | None:
-        """Fetch the newest frame, once."""
+        """Remove and return the newest frame; None if there is no new one."""
         with self._lock:
             frame, self._frame = self._frame, None
             return frame
 
 
 class Worker:
-    """Runs a smoother or a recipe on one mesh, one iteration at a time as the gate lets it.
+    """Runs a smoother or a recipe on one mesh in a thread, as many iterations as are granted.
 
     Parameters
     ----------
     mesh : Mesh
     smoother : Smoother or Recipe
     stop : StoppingCriteria, optional
-        None for the recipe's own.
-    keep : callable
-        Called with every iteration, number 0 first, in the thread.
+        None for those of a recipe.
+    record : callable
+        Called in the thread with every iteration, from number 0.
 
     Attributes
     ----------
     task : Task
-        Its result is the run's, or None where it failed.
+        Its result is the `Result` of the run; None if the run failed.
     mailbox : Mailbox
-    last : Frame or None
-        The newest.
+    last : IterationFrame or None
+        The newest frame.
     changes : list of (int, Stage)
-        How the rest of a stage was to be done, with the number of the iteration after which it was.
+        Iterations after which the method was switched, and the new stages.
     prepared : threading.Event
-        The method has been set up, or has failed to be.
+        Set when the method has been set up, or its set-up has failed.
     advice : Advice or None
-        Why the run ended and what to do, once it has.
+        Why the run ended and what to do; None until it has ended.
+    metrics : frozenset of str
+        Metrics to compute for every iteration.
+    breakpoints : Breakpoints
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class Worker:
         mesh: Mesh,
         smoother: Smoother | Recipe,
         stop: StoppingCriteria | None,
-        keep: Callable[[Iteration], object],
+        record: Callable[[Iteration], object],
     ):
         self.task = Task(f"smoother {smoother.name}", self._run, yields=True)
         self.mailbox = Mailbox()
@@ -90,34 +90,34 @@ class Worker:
         self.changes: list[tuple[int, Stage]] = []
         self.prepared = threading.Event()
         self.advice: Advice | None = None
-        self.metrics: frozenset[str] = frozenset()  # what the window will ask of every iteration
+        self.metrics: frozenset[str] = frozenset()
         self.breakpoints = Breakpoints()
-        self._order = (mesh, smoother, stop)
-        self._keep = keep
+        self._inputs = (mesh, smoother, stop)
+        self._record = record
         self._gate = threading.Condition()
-        self._granted: float = 0  # iterations that may still be made; infinite while running
-        self._waits = False  # at the gate
-        self._change: Stage | None = None  # how the rest of the stage is to be done
+        self._granted: float = 0  # remaining iterations; infinite while running
+        self._waits = False  # for a grant
+        self._change: Stage | None = None  # for the rest of the current stage
 
     def grant(self, iterations: float) -> None:
-        """Let that many further iterations pass; infinity runs on, 0 pauses after the one at hand."""
+        """Set the number of further iterations: infinity to run, 0 to pause after the current one."""
         with self._gate:
             self._granted = iterations
             self._gate.notify_all()
 
     def grant_more(self, iterations: int) -> None:
-        """Let so many further iterations pass: steps."""
+        """Add to the number of further iterations."""
         with self._gate:
             self._granted = iterations if self._granted == float("inf") else max(self._granted, 0) + iterations
             self._gate.notify_all()
 
     def change(self, stage: Stage) -> None:
-        """Do the rest of the stage at hand otherwise, from the next iteration on."""
+        """Replace the rest of the current stage from the next iteration on."""
         with self._gate:
             self._change = stage
 
     def end(self) -> None:
-        """End the run after the iteration at hand, paused or not."""
+        """End the run after the current iteration, paused or not."""
         with self._gate:
             self.task.cancel()
             self._gate.notify_all()
@@ -129,15 +129,15 @@ class Worker:
 
     def _run(self, _: Task) -> Result:
         try:
-            mesh, smoother, stop = self._order
+            mesh, smoother, stop = self._inputs
             run = iterate(mesh, smoother, stop)
-            self._keep(run.start)
+            self._record(run.start)
             self.prepared.set()
             while self._may_continue(run):
                 before = run.last
                 iteration = next(run, None)
                 if iteration is not None:
-                    self._keep(iteration)
+                    self._record(iteration)
                     self._report(iteration, self._hit(before, iteration))
             run.close()
             if run.best is not run.last:
@@ -149,15 +149,15 @@ class Worker:
             self.prepared.set()
 
     def _hit(self, before: Iteration, iteration: Iteration) -> Hit | None:
-        """The break-point that an iteration reaches, at which the run pauses."""
-        mesh, breakpoints = self._order[0], self.breakpoints
+        """Return the breakpoint that an iteration reaches, and pause; None if it reaches none."""
+        mesh, breakpoints = self._inputs[0], self.breakpoints
         hit = breakpoints.hit(before, iteration, mesh.mean_edge_length or 1.0) if breakpoints.any else None
         if hit is not None:
             self.grant(0)
         return hit
 
     def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
-        moved = self._order[0].with_points(iteration.points)
+        moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
             metric_values(metric, moved.points, moved.hexes, iteration.quality)
         self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
@@ -174,5 +174,5 @@ class Worker:
             ended = self.task.cancelled.is_set()
         if change is not None and run.outcome is None and not ended:
             self.changes.append((run.last.number, change))
-            run.switch_method(change.smoother, change.stop)  # which may take a while: the window must not wait for it
+            run.switch_method(change.smoother, change.stop)  # may take long: outside the lock, so that nobody waits
         return run.outcome is None and not ended

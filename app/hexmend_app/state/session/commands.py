@@ -93,7 +93,7 @@ class Commands(QObject):
     def _start(self, stage: Stage, iterations: float = math.inf) -> None:
         if self._session.editable:
             self._session.node_sweep.leave()
-            self._session.run_setup.begun = stage
+            self._session.run_setup.active_stage = stage
             self.smoothing.start(stage.smoother, stage.stop, iterations)
 
     def run_recipe(self, recipe: Recipe) -> None:

@@ -54,10 +54,10 @@ class Session(SessionParts):
         if restored.wipe_position is not None:
             self.side_views.set_wiping(True)
             self.side_views.move_wipe(restored.wipe_position)
-        self.camera_request.look_through(metadata.scene.camera_of(metadata.panels[0]))
+        self.camera_request.request(metadata.scene.camera_of(metadata.panels[0]))
         self.saved_cameras.add_all(metadata.scene.cameras)
         if metadata.recipe is not None:
-            self.recipe_draft.take(metadata.recipe)
+            self.recipe_draft.load(metadata.recipe)
 
     def _on_change(self, *_: object) -> None:
         self.changed.emit()

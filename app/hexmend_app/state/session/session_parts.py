@@ -157,8 +157,8 @@ class SessionParts(QObject):
         for part in self._parts:
             part.restore(getattr(data, part.name))
         if path is not None:
-            self.document.saved(path, self.document.recorded)
-            self.saved_cameras.saved()
+            self.document.mark_saved(path, self.document.recorded)
+            self.saved_cameras.mark_saved()
 
     def close(self) -> None:
         """Cancel the tasks of all parts; `wait_for_dropped` waits for their threads."""

@@ -1,1 +1,1 @@
-"""Settings kept from one start to the next."""
+"""Settings that are stored between starts."""

@@ -1,4 +1,4 @@
-"""The files that were opened last, kept in the settings."""
+"""Recently opened files, stored in the settings."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.state.settings.settings import RECENT
 
-#: Files that are remembered.
+#: Maximum number of files.
 MOST = 10
 
 
 class RecentFiles(QObject):
-    """Remembers files, the newest first.
+    """Recently opened files, newest first.
 
     Signals
     -------
@@ -23,18 +23,18 @@ class RecentFiles(QObject):
     changed = Signal()
 
     def files(self) -> list[Path]:
-        """The files, whether they are still there or not."""
+        """Return the files, whether they still exist or not."""
         return list(RECENT.get())
 
     def add(self, path: Path) -> None:
-        """Remember a file that was opened."""
+        """Add a file that was opened."""
         path = path.resolve()
-        self._keep([path, *(other for other in self.files() if other != path)][:MOST])
+        self._store([path, *(other for other in self.files() if other != path)][:MOST])
 
     def clear(self) -> None:
-        """Forget all files."""
-        self._keep([])
+        """Clear the list."""
+        self._store([])
 
-    def _keep(self, files: list[Path]) -> None:
+    def _store(self, files: list[Path]) -> None:
         RECENT.set(tuple(files))
         self.changed.emit()

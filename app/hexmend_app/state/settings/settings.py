@@ -1,4 +1,4 @@
-"""Settings that are kept from one start to the next: keys, types and defaults."""
+"""Settings that are stored between starts: keys, types and defaults."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ def _same(value: Any) -> Any:
 
 @dataclass(frozen=True)
 class Setting(Generic[T]):
-    """One thing that is remembered.
+    """Stored setting.
 
     Parameters
     ----------
     key : str
     default
-        What it is as long as nothing was kept, or what was kept cannot be read.
-    read : callable
-        Makes a value of what was kept; raises ValueError or TypeError where that cannot be.
-    written : callable
-        The reverse.
+        Value if none is stored, or the stored one is invalid.
+    decode : callable
+        Converts the stored value; raises ValueError or TypeError if it is invalid.
+    encode : callable
+        Converts a value to store it.
     """
 
     key: str
     default: T
-    read: Callable[[Any], T] = _same
-    written: Callable[[T], Any] = _same
+    decode: Callable[[Any], T] = _same
+    encode: Callable[[T], Any] = _same
 
     def get(self) -> T:
         """Return the stored value."""
@@ -43,21 +43,21 @@ class Setting(Generic[T]):
         if not settings.contains(self.key):
             return self.default
         try:
-            return self.read(settings.value(self.key))
-        except (TypeError, ValueError):  # by hand, or by another version
+            return self.decode(settings.value(self.key))
+        except (TypeError, ValueError):  # written by hand or by another version
             return self.default
 
-    def forget(self) -> None:
-        """Keep nothing."""
+    def clear(self) -> None:
+        """Remove the stored value."""
         QSettings().remove(self.key)
 
     def set(self, value: T) -> None:
-        """Keep a value."""
-        QSettings().setValue(self.key, self.written(value))
+        """Store a value."""
+        QSettings().setValue(self.key, self.encode(value))
 
 
 def write_all() -> None:
-    """Write what Qt would write at the end of the process."""
+    """Write all settings to disk, which Qt would otherwise do at exit."""
     QSettings().sync()
 
 
@@ -73,7 +73,7 @@ def _map(value: Any) -> dict[str, Any]:
     return value
 
 
-def _share(value: Any) -> tuple[float, float]:
+def _shares(value: Any) -> tuple[float, float]:
     x, y = (float(share) for share in str(value).split())
     if not all(0 <= share <= 1 for share in (x, y)):
         raise ValueError(value)
@@ -90,20 +90,20 @@ def _paths(value: Any) -> tuple[Path, ...]:
     return tuple(Path(path) for path in json.loads(value))
 
 
-#: The window's place and size, and how its panels stand.
+#: Position and size of the window, and the layout of its panels.
 GEOMETRY = Setting("geometry", QByteArray(), _bytes)
 PANELS: Setting[dict[str, Any]] = Setting("panels", {}, _map)
 #: One of `hexmend_app.theme.theme_choice.ThemeChoice`.
 THEME = Setting("theme", "desktop", str)
-#: Files that were opened, the newest first.
+#: Recently opened files, newest first.
 RECENT: Setting[tuple[Path, ...]] = Setting("recent", (), _paths, lambda paths: json.dumps([str(one) for one in paths]))
-#: Where dialogs begin.
+#: Initial folder of file dialogs.
 FOLDER = Setting("folder", Path.home(), Path, str)
-#: How much memory positions of iterations take, in MB, and how many of these are played a second.
+#: Memory limit of the positions of iterations in MB, and iterations played per second.
 HISTORY_MEGABYTES = Setting("history_megabytes", 512, _positive)
 ITERATIONS_PLAYED = Setting("iterations_played", 10, _positive)
 
 
-def place_of(key: str, home: tuple[float, float]) -> Setting[tuple[float, float]]:
-    """Position of an overlay over the view, as shares of the free space; the default position at first."""
-    return Setting(f"overlay/{key}", home, _share, lambda place: " ".join(f"{share:.4f}" for share in place))
+def overlay_position(key: str, default: tuple[float, float]) -> Setting[tuple[float, float]]:
+    """Return the setting of the position of an overlay over the view, as shares of the free width and height."""
+    return Setting(f"overlay/{key}", default, _shares, lambda position: " ".join(f"{share:.4f}" for share in position))

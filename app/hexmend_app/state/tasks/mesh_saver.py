@@ -141,6 +141,6 @@ class MeshSaver(QObject):
         """Emit the user event, and mark the state as saved if its mesh is still open."""
         session = self._session
         session.user_event.emit(MeshSaved(saving.path, saving.state, saving.data))
-        is_open = session.document.saved(saving.path, saving.recorded)
+        is_open = session.document.mark_saved(saving.path, saving.recorded)
         if is_open and saving.data is not None:
-            session.saved_cameras.saved(saving.data.cameras)
+            session.saved_cameras.mark_saved(saving.data.cameras)

@@ -1,4 +1,4 @@
-"""Camera pose as a value that outlives the 3D view."""
+"""Request for a camera, which the 3D view applies as soon as it draws the open mesh."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend_app.picture import Camera
 from hexmend_app.picture.camera_pose import CameraPose
 
-#: Poses in the history at most, the present one included.
+#: Maximum number of poses in the history, including the current one.
 MOST = 50
 
 
@@ -20,9 +20,9 @@ class PoseHistoryData:
     Parameters
     ----------
     before, after : tuple of CameraPose
-        The poses to go back to and forward to, the oldest first.
+        Poses before and after the current one, oldest first.
     left : CameraPose or None
-        The pose before hexes were isolated; None while none are.
+        The pose before hexes were isolated; None if none are.
     """
 
     before: tuple[CameraPose, ...] = ()
@@ -31,41 +31,40 @@ class PoseHistoryData:
 
     def __post_init__(self) -> None:
         if len(self.before) + len(self.after) >= MOST:
-            raise ValueError(f"the camera has stood in more than {MOST} places")
+            raise ValueError(f"the camera has a history of more than {MOST} poses")
 
 
 @dataclass(frozen=True)
 class CameraData:
-    """Data of the camera in a session file: its pose, if there is a view, and its earlier and later poses."""
+    """Data of the camera in a session file: its pose, if there is a view, and the history of poses."""
 
     pose: CameraPose | None = None
     history: PoseHistoryData = PoseHistoryData()
 
 
 class CameraRequest(QObject):
-    """The camera through which the 3D view is to show the mesh, as soon as it can.
+    """Camera that the 3D view is to apply as soon as it draws the open mesh.
 
     Attributes
     ----------
     wanted : Camera or None
-        The camera that the view is to take once it draws the open mesh.
-    journey : PoseHistoryData
-        The history of poses that the view is to take with it.
+        The requested camera; None if there is no request.
+    pose_history : PoseHistoryData
+        The requested history of poses.
 
     Signals
     -------
-    called
-        Another camera is wanted.
+    requested
     """
 
-    called = Signal()
+    requested = Signal()
 
     def __init__(self, parent: QObject | None = None):
         super().__init__(parent)
         self.wanted: Camera | None = None
-        self.journey = PoseHistoryData()
+        self.pose_history = PoseHistoryData()
 
-    def look_through(self, camera: Camera | None, journey: PoseHistoryData | None = None) -> None:
-        """Request a camera, with a history of poses; by default an empty one."""
-        self.wanted, self.journey = camera, journey or PoseHistoryData()
-        self.called.emit()
+    def request(self, camera: Camera | None, pose_history: PoseHistoryData | None = None) -> None:
+        """Request a camera with a history of poses, by default an empty one."""
+        self.wanted, self.pose_history = camera, pose_history or PoseHistoryData()
+        self.requested.emit()

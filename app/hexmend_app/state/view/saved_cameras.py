@@ -1,4 +1,4 @@
-"""The cameras that the user keeps by name, for pictures and to come back to."""
+"""Cameras that the user has saved by name."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from hexmend_app.picture.named_cameras import NamedCameras, merged
 
 
 class SavedCameras(QObject):
-    """Cameras by name; they stay as another mesh is opened, so that its like is seen alike.
+    """Saved cameras by name; they stay when a mesh is opened, to show several meshes from the same viewpoint.
 
     Attributes
     ----------
     all : dict of Camera
-        In the order of keeping; never changed in place.
+        In the order in which they were saved; never modified in place.
 
     Signals
     -------
@@ -35,49 +35,49 @@ class SavedCameras(QObject):
         """True if the cameras differ from those of the session that was opened or saved last."""
         return self.all != self._saved
 
-    def keep(self, name: str, camera: Camera) -> None:
-        """Keep a camera under a name, in the place of one that had it.
+    def add(self, name: str, camera: Camera) -> None:
+        """Save a camera, replacing one with the same name.
 
         Raises
         ------
         ParameterError
-            Where the name cannot be used, or there are too many.
+            If the name is invalid, or there are too many cameras.
         """
-        self._take(NamedCameras({**self.all, name: camera}).named)
+        self._set(NamedCameras({**self.all, name: camera}).named)
 
-    def rename(self, name: str, other: str) -> None:
-        """Call one otherwise, in the place of one that had that name.
+    def rename(self, name: str, new_name: str) -> None:
+        """Rename a camera, replacing one with the new name.
 
         Raises
         ------
         ParameterError
-            Where the name cannot be used.
+            If the new name is invalid.
         """
-        others = {one: camera for one, camera in self.all.items() if one != other or one == name}
-        self._take(NamedCameras({other if one == name else one: camera for one, camera in others.items()}).named)
+        remaining = {key: camera for key, camera in self.all.items() if key != new_name or key == name}
+        self._set(NamedCameras({new_name if key == name else key: camera for key, camera in remaining.items()}).named)
 
     def remove(self, name: str) -> None:
-        """Keep one no longer."""
-        self._take({one: camera for one, camera in self.all.items() if one != name})
+        """Remove a camera."""
+        self._set({key: camera for key, camera in self.all.items() if key != name})
 
     def add_all(self, cameras: Mapping[str, Camera]) -> None:
-        """Keep those of a scene too."""
-        self._take(merged(self.all, cameras))
+        """Add the cameras of a scene; names in use get a number, and equal cameras are not added again."""
+        self._set(merged(self.all, cameras))
 
     def to_data(self) -> NamedCameras:
         """Return the data for a session file."""
         return NamedCameras(self.all)
 
     def restore(self, data: NamedCameras) -> None:
-        """Restore the cameras of a session file; they count as not saved yet."""
+        """Restore the cameras of a session file; they are not marked as saved."""
         self._saved = {}
-        self._take(data.named)
+        self._set(data.named)
 
-    def saved(self, kept: NamedCameras | None = None) -> None:
-        """Remember that a session was written with these, or with those of now."""
-        self._saved = self.all if kept is None else kept.named
+    def mark_saved(self, saved: NamedCameras | None = None) -> None:
+        """Mark cameras, by default the current ones, as saved in the file of the session."""
+        self._saved = self.all if saved is None else saved.named
 
-    def _take(self, all: dict[str, Camera]) -> None:
+    def _set(self, all: dict[str, Camera]) -> None:
         if list(all.items()) != list(self.all.items()):
             self.all = all
             self.changed.emit()

@@ -1,4 +1,4 @@
-"""States shown in views next to the present mesh, side by side or one wiped over the other."""
+"""States shown in views next to the current mesh, side by side or with a wipe."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from PySide6.QtCore import QObject, Signal
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.snapshots import Snapshots
 
-#: Views beside that of the mesh as it is now.
+#: Maximum number of side views.
 MOST = 3
 
-#: What the view of the mesh as it is now is called.
+#: Name of the main view, of the current mesh.
 NOW = "now"
 
-#: How near the wipe's edge comes to a side of the view, as a share of its width.
+#: Minimum distance of the wipe's edge from the sides of the view, as a share of its width.
 _MARGIN = 0.03
 
 
 @dataclass(frozen=True, eq=False)
 class SideView:
-    """A state of the open mesh in a view of its own.
+    """View of a state of the open mesh.
 
     Parameters
     ----------
     name : str
-        What the view's caption calls it.
+        Name in the caption of the view.
     state : State
     """
 
@@ -36,14 +36,14 @@ class SideView:
 
 @dataclass(frozen=True)
 class Wipe:
-    """Two views over one another, with an edge between them.
+    """Two views on top of each other, of which an edge separates the visible parts.
 
     Parameters
     ----------
     left, right : int
-        Which views are seen on either side: 0 is that of the mesh as it is now, 1 the first beside it.
+        Numbers of the views to the left and right of the edge: 0 is the main view, 1 the first side view.
     at : float
-        Where the edge is, as a share of the width.
+        Position of the edge, as a share of the width.
     """
 
     left: int
@@ -65,77 +65,82 @@ class SideViewsData:
         if wipe is not None and not (
             0 <= wipe.left <= count and 0 <= wipe.right <= count and wipe.left != wipe.right and 0 <= wipe.at <= 1
         ):
-            raise ValueError(f"there is no wipe {wipe} of {count} views")
+            raise ValueError(f"the wipe {wipe} does not fit {count} side views")
 
 
 class SideViews(QObject):
-    """The views beside that of the mesh as it is now; the distributions of what they show are kept as long as they do.
+    """The side views; each has a snapshot of its state, to compare the distributions of quality.
 
     Parameters
     ----------
     document : Document
-    kept : KeptMoments
+    snapshots : Snapshots
 
     Signals
     -------
     changed
-        Other views, or another arrangement of them.
+        The views or their arrangement have changed.
     wiped
-        The wipe's edge is elsewhere.
+        The wipe's edge has moved.
+
+    Attributes
+    ----------
+    all : tuple of SideView
+    wipe : Wipe or None
+        None if the views are side by side.
     """
 
     changed = Signal()
     wiped = Signal()
 
-    def __init__(self, document: Document, kept: Snapshots, parent: QObject | None = None):
+    def __init__(self, document: Document, snapshots: Snapshots, parent: QObject | None = None):
         super().__init__(parent)
-        self._kept = kept
+        self._snapshots = snapshots
         self.all: tuple[SideView, ...] = ()
         self.wipe: Wipe | None = None
         document.mesh_replaced.connect(self.close_all)
 
     @property
     def full(self) -> bool:
-        """True if there is no space for a further view."""
+        """True if no further view can be shown."""
         return len(self.all) == MOST
 
     def shows(self, state: State) -> bool:
-        """Return True if a state is in a view."""
-        return any(one.state is state for one in self.all)
+        """Return True if a side view shows this state."""
+        return any(view.state is state for view in self.all)
 
     def show(self, name: str, state: State) -> bool:
-        """Show a state of the open mesh in a view under a name, unless it is in one; whether there was room for it.
+        """Show a state of the open mesh in a side view, unless a side view shows it; return False if none is free.
 
-        A view of the same name shows the other state from then on.
+        A side view with this name shows the new state instead of its former one.
         """
         if self.shows(state):
             return True
-        shown = SideView(name, state)
-        names = [one.name for one in self.all]
-        if name in names:
-            self._take(*(shown if one.name == name else one for one in self.all))
+        new_view = SideView(name, state)
+        if name in [view.name for view in self.all]:
+            self._set(*(new_view if view.name == name else view for view in self.all))
         elif self.full:
             return False
         else:
-            self._take(*self.all, shown)
+            self._set(*self.all, new_view)
         return True
 
-    def close_view(self, at: int) -> None:
-        """Close a view, 1 being the first beside that of the mesh as it is now."""
-        self._take(*(one for k, one in enumerate(self.all, 1) if k != at))
+    def close_view(self, number: int) -> None:
+        """Close a side view, numbered from 1."""
+        self._set(*(view for k, view in enumerate(self.all, 1) if k != number))
 
     def close_all(self) -> None:
-        """Leave the mesh as it is now alone."""
-        self._take()
+        """Close all side views."""
+        self._set()
 
     def set_wiping(self, on: bool) -> None:
-        """Lay two views over one another, or all side by side; one alone stays as it is."""
+        """Show two views with a wipe, or all side by side; a wipe needs a side view."""
         if on != (self.wipe is not None) and (self.all or not on):
             self.wipe = Wipe(0, len(self.all)) if on else None
             self.changed.emit()
 
     def choose_wiped(self, left: int, right: int) -> None:
-        """Wipe between two other views; chosen for both sides, one changes places with the other."""
+        """Choose the views of the wipe; the same view for both sides swaps the present ones."""
         wipe = self.wipe
         if wipe is None or (left, right) == (wipe.left, wipe.right):
             return
@@ -145,7 +150,7 @@ class SideViews(QObject):
         self.changed.emit()
 
     def move_wipe(self, at: float) -> None:
-        """Bring the wipe's edge elsewhere, a share of the width; it stays within the view."""
+        """Move the wipe's edge to a position within the view, as a share of the width."""
         at = min(max(at, _MARGIN), 1 - _MARGIN)
         if self.wipe is not None and at != self.wipe.at:
             self.wipe = replace(self.wipe, at=at)
@@ -156,22 +161,22 @@ class SideViews(QObject):
         return SideViewsData(self.all, self.wipe)
 
     def restore(self, data: SideViewsData) -> None:
-        """Show what a session has kept."""
-        self._take(*data.shown)
+        """Restore the side views of a session file."""
+        self._set(*data.shown)
         self.wipe = data.wipe
         self.changed.emit()
 
-    def _take(self, *all: SideView) -> None:
+    def _set(self, *all: SideView) -> None:
         if all == self.all:
             return
         before, self.all = self.all, all
-        for one in before:
-            kept = None if self.shows(one.state) else self._kept.of(one.state)
-            if kept is not None:
-                self._kept.remove(kept.slot)
-        for one in all:
-            if self._kept.of(one.state) is None:
-                self._kept.keep(one.name, one.state)
+        for view in before:
+            snapshot = None if self.shows(view.state) else self._snapshots.of(view.state)
+            if snapshot is not None:
+                self._snapshots.remove(snapshot.slot)
+        for view in all:
+            if self._snapshots.of(view.state) is None:
+                self._snapshots.add(view.name, view.state)
         if self.wipe is not None and max(self.wipe.left, self.wipe.right) > len(all):
             self.wipe = replace(self.wipe, left=0, right=len(all)) if all else None
         self.changed.emit()

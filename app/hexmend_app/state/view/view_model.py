@@ -1,4 +1,4 @@
-"""View of the open mesh: the only source of what the window shows."""
+"""Model of the 3D view: what of the open mesh it shows, and how."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hexmend_app.state.mesh.document import Document
 
 @dataclass(frozen=True)
 class ViewData:
-    """Data of the view in a session file: appearance, hidden hexes in order, and settings of cuts and isolation."""
+    """Data of the view in a session file: appearance, dug hexes in order, and settings of cuts and isolation."""
 
     look: Look
     dug: tuple[int, ...]
@@ -43,19 +43,19 @@ class ViewData:
             raise ValueError(f"there is no plane {self.plane_at}")
 
     def check(self, hexes: int) -> None:
-        """Raise `ValueError` unless a mesh of so many hexes has those that are shown or hidden one by one."""
+        """Raise `ValueError` if a mesh with this number of hexes does not have those named in the view."""
         isolated = () if self.look.isolation is None else self.look.isolation.hexes
         named = (*isolated, *self.look.dug, *self.dug)
         if named and not 0 <= min(named) <= max(named) < hexes:
-            raise ValueError("hexes are isolated or dug which the mesh has not")
+            raise ValueError("hexes are isolated or dug away that the mesh does not have")
         if self.look.left is not None and self.look.left.most >= hexes:
-            raise ValueError("hexes are left by the cut which the mesh has not")
+            raise ValueError("hexes are left by the cut that the mesh does not have")
 
 
 class ViewModel(QObject):
-    """The look of the 3D view.
+    """Model of the 3D view.
 
-    Hexes that the open mesh does not have are neither isolated nor dug away.
+    Requests to isolate or dig away hexes that the open mesh does not have are ignored.
 
     Parameters
     ----------
@@ -65,7 +65,21 @@ class ViewModel(QObject):
     -------
     look_changed
     metric_wanted(name)
-        The colours are to show another metric, in the range that suits it.
+        Request to colour by a metric in its default range.
+
+    Attributes
+    ----------
+    look : Look
+    handles : bool
+        True to show the handles of the cut's plane or box in the view.
+    plane_at : int
+        Index of the selected plane of a cut, which has the handles.
+    snap : bool
+        True to align dragged planes with an axis that they are close to.
+    rings : int
+        Rings of neighbours shown around isolated hexes.
+    counted : str or None
+        Metric of the histogram; None if it is that of the colours.
     """
 
     look_changed = Signal()
@@ -75,18 +89,18 @@ class ViewModel(QObject):
         super().__init__(parent)
         self._document = document
         self.look = Look()
-        self.handles = True  # of the plane or the box, in the view
-        self.plane_at = 0  # which of several planes has them
+        self.handles = True
+        self.plane_at = 0
         self.snap = True
         self.rings = 1
-        self.counted: str | None = None  # the metric of the histogram, where it is not that of the colours
+        self.counted: str | None = None
         self._dug: list[int] = []  # in the order of digging
         document.mesh_replaced.connect(self.show_all)
 
     def change(self, **fields: object) -> None:
-        """Change fields of the look; says nothing where nothing changes."""
+        """Change fields of the look, and emit `look_changed` if it differs."""
         if fields.get("clip", self) is not self:
-            fields = {"left": None, **fields}  # the cut is made anew
+            fields = {"left": None, **fields}  # for the old cut
         look = dataclasses.replace(self.look, **fields)
         if look != self.look:
             self.look = look
@@ -99,97 +113,97 @@ class ViewModel(QObject):
         return ViewData(self.look, tuple(self._dug), self.handles, self.plane_at, self.snap, self.rings, self.counted)
 
     def restore(self, data: ViewData) -> None:
-        """Look as a session has kept it."""
+        """Restore the view of a session file."""
         self.look, self._dug = data.look, list(data.dug)
         self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
         self.counted = data.counted
         self.look_changed.emit()
 
     def show_as(self, look: Look) -> None:
-        """Look as a picture has it: what was hidden one by one comes back in the order of numbers."""
+        """Show the look of a picture; its dug hexes are restored by undo in the order of their numbers."""
         self.restore(dataclasses.replace(self.to_data(), look=look, dug=tuple(sorted(look.dug)), plane_at=0))
 
     def colour_by(self, metric: str) -> None:
-        """Have the colours show another metric, or movement, in the range that suits it."""
+        """Request to colour by a metric or a displacement in its default range."""
         self.metric_wanted.emit(metric)
 
     def note_cut(self, left: CutLeft | None) -> None:
-        """Store which hexes the cut by whole hexes has left, if the same cut of the present mesh would leave others."""
+        """Store the hexes that the cut by whole hexes leaves, if the cut of the current mesh would leave others."""
         self.look = dataclasses.replace(self.look, left=left)
 
     def show_all(self) -> None:
-        """Hide nothing: numbers of hexes mean others in another mesh."""
+        """Show all hexes: remove the cut, filters, isolation and dug hexes."""
         self.change(clip=None, quality_range=None, peel=0, isolation=None, dug=frozenset())
 
     def set_clip(self, clip: Clip | None) -> None:
-        """Cut, move the cut, or cut no more."""
+        """Set, move or remove the cut."""
         if isinstance(clip, PlaneClip) and self.plane_at >= len(clip.planes):
             self.plane_at = 0
         self.change(clip=clip)
 
     def choose_plane(self, at: int) -> None:
-        """Let another of several planes be the one that is moved."""
+        """Select the plane that is moved."""
         if at != self.plane_at:
             self.plane_at = at
             self.look_changed.emit()
 
     def drag_plane(self, plane: ClipPlane) -> None:
-        """Move the plane that is chosen to where the hand has it, set straight where it is to snap."""
+        """Move the selected plane to where it is dragged, snapping to an axis if `snap` is set."""
         if isinstance(self.look.clip, PlaneClip):
             self.set_clip(self.look.clip.with_plane(self.plane_at, plane.snapped() if self.snap else plane))
 
     def drag_box(self, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
-        """Move the sides of the box to where the hand has them."""
+        """Move the box of the cut to where it is dragged; corners as (x, y, z)."""
         if isinstance(self.look.clip, BoxClip):
             self.set_clip(dataclasses.replace(self.look.clip, low=low, high=high))
 
     def set_handles(self, shown: bool) -> None:
-        """Show or hide what the cut is dragged by in the view; the cut stays."""
+        """Show or hide the handles of the cut."""
         if shown != self.handles:
             self.handles = shown
             self.look_changed.emit()
 
     def set_snap(self, on: bool) -> None:
-        """Set planes straight that come near to an axis, or leave them."""
+        """Set whether dragged planes snap to the axes."""
         self.snap = on
 
     def isolate(self, hexes: Iterable[int], rings: int | None = None) -> None:
-        """Show some elements with so many rings of neighbours around them, and nothing else.
+        """Show only some hexes and rings of neighbours around them.
 
         Parameters
         ----------
         hexes : iterable of int
         rings : int, optional
-            As many as were last chosen where none are named.
+            Number of rings; by default the last one.
         """
         self.rings = self.rings if rings is None else rings
         hexes = tuple(int(h) for h in hexes if self._document.has_hex(h))
         if hexes:
-            # What else would hide them is given up: they are what is to be seen.
+            # Remove all that would hide them.
             dug = self.look.dug - set(hexes)
             self.change(isolation=Isolation(hexes, self.rings), quality_range=None, peel=0, dug=dug)
 
     def set_rings(self, rings: int) -> None:
-        """Show so many rings of neighbours around what is isolated, now or next."""
+        """Set the number of rings around the isolated hexes."""
         self.rings = rings
         if self.look.isolation is not None:
             self.change(isolation=dataclasses.replace(self.look.isolation, rings=rings))
 
     def end_isolation(self) -> None:
-        """Show again what is around."""
+        """End the isolation."""
         self.change(isolation=None)
 
     def dig(self, hex: int) -> None:
-        """Hide one element."""
+        """Dig away a hex."""
         if hex not in self.look.dug and self._document.has_hex(hex):
             self._dug.append(int(hex))
             self.change(dug=self.look.dug | {int(hex)})
 
     def undig_last(self) -> None:
-        """Show the element again that was hidden last."""
+        """Restore the hex that was dug away last."""
         if self._dug:
             self.change(dug=self.look.dug - {self._dug.pop()})
 
     def undig_all(self) -> None:
-        """Show all elements again that were hidden one by one."""
+        """Restore all hexes that were dug away."""
         self.change(dug=frozenset())

@@ -159,7 +159,7 @@ def test_newly_inverted_hexes_are_isolated(window, mesh_to_invert, record, panel
     for number in range(1, len(inverted)):
         go(window, record, number)
         press(panel.since, "iteration")
-        movement = window.session.comparison_bases.movement(Since.ITERATION)
+        movement = window.session.comparison_bases.displacement(Since.ITERATION)
         assert panel.show_newly.isEnabled() == (movement.counts.newly_inverted > 0)
         if panel.show_newly.isEnabled():
             break

@@ -226,7 +226,7 @@ def test_a_suggestion_unpins_nodes_that_keep_hexes_inverted(window, qtbot, tmp_p
 def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
     run(window, qtbot, "laplacian", max_iterations=1)
     io.write(tmp_path / "one.vtu", grid(1))
-    window.session.document.saved(tmp_path / "one.vtu")
+    window.session.document.mark_saved(tmp_path / "one.vtu")
     open_and_wait(qtbot, window, tmp_path / "one.vtu")
     run(window, qtbot, "mend")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)
@@ -237,7 +237,7 @@ def test_a_run_without_iterations_is_explained(window, qtbot, tmp_path):
 
 def test_the_explanation_is_cleared_for_another_mesh(window, qtbot, mesh_file):
     run(window, qtbot, "laplacian", max_iterations=1)
-    window.session.document.saved(mesh_file)
+    window.session.document.mark_saved(mesh_file)
     open_and_wait(qtbot, window, mesh_file)
     window.show_panel("outcome")
     qtbot.waitUntil(window.features["outcome"].panel.isVisible)

@@ -81,7 +81,7 @@ def test_a_draft_is_a_sequence_of_stages():
     assert chain.recipe == Recipe.of(a, a)
     chain.rename("  Twice ")
     assert chain.recipe.title == "Twice"
-    chain.take(Recipe.of(b, c))
+    chain.load(Recipe.of(b, c))
     assert (chain.title, chain.stages) == ("", (b, c))
 
 
@@ -223,7 +223,7 @@ def test_a_recipe_is_saved_and_loaded(window, panel, qtbot, tmp_path, monkeypatc
     saved = read_recipe(path)
     assert saved == window.session.recipe_draft.recipe
     assert saved.title == "Mine"
-    window.session.recipe_draft.take(Recipe.of("laplacian"))
+    window.session.recipe_draft.load(Recipe.of("laplacian"))
     window.window_actions["recipe_load"].trigger()
     assert window.session.recipe_draft.recipe == saved
     window.refresh()

@@ -101,7 +101,7 @@ def others(window, qtbot, tmp_path, monkeypatch):
     def short(method):
         idle()
         choose(window, method, StoppingCriteria(max_iterations=2, tolerance=0))
-        session.recipe_draft.take(
+        session.recipe_draft.load(
             Recipe.of(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=2, tolerance=0)))
         )
 

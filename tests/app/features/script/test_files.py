@@ -130,7 +130,7 @@ def test_charts_of_a_run_and_its_branch(window, qtbot, script, tmp_path):
 
 def test_the_worst_hexes_a_recipe_and_a_scene(window, script, tmp_path):
     window.session.commands.pin(np.arange(30), True)
-    window.session.recipe_draft.take(Recipe.of(Stage(METHODS["laplacian"](), SHORT), Stage(METHODS["mend"]())))
+    window.session.recipe_draft.load(Recipe.of(Stage(METHODS["laplacian"](), SHORT), Stage(METHODS["mend"]())))
     window.refresh()
     paths = [tmp_path / name for name in ("worst.csv", "recipe.toml", "scene.toml")]
     assert window.features["hex_inspector"].save(paths[0])

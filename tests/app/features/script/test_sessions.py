@@ -106,7 +106,7 @@ def test_a_snapshot_of_a_session_is_read_from_it(session, qtbot, tmp_path):
     run(qtbot, session, stage("local-sd"))
     (record,) = session.history.records
     session.timeline.go(record, 2)
-    session.snapshots.keep("iteration 2", session.document.now)
+    session.snapshots.add("iteration 2", session.document.now)
     session.timeline.go(record, record.newest)
     kept = tmp_path / "kept.hexmend"
     save_and_wait(session, kept)

@@ -12,7 +12,7 @@ from hexmend_app.features.convergence.chart_settings import CHARTS
 from hexmend_app.picture import Camera
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 from hexmend_app.widgets.section import Section
-from tests.app.conftest import close, made
+from tests.app.conftest import close, window_with_mesh
 from tests.app.driving import key, named, open_and_wait, tick, walk_to
 from tests.app.features.session.test_feature import run
 from tests.app.resetting import setting_of
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.slow
 #: What there is to compare of two windows besides their widgets, and what of it is a run's, or of the place of panels.
 _KEPT = ("session.", "camera ", "look that", "hexes that", "action ")
 _NOT_KEPT = (
-    "session.boundary_classifier", "session.run_setup.begun", "session.run.record", "session.run.advice", "session.run.work",
+    "session.boundary_classifier", "session.run_setup.active_stage", "session.run.record", "session.run.advice", "session.run.work",
     "session.run.phase", "action panel", "action drawer",
 )  # fmt: skip
 #: Explanations that are unfolded, and lists of a wipe that there is not.
@@ -34,7 +34,7 @@ _UNSEEN = ("Explain", "Left view", "Right view")
 @pytest.fixture
 def other_window(qtbot, mesh_file, fresh_window):
     """A second window."""
-    window = made(qtbot, mesh_file)
+    window = window_with_mesh(qtbot, mesh_file)
     yield window
     close(window)
 
@@ -201,7 +201,7 @@ def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
     look = data["window"]["view"]["look"]
     del data["window"]["cameras"], look["left"], look["structure"]["extra"]
     write_archive(path, "Hexmend session", 2, data)
-    window.session.saved_cameras.keep("of another", Camera("+x"))
+    window.session.saved_cameras.add("of another", Camera("+x"))
     open_and_wait(qtbot, window, path)
     assert window.session.saved_cameras.all == {}
 

@@ -39,7 +39,7 @@ def work(window, qtbot):
     session.commands.tag("bad corner", [3, 5, 8])
     session.commands.pin(17, True)
     run(window, qtbot, "local-sd", 3)
-    session.snapshots.keep("a kept moment", session.document.now)
+    session.snapshots.add("a kept moment", session.document.now)
     with qtbot.waitSignal(session.comparison.changed, timeout=PATIENCE):
         session.comparison.start([METHODS["laplacian"](), METHODS["getme"]()], StoppingCriteria(max_iterations=2))
     qtbot.waitUntil(lambda: not session.comparison.busy, timeout=PATIENCE)
@@ -57,8 +57,8 @@ def work(window, qtbot):
         traces=Traces(arrows=Arrows.SIGHT, factor=2.0),
     )
     session.view.counted = "volume"
-    session.saved_cameras.keep("from below", Camera("-z"))
-    session.saved_cameras.keep("as it is", Camera.at(window.canvas.pose))
+    session.saved_cameras.add("from below", Camera("-z"))
+    session.saved_cameras.add("as it is", Camera.at(window.canvas.pose))
     session.selection.choose(9, int(session.document.now.mesh.hexes[9, 3]))
     window.refresh()
     window.canvas.look_along("-x")
@@ -97,7 +97,7 @@ def tables(window):
             for r in history.records
         ],
         "parents": [(r.parent.record.name, r.parent.number) if r.parent else None for r in history.records],
-        "kept iterations": [history.kept(r).tolist() for r in history.records],
+        "kept iterations": [history.recorded_numbers(r).tolist() for r in history.records],
         "gone through": session.timeline.record.name,
         "moment": (moment.record.name, moment.number),
         "compared": [(one.row.method, one.row.message, one.row.after) for one in session.comparison.results],
@@ -121,7 +121,7 @@ def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
     session = window.session
     picture, before = seen(window, qtbot), tables(window)
     points = session.document.now.mesh.points
-    positions = [[r.points(n) for n in session.history.kept(r)] for r in session.history.records]
+    positions = [[r.points(n) for n in session.history.recorded_numbers(r)] for r in session.history.records]
     assert window.features["session"].save_and_wait(path)
     open_and_wait(qtbot, window, mesh_file)
     window.refresh()
@@ -131,7 +131,7 @@ def test_a_session_is_restored(window, qtbot, tmp_path, mesh_file):
     assert tables(window) == before
     np.testing.assert_array_equal(session.document.now.mesh.points, points)
     for record, places in zip(session.history.records, positions, strict=True):
-        for number, place in zip(session.history.kept(record), places, strict=True):
+        for number, place in zip(session.history.recorded_numbers(record), places, strict=True):
             np.testing.assert_array_equal(record.points(number), place)
 
 

@@ -99,7 +99,7 @@ def test_a_stage_set_elsewhere_is_shown(panel, setup, heard):
 def test_settings_changed_while_paused_change_the_run(panel, setup):
     changes = []
     panel.change_requested.connect(changes.append)
-    setup.begun = setup.stage
+    setup.active_stage = setup.stage
     panel.set_state("paused")
     panel.run_or_pause()
     assert changes == []

@@ -1,4 +1,4 @@
-"""What the mesh is compared with."""
+"""States with which the mesh is compared."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -30,10 +30,10 @@ def run(qtbot, session):
 
 
 def before(session, since):
-    return session.comparison_bases.movement(since).before
+    return session.comparison_bases.displacement(since).before
 
 
-def test_the_moment_to_compare_with_follows_the_iteration_that_is_shown(session, qtbot):
+def test_the_reference_depends_on_the_iteration_that_is_shown(session, qtbot):
     document, timeline = session.document, session.timeline
     opened = document.now.mesh.points
     assert before(session, Since.ITERATION).points is opened
@@ -49,15 +49,15 @@ def test_the_moment_to_compare_with_follows_the_iteration_that_is_shown(session,
     assert before(session, Since.ITERATION).name == f"{second.name} 4"
     timeline.go(second, 1)
     assert before(session, Since.ITERATION).points is second.points(0)
-    assert session.comparison_bases.movement(Since.RUN) is session.comparison_bases.movement(Since.RUN)
+    assert session.comparison_bases.displacement(Since.RUN) is session.comparison_bases.displacement(Since.RUN)
 
 
-def test_where_the_iteration_before_was_thinned_out_the_nearest_before_it_is_compared(session, qtbot):
+def test_if_the_previous_iteration_was_dropped_the_nearest_earlier_one_is_the_reference(session, qtbot):
     record = run(qtbot, session)
     session.history.limit = session.history.bytes // 3
-    numbers = session.history.kept(record).tolist()
+    numbers = session.history.recorded_numbers(record).tolist()
     earlier, at = next((m, n) for m, n in pairwise(numbers) if n - m > 1)
     session.timeline.go(record, at)
     name = f"{record.name} {earlier}" if earlier else f"{record.name} began"
     assert before(session, Since.ITERATION).name == name
-    assert session.comparison_bases.movement(Since.ITERATION).counts.moved > 0
+    assert session.comparison_bases.displacement(Since.ITERATION).counts.moved > 0

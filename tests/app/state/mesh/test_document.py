@@ -1,4 +1,4 @@
-"""The document without a window: changes, undo, reset, what is unsaved."""
+"""The document without a window: changes, undo, reset, saved states."""
 
 from pathlib import Path
 
@@ -29,14 +29,14 @@ def test_an_opened_mesh_is_not_modified_and_has_nothing_to_undo(document):
     assert document.name == "a.vtu"
 
 
-def test_changes_are_undone_and_done_again(document):
+def test_changes_are_undone_and_redone(document):
     start = document.now
-    one = moved(start, 0.01)
-    document.commit("first", one)
+    first = moved(start, 0.01)
+    document.commit("first", first)
     document.commit("second", moved(start, 0.02))
     assert document.undo_title == "second"
     document.undo()
-    assert document.now is one
+    assert document.now is first
     assert document.redo_title == "second"
     document.undo()
     assert document.now is start
@@ -44,7 +44,7 @@ def test_changes_are_undone_and_done_again(document):
     document.undo()
     assert document.now is start
     document.redo()
-    assert document.now is one
+    assert document.now is first
     document.commit("other", moved(start, 0.03))
     assert document.redo_title is None
 
@@ -71,7 +71,7 @@ def test_reset_goes_back_to_the_opened_mesh_and_can_be_undone(document):
 def test_saving_marks_the_state_that_was_saved(document):
     document.commit("smooth", moved(document.now, 0.01))
     assert document.modified
-    document.saved(Path("b.vtu"))
+    document.mark_saved(Path("b.vtu"))
     assert not document.modified
     assert document.name == "b.vtu"
     document.undo()
@@ -81,7 +81,7 @@ def test_saving_marks_the_state_that_was_saved(document):
     assert document.modified
 
 
-def test_replacing_begins_anew(document, qtbot):
+def test_opening_a_mesh_discards_the_changes(document, qtbot):
     document.commit("smooth", moved(document.now, 0.01))
     with qtbot.waitSignal(document.mesh_replaced):
         document.replace(State.of(grid(2)), None)
@@ -89,11 +89,11 @@ def test_replacing_begins_anew(document, qtbot):
     assert document.start is document.now
 
 
-def test_the_boundary_slides_on_that_of_the_mesh_as_it_was_opened(document):
+def test_the_boundary_slides_on_that_of_the_opened_mesh(document):
     opened = document.now.mesh.points
-    once = document.now.mesh.with_points(1.1 * opened)
-    document.commit("moved", State.of(once.replace(name="pinned since")))
+    scaled = document.now.mesh.with_points(1.1 * opened)
+    document.commit("moved", State.of(scaled.replace(name="pinned since")))
     np.testing.assert_array_equal(document.now.mesh.surface, opened)
     change = surface_change(document.now.mesh, document.now.mesh.with_points(opened))
     assert change.max == 0
-    assert surface_change(document.now.mesh, once).max > 0
+    assert surface_change(document.now.mesh, scaled).max > 0

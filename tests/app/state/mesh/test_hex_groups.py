@@ -1,4 +1,4 @@
-"""Elements that are shown alone by their names."""
+"""Named groups of hexes, and their isolation."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hexmend.quality import measure, summarise
 from hexmend_app.picture.appearance import ColourScale, Isolation, ValueRange
 from hexmend_app.scene.colour.colouring import resolve
 from hexmend_app.state.mesh.document import Document, State
-from hexmend_app.state.mesh.hex_groups import KINDS, hexes_of_group
+from hexmend_app.state.mesh.hex_groups import GROUPS, hexes_of_group
 from hexmend_app.state.view.view_model import ViewModel
 from tests.core.grids import grid, scrambled
 
@@ -16,7 +16,7 @@ MESH = scrambled(grid(6), 0.8, 1)
 FIGURES = measure(MESH.points, MESH.hexes)
 
 
-def test_as_many_are_shown_as_the_figures_count():
+def test_groups_have_as_many_hexes_as_the_summary_counts():
     summary = summarise(MESH, FIGURES)
     assert len(hexes_of_group("inverted", MESH, FIGURES)) == summary.inverted > 0
     assert len(hexes_of_group("locked", MESH, FIGURES)) == summary.locked_inverted
@@ -24,20 +24,20 @@ def test_as_many_are_shown_as_the_figures_count():
     assert len(hexes_of_group("locked", fixed, FIGURES)) == summary.inverted
 
 
-def test_every_name_on_the_colour_bar_is_known():
+def test_every_special_colour_of_the_colour_bar_has_a_group():
     for metric in ("q", "q-change"):
-        for one in resolve(ColourScale(metric), FIGURES.q, FIGURES.inverted).special_colours:
-            assert one.name in KINDS
-            assert hexes_of_group(one.name, MESH, FIGURES).dtype == np.int64
+        for colour in resolve(ColourScale(metric), FIGURES.q, FIGURES.inverted).special_colours:
+            assert colour.name in GROUPS
+            assert hexes_of_group(colour.name, MESH, FIGURES).dtype == np.int64
 
 
-def test_a_movement_tells_who_was_inverted_and_is():
-    was = scrambled(MESH, 0.3, 7)
-    before = measure(was.points, was.hexes)
-    movement = Displacement(MESH, ReferenceState(was.points, before, "then"), MESH.points, FIGURES)
+def test_a_displacement_defines_groups_by_former_and_present_inversion():
+    earlier = scrambled(MESH, 0.3, 7)
+    before = measure(earlier.points, earlier.hexes)
+    displacement = Displacement(MESH, ReferenceState(earlier.points, before, "then"), MESH.points, FIGURES)
     newly, still, mended = (
-        set(hexes_of_group(kind, MESH, FIGURES, movement).tolist())
-        for kind in ("newly inverted", "still inverted", "mended")
+        set(hexes_of_group(group, MESH, FIGURES, displacement).tolist())
+        for group in ("newly inverted", "still inverted", "mended")
     )
     assert newly | still == set(np.flatnonzero(FIGURES.inverted).tolist())
     assert still | mended == set(np.flatnonzero(before.inverted).tolist())
@@ -45,12 +45,12 @@ def test_a_movement_tells_who_was_inverted_and_is():
     assert still
 
 
-def test_another_name_is_refused():
+def test_an_unknown_group_is_an_error():
     with pytest.raises(KeyError, match="known are inverted, locked"):
         hexes_of_group("ugly", MESH, FIGURES)
 
 
-def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
+def test_isolated_hexes_are_shown_whatever_the_other_filters(qapp):
     document = Document()
     document.replace(State.of(MESH), None)
     view = ViewModel(document)
@@ -62,4 +62,4 @@ def test_what_is_isolated_is_shown_alone_and_whatever_its_value(qapp):
     assert (view.look.peel, view.look.dug) == (0, frozenset())
     assert view.look.isolation == Isolation((3, 8), rings=view.rings)
     assert view.look.quality_range is None
-    assert view.rings == 1  # those that are chosen for the next
+    assert view.rings == 1  # for the next isolation

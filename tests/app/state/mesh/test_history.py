@@ -1,4 +1,4 @@
-"""What is kept of runs: every figure, and positions under a limit."""
+"""History of runs: all rows, and positions up to a memory limit."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ FREE = 12 * int(MESH.free.sum())  # bytes of an iteration
 
 
 def recorded(history, iterations=20, start=None):
-    """A run of local-sd, kept; the record and the iterations as they were."""
+    """Run and record local-sd; return the record, the run and its iterations."""
     start = start or State.of(MESH)
     record = history.begin("Local steepest descent", start)
     run = iterate(start.mesh, "local-sd", StoppingCriteria(max_iterations=iterations, tolerance=0))
@@ -30,22 +30,22 @@ def recorded(history, iterations=20, start=None):
     return record, run, seen
 
 
-def test_every_iteration_is_there_as_it_was():
+def test_every_iteration_is_recorded():
     history = History()
     record, run, seen = recorded(history)
     assert [row["iteration"] for row in record.rows] == list(range(21))
     assert [row["q_min"] for row in record.rows] == [row["q_min"] for row in run.history]
-    assert history.kept(record).tolist() == list(range(21))
+    assert history.recorded_numbers(record).tolist() == list(range(21))
     assert history.bytes == 20 * FREE
     for iteration in seen:
         state = history.state(RecordedIteration(record, iteration.number), MESH)
-        way = np.abs(iteration.points - MESH.points).max()
-        np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=way * 1.2e-7)
+        largest = np.abs(iteration.points - MESH.points).max()
+        np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=largest * 1.2e-7)
         np.testing.assert_array_equal(state.mesh.points[~MESH.free], MESH.points[~MESH.free])
         assert history.moment_of(state) == RecordedIteration(record, iteration.number)
 
 
-def test_a_boundary_that_slides_is_there_at_every_iteration():
+def test_a_sliding_boundary_is_recorded_at_every_iteration():
     history = History()
     boundary = SLANTED.topology.boundary
     record = history.begin("Mend", State.of(SLANTED))
@@ -68,7 +68,7 @@ def test_a_result_is_exact():
     assert history.state(RecordedIteration(record, 0), MESH) is record.start
 
 
-def test_of_a_run_that_was_removed_nothing_more_is_kept():
+def test_nothing_more_is_recorded_of_a_removed_run():
     history = History()
     record, _, seen = recorded(history)
     history.clear()
@@ -77,40 +77,40 @@ def test_of_a_run_that_was_removed_nothing_more_is_kept():
     assert len(record.rows) == len(seen)
 
 
-@given(kept=st.integers(1, 25))
-def test_positions_fit_the_limit_and_the_ends_stay(kept):
-    history = History(kept * FREE)
+@given(count=st.integers(1, 25))
+def test_positions_meet_the_limit_and_the_first_and_last_stay(count):
+    history = History(count * FREE)
     record, _, _ = recorded(history, 24)
-    numbers = history.kept(record)
+    numbers = history.recorded_numbers(record)
     assert history.bytes == FREE * (len(numbers) - 1) <= history.limit
-    assert len(numbers) == 1 + min(kept, 24)
+    assert len(numbers) == 1 + min(count, 24)
     assert (numbers[0], numbers[-1]) == (0, 24)
     assert len(record.rows) == 25
 
 
-def test_the_older_the_further_apart():
+def test_older_positions_are_further_apart():
     history = History(30 * FREE)
     record, _, _ = recorded(history, 300)
-    gaps = np.diff(history.kept(record))
+    gaps = np.diff(history.recorded_numbers(record))
     assert gaps[-10:].max() <= 3
     assert gaps.sum() == 300
     early, late = gaps[: len(gaps) // 2].mean(), gaps[len(gaps) // 2 :].mean()
     assert early > 4 * late
 
 
-def test_a_lower_limit_thins_at_once_and_the_nearest_is_shown():
+def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():
     history = History()
     record, _, _ = recorded(history)
     history.limit = 4 * FREE
-    numbers = history.kept(record)
+    numbers = history.recorded_numbers(record)
     assert len(numbers) == 5
-    gone = next(n for n in range(20) if n not in numbers)
-    moment = history.moment_of(history.state(RecordedIteration(record, gone), MESH))
+    dropped = next(n for n in range(20) if n not in numbers)
+    moment = history.moment_of(history.state(RecordedIteration(record, dropped), MESH))
     assert moment.number in numbers
-    assert abs(moment.number - gone) == np.abs(numbers - gone).min()
+    assert abs(moment.number - dropped) == np.abs(numbers - dropped).min()
 
 
-def test_a_run_knows_what_it_branched_from_and_has_a_name_of_its_own():
+def test_a_branch_has_its_parent_and_a_unique_name():
     history = History()
     first, _, _ = recorded(history)
     middle = history.state(RecordedIteration(first, 7), MESH)
@@ -123,7 +123,7 @@ def test_a_run_knows_what_it_branched_from_and_has_a_name_of_its_own():
     assert history.bytes == 3 * FREE
 
 
-def test_what_is_pinned_since_stays_pinned():
+def test_nodes_pinned_after_a_run_are_pinned_in_its_iterations():
     history = History()
     record, _, _ = recorded(history)
     pinned = MESH.topology.boundary.copy()
@@ -136,7 +136,7 @@ def test_what_is_pinned_since_stays_pinned():
 
 
 @pytest.mark.parametrize("added", [0, 1])
-def test_a_run_without_iterations_is_not_kept(added):
+def test_a_run_without_iterations_is_removed(added):
     history = History()
     record, run, _ = recorded(history, added)
     result = RecordedIteration(record, added) if added else None
@@ -145,7 +145,7 @@ def test_a_run_without_iterations_is_not_kept(added):
 
 
 @pytest.mark.parametrize("number", [0, 7, 20])
-def test_what_is_tagged_or_pinned_since_is_of_the_same_iteration(number):
+def test_tagging_and_pinning_do_not_change_the_iteration_of_a_state(number):
     history = History()
     record, run, _ = recorded(history)
     history.finish(record, RecordedIteration(record, 20), State.of(run.result().mesh), "Done.")
@@ -153,6 +153,6 @@ def test_what_is_tagged_or_pinned_since_is_of_the_same_iteration(number):
     for change in ({"hex_sets": {"tagged": np.array([3])}}, {"pinned": MESH.topology.boundary.copy()}):
         changed = State.of(shown.mesh.replace(**change))
         assert history.moment_of(changed) == RecordedIteration(record, number)
-        shown = changed  # and the one before is gone
+        shown = changed  # the state before is deleted
     assert history.begin("Mend", shown).parent == RecordedIteration(record, number)
     assert history.moment_of(State.of(scrambled(grid(5), 0.3))) is None

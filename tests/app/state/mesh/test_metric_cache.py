@@ -1,4 +1,4 @@
-"""Values of metrics, worked out once."""
+"""Metric values are computed once and cached."""
 
 import gc
 import weakref
@@ -15,25 +15,25 @@ MESH = scrambled(grid(3), 0.4)
 
 
 @pytest.mark.parametrize("name", METRICS)
-def test_values_are_those_of_the_metric_and_worked_out_once(name):
+def test_values_are_those_of_the_metric_and_cached(name):
     figures = measure(MESH.points, MESH.hexes)
-    found = metric_values(name, MESH.points, MESH.hexes, figures)
-    np.testing.assert_array_equal(found, METRICS[name].of(MESH.points, MESH.hexes, figures))
-    assert metric_values(name, MESH.points, MESH.hexes, figures) is found
+    values = metric_values(name, MESH.points, MESH.hexes, figures)
+    np.testing.assert_array_equal(values, METRICS[name].of(MESH.points, MESH.hexes, figures))
+    assert metric_values(name, MESH.points, MESH.hexes, figures) is values
 
 
-def test_figures_of_other_points_have_other_values():
+def test_other_points_have_other_values():
     other = scrambled(grid(3), 0.1)
     first = metric_values("skew", MESH.points, MESH.hexes, measure(MESH.points, MESH.hexes))
     assert (metric_values("skew", other.points, other.hexes, measure(other.points, other.hexes)) != first).any()
 
 
-def test_few_metrics_are_remembered_and_none_of_figures_that_are_gone():
+def test_three_metrics_are_cached_as_long_as_the_quality_lives():
     figures = measure(MESH.points, MESH.hexes)
     for name in METRICS:
         metric_values(name, MESH.points, MESH.hexes, figures)
-    assert len(metric_cache.REMEMBERED[figures]) == 3
-    held = weakref.ref(metric_values("volume", MESH.points, MESH.hexes, figures))
+    assert len(metric_cache.CACHE[figures]) == 3
+    values = weakref.ref(metric_values("volume", MESH.points, MESH.hexes, figures))
     del figures
     gc.collect()
-    assert held() is None
+    assert values() is None

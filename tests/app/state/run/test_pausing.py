@@ -1,4 +1,4 @@
-"""A run that pauses at break-points."""
+"""Pausing of runs at breakpoints."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -16,7 +16,7 @@ from hexmend_app.state.session.session import Session
 from tests.core.grids import grid, scrambled
 from tests.patience import PATIENCE
 
-MESH = gallery.make("bridge-sharp", size=864)  # Laplacian inverts hexes of it
+MESH = gallery.make("bridge-sharp", size=864)  # Laplacian smoothing inverts some of its hexes
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def session(qtbot):
     session.close()
 
 
-def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtbot):
+def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtbot):
     smoothing = session.run
     smoothing.break_at(Breakpoints(inverts=True))
     pauses = [b.number for a, b in pairwise(run) if Breakpoints(inverts=True).hit(a, b, 1.0)]
@@ -53,7 +53,7 @@ def test_a_run_pauses_at_the_iteration_and_not_before_or_after(session, run, qtb
     assert smoothing.record.newest == 15
 
 
-def test_break_points_can_be_set_while_it_runs(session, qtbot):
+def test_breakpoints_can_be_set_during_a_run(session, qtbot):
     session.document.replace(State.of(scrambled(grid(6), 0.4)), Path("b.vtu"))
     session.run.start(Laplacian(), StoppingCriteria(max_iterations=10**6, tolerance=0))
     qtbot.waitUntil(lambda: session.run.phase is Phase.RUNNING, timeout=PATIENCE)

@@ -1,4 +1,4 @@
-"""Runs that are made again know what a window has known of them."""
+"""Repeated runs have the records of the original ones."""
 
 import numpy as np
 import pytest
@@ -17,28 +17,28 @@ def mesh():
     return make("bridge-sharp", size=300, scramble=0.4, seed=1)
 
 
-def test_it_has_the_rows_of_the_run_and_the_places_that_are_asked_for(mesh):
+def test_a_repeated_run_has_the_same_rows_and_the_requested_positions(mesh):
     run = rerun("mine", mesh, METHODS["local-sd"](), SHORT, keep=[2, 4], slot=3)
-    each = list(iterate(mesh, METHODS["local-sd"](), SHORT))
+    iterations = list(iterate(mesh, METHODS["local-sd"](), SHORT))
     assert (run.name, run.slot, run.newest) == ("mine", 3, 6)
-    assert [row["q_mean"] for row in run.rows[1:]] == [it.row()["q_mean"] for it in each]
+    assert [row["q_mean"] for row in run.rows[1:]] == [iteration.row()["q_mean"] for iteration in iterations]
     assert run.numbers().tolist() == [0, 2, 4, 6]
-    np.testing.assert_allclose(run.points(4), each[3].points, atol=1e-6)
-    assert np.array_equal(run.points(6), each[5].points)
+    np.testing.assert_allclose(run.points(4), iterations[3].points, atol=1e-6)
+    assert np.array_equal(run.points(6), iterations[5].points)
 
 
 @pytest.mark.parametrize("until", [0, 3])
-def test_it_ends_where_it_was_ended(mesh, until):
+def test_a_repeated_run_ends_after_the_given_iteration(mesh, until):
     run = rerun("mine", mesh, METHODS["local-sd"](), StoppingCriteria(max_iterations=10_000, tolerance=0), until=until)
     assert run.newest == until
 
 
-def test_it_goes_on_with_what_was_chosen_on_the_way(mesh):
+def test_a_repeated_run_switches_the_method(mesh):
     run = rerun("mine", mesh, METHODS["local-sd"](), SHORT, changes=[(2, Stage(METHODS["laplacian"](), SHORT))])
     assert [row["method"] for row in run.rows] == ["local-sd"] * 3 + ["laplacian"] * 4
 
 
-def test_a_branch_knows_where_it_began(mesh):
+def test_a_branch_has_its_parent_iteration(mesh):
     first = rerun("first", mesh, METHODS["laplacian"](), SHORT)
     branch = rerun("second", mesh, METHODS["laplacian"](), SHORT, parent=(first, 2))
     assert branch.parent.name == "first 2"

@@ -23,7 +23,7 @@ SLOW = StoppingCriteria(tolerance=0, max_iterations=100_000)
 
 
 class Failing(Smoother):
-    """Raises in its second step."""
+    """Method that raises in its second step."""
 
     name, title, help, source = "failing", "Failing", "Fails.", "test"
 
@@ -51,7 +51,7 @@ def phase_is(smoothing, phase):
     return lambda: smoothing.phase is phase
 
 
-def test_a_run_ends_where_the_command_line_ends(document, smoothing, qtbot):
+def test_a_run_has_the_result_of_the_command_line(document, smoothing, qtbot):
     expected = smooth(document.now.mesh, LocalSteepestDescent())
     with qtbot.waitSignal(smoothing.ended, timeout=PATIENCE) as ended:
         smoothing.start(LocalSteepestDescent(), StoppingCriteria())
@@ -79,13 +79,13 @@ def test_steps_are_single_iterations_and_resume_goes_on(document, smoothing, qtb
     qtbot.waitUntil(lambda: seen[-1] > 6, timeout=5000)
     smoothing.pause()
     qtbot.waitUntil(phase_is(smoothing, Phase.PAUSED), timeout=5000)
-    turn()  # what was on its way when it paused
+    turn()  # signals that were queued when it paused
     with qtbot.assertNotEmitted(smoothing.iterated, wait=150):
         pass
     assert seen == sorted(set(seen))
 
 
-def test_stop_keeps_what_was_reached(document, smoothing, qtbot):
+def test_stop_keeps_the_result(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
     qtbot.waitUntil(phase_is(smoothing, Phase.RUNNING), timeout=PATIENCE)
     with qtbot.waitSignal(smoothing.ended, timeout=5000) as ended:
@@ -104,7 +104,7 @@ def test_stop_ends_a_paused_run(document, smoothing, qtbot):
 
 
 @pytest.mark.parametrize("iterations", [1, float("inf")])
-def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
+def test_closing_leaves_no_thread(document, smoothing, qtbot, iterations):
     with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
         smoothing.start(LocalSteepestDescent(), SLOW, iterations=iterations)
     smoothing.close()
@@ -113,7 +113,7 @@ def test_shutting_down_leaves_no_thread(document, smoothing, qtbot, iterations):
     assert running() == ()
 
 
-def test_another_mesh_comes_without_a_wait_for_the_iteration_at_hand(document, smoothing, qtbot, monkeypatch):
+def test_a_mesh_is_replaced_without_waiting_for_the_current_iteration(document, smoothing, qtbot, monkeypatch):
     with qtbot.waitSignal(smoothing.iterated, timeout=PATIENCE):
         smoothing.start(LocalSteepestDescent(), SLOW)
     with monkeypatch.context() as patch:
@@ -124,7 +124,7 @@ def test_another_mesh_comes_without_a_wait_for_the_iteration_at_hand(document, s
     assert running() == ()
 
 
-def test_a_method_that_raises_leaves_the_last_good_iteration_which_undo_takes_back(document, smoothing, qtbot):
+def test_a_method_that_raises_leaves_its_last_iteration_which_can_be_undone(document, smoothing, qtbot):
     before = document.now
     with qtbot.waitSignal(smoothing.failed, timeout=PATIENCE) as failed:
         smoothing.start(Failing(), SLOW)
@@ -136,7 +136,7 @@ def test_a_method_that_raises_leaves_the_last_good_iteration_which_undo_takes_ba
     assert document.now is before
 
 
-def test_a_mailbox_holds_the_newest_only():
+def test_a_mailbox_has_the_newest_frame_only():
     box = Mailbox()
     assert box.take() is None
     box.put("one")
@@ -145,24 +145,24 @@ def test_a_mailbox_holds_the_newest_only():
     assert box.take() is None
 
 
-def test_metrics_that_are_wanted_are_measured_by_the_worker(document, smoothing, qtbot):
+def test_requested_metrics_are_computed_by_the_worker(document, smoothing, qtbot):
     frames = []
     smoothing.iterated.connect(frames.append)
-    smoothing.want({"condition"})
+    smoothing.request_metrics({"condition"})
     smoothing.start(LocalSteepestDescent(), StoppingCriteria(), iterations=1)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=PATIENCE)
-    assert "condition" in metric_cache.REMEMBERED[frames[0].state.figures]
+    assert "condition" in metric_cache.CACHE[frames[0].state.figures]
     assert smoothing.record.name == "Local steepest descent"
-    smoothing.want({"taper", "q"})  # in the middle of a run
+    smoothing.request_metrics({"taper", "q"})  # during a run
     smoothing.step()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=PATIENCE)
-    assert set(metric_cache.REMEMBERED[frames[1].state.figures]) == {"taper", "q"}
+    assert set(metric_cache.CACHE[frames[1].state.figures]) == {"taper", "q"}
 
 
-def test_stop_is_answered_within_one_iteration(document, smoothing, qtbot):
+def test_stop_takes_effect_within_one_iteration(document, smoothing, qtbot):
     smoothing.start(LocalSteepestDescent(), SLOW)
     qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 3, timeout=PATIENCE)
     with qtbot.waitSignal(smoothing.ended, timeout=5000):
         smoothing.stop()
-        begun = smoothing.record.newest
-    assert smoothing.record.newest <= begun + 1
+        newest = smoothing.record.newest
+    assert smoothing.record.newest <= newest + 1

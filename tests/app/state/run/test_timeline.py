@@ -1,4 +1,4 @@
-"""Going through runs: back, on, played, branched, while a run goes on."""
+"""Timeline: stepping, playing and branching, also during a run."""
 
 from pathlib import Path
 
@@ -47,7 +47,7 @@ def test_no_iteration_is_lost_and_all_are_shown_in_order(session, qtbot):
     np.testing.assert_allclose(session.document.now.mesh.points, expected.mesh.points, atol=1e-7)
 
 
-def test_a_whole_run_is_one_undo_step_wherever_one_looks(session, qtbot):
+def test_a_run_is_one_undo_step_at_any_iteration(session, qtbot):
     record = run(qtbot, session)
     end = session.document.now
     session.timeline.go(record, 5)
@@ -61,22 +61,22 @@ def test_a_whole_run_is_one_undo_step_wherever_one_looks(session, qtbot):
     assert session.timeline.moment.number == 12
 
 
-def test_a_branch_goes_on_from_the_iteration_shown_and_is_undone_alone(session, qtbot):
+def test_a_branch_starts_from_the_iteration_shown_and_is_one_undo_step(session, qtbot):
     first = run(qtbot, session)
     end = session.document.now
     session.timeline.go(first, 4)
-    there = session.document.now.mesh.points
+    points = session.document.now.mesh.points
     second = run(qtbot, session, Laplacian(), 3)
     assert second.parent.record is first
     assert second.parent.number == 4
-    np.testing.assert_array_equal(second.points(0), there)
+    np.testing.assert_array_equal(second.points(0), points)
     assert session.timeline.record is second
     session.document.undo()
     assert session.document.now is end
     assert session.timeline.record is first
 
 
-def test_one_looks_back_while_the_run_goes_on(session, qtbot):
+def test_earlier_iterations_can_be_shown_during_a_run(session, qtbot):
     timeline, smoothing = session.timeline, session.run
     smoothing.start(LocalSteepestDescent(), ENDLESS)
     qtbot.waitUntil(lambda: smoothing.record is not None and smoothing.record.newest > 20, timeout=PATIENCE)
@@ -91,11 +91,11 @@ def test_one_looks_back_while_the_run_goes_on(session, qtbot):
     timeline.go(smoothing.record, 3)
     with qtbot.waitSignal(smoothing.ended, timeout=5000):
         smoothing.stop()
-    assert timeline.moment.number == 3  # the end is recorded, and not thrust upon who looks elsewhere
+    assert timeline.moment.number == 3  # the result is recorded but not shown, as the user views an iteration
     assert session.document.undo_title == "Local steepest descent"
 
 
-def test_a_paused_run_goes_on_from_its_newest_iteration(session, qtbot):
+def test_a_paused_run_resumes_from_its_newest_iteration(session, qtbot):
     timeline, smoothing = session.timeline, session.run
     smoothing.start(LocalSteepestDescent(), ENDLESS, iterations=8)
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
@@ -105,7 +105,7 @@ def test_a_paused_run_goes_on_from_its_newest_iteration(session, qtbot):
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
 
 
-def test_it_plays_to_the_end_and_holds(session, qtbot):
+def test_playing_pauses_at_the_end(session, qtbot):
     record = run(qtbot, session)
     shown = []
     session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
@@ -121,7 +121,7 @@ def test_it_plays_to_the_end_and_holds(session, qtbot):
     assert not session.timeline.playing
 
 
-def test_of_many_wishes_the_last_counts(session, qtbot):
+def test_of_several_requests_the_last_counts(session, qtbot):
     record = run(qtbot, session)
     shown = []
     session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
@@ -139,7 +139,7 @@ def test_another_mesh_has_no_history_yet(session, qtbot):
     assert session.timeline.moment is None
 
 
-def test_tags_given_after_a_run_leave_one_where_one_is(session, qtbot):
+def test_tagging_does_not_change_the_iteration_shown(session, qtbot):
     record = run(qtbot, session)
     commands = session.commands
     commands.tag("bad", [1, 2])

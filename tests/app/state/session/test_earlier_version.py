@@ -16,7 +16,7 @@ from hexmend_app.picture.cut import CutStyle
 from hexmend_app.picture.cut_planes import BoxClip
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings import settings
-from tests.app.conftest import close, kept_apart, made
+from tests.app.conftest import close, separate_settings, window_with_mesh
 from tests.app.driving import open_and_wait
 
 FILES = Path(__file__).parent / "files"
@@ -100,12 +100,12 @@ def test_a_picture_of_version_0_1_opens_its_mesh_as_it_shows_it(fresh_window, qt
 @pytest.fixture
 def window_with_old_settings(qtbot, tmp_path, mesh_file):
     """A window whose settings version 0.1 wrote."""
-    with kept_apart(tmp_path / "settings"):
+    with separate_settings(tmp_path / "settings"):
         file = Path(QSettings().fileName())
         file.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(FILES / "settings-0.1.conf", file)
         QSettings().sync()
-        window = made(qtbot, mesh_file)
+        window = window_with_mesh(qtbot, mesh_file)
         yield window
         close(window)
 

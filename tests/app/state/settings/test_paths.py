@@ -1,4 +1,4 @@
-"""Where the program keeps things of its own, on each system."""
+"""The state folder on each system."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hexmend_app.state.settings.paths import VARIABLE, state_folder
     ("win32", {"LOCALAPPDATA": "/data"}, "/data/Hexmend"),
     ("linux", {VARIABLE: "/own", "XDG_STATE_HOME": "/x"}, "/own"),
 ])  # fmt: skip
-def test_each_system_has_its_place(system, variables, expected, monkeypatch, tmp_path):
+def test_the_folder_follows_the_convention_of_the_system(system, variables, expected, monkeypatch, tmp_path):
     for name in (VARIABLE, "XDG_STATE_HOME", "LOCALAPPDATA"):
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():

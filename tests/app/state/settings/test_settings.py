@@ -1,4 +1,4 @@
-"""What is remembered from one start to the next."""
+"""Settings that are stored between starts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import hexmend_app
 from hexmend_app.state.settings import settings
 from hexmend_app.state.settings.settings import Setting
 
-ALL = {name: one for name, one in vars(settings).items() if isinstance(one, Setting)}
+ALL = {name: value for name, value in vars(settings).items() if isinstance(value, Setting)}
 OTHERS = {
     "GEOMETRY": QByteArray(b"\0\1here"),
     "PANELS": {"hidden": True, "closed": ["tags"], "all": QByteArray(b"\0\1")},
@@ -25,49 +25,49 @@ OTHERS = {
 
 
 @pytest.fixture(autouse=True)
-def kept(tmp_path, monkeypatch):
-    """A file of settings of the test's own; read anew each time."""
+def file(tmp_path, monkeypatch):
+    """Store settings in a temporary file, which is read at every access."""
     path = str(tmp_path / "settings.ini")
     monkeypatch.setattr(settings, "QSettings", lambda: QSettings(path, QSettings.Format.IniFormat))
     return Path(path)
 
 
-def test_each_key_is_there_once():
-    assert len({one.key for one in ALL.values()}) == len(ALL)
+def test_keys_are_unique():
+    assert len({setting.key for setting in ALL.values()}) == len(ALL)
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_what_is_kept_is_read_as_it_was(name, kept):
-    one = ALL[name]
-    assert one.get() == one.default
-    one.set(OTHERS[name])
-    assert kept.exists()
-    assert one.get() == OTHERS[name] != one.default
-    assert type(one.get()) is type(one.default)
+def test_a_stored_value_is_read_unchanged(name, file):
+    setting = ALL[name]
+    assert setting.get() == setting.default
+    setting.set(OTHERS[name])
+    assert file.exists()
+    assert setting.get() == OTHERS[name] != setting.default
+    assert type(setting.get()) is type(setting.default)
 
 
 @pytest.mark.parametrize("name", sorted(ALL.keys() - {"THEME", "FOLDER"}))
-def test_what_cannot_be_read_gives_what_stands_at_first(name):
-    one = ALL[name]
-    settings.QSettings().setValue(one.key, "not {this}")
-    assert one.get() == one.default
+def test_an_invalid_value_gives_the_default(name):
+    setting = ALL[name]
+    settings.QSettings().setValue(setting.key, "not {this}")
+    assert setting.get() == setting.default
 
 
-@pytest.mark.parametrize("kept", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
-def test_a_place_that_cannot_be_read_is_home(kept):
-    one = settings.place_of("card", (1.0, 0.5))
-    one.set((0.25, 0.0))
-    assert settings.place_of("card", (1.0, 0.5)).get() == (0.25, 0.0)
-    settings.QSettings().setValue(one.key, kept)
-    assert one.get() == (1.0, 0.5)
-    one.set((0.25, 0.0))
-    one.forget()
-    assert one.get() == (1.0, 0.5)
+@pytest.mark.parametrize("stored", ["", "nonsense", "2 0.5", "nan nan", "0.5"])
+def test_an_invalid_or_cleared_position_gives_the_default(stored):
+    setting = settings.overlay_position("card", (1.0, 0.5))
+    setting.set((0.25, 0.0))
+    assert settings.overlay_position("card", (1.0, 0.5)).get() == (0.25, 0.0)
+    settings.QSettings().setValue(setting.key, stored)
+    assert setting.get() == (1.0, 0.5)
+    setting.set((0.25, 0.0))
+    setting.clear()
+    assert setting.get() == (1.0, 0.5)
 
 
-def test_the_settings_are_asked_nowhere_else():
+def test_only_this_module_uses_qsettings():
     root = Path(hexmend_app.__file__).parent
-    asking = {
+    users = {
         str(path.relative_to(root)) for path in root.rglob("*.py") if re.search(r"\bQSettings\b", path.read_text())
     }
-    assert asking == {"state/settings/settings.py"}
+    assert users == {"state/settings/settings.py"}

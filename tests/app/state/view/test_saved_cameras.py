@@ -1,4 +1,4 @@
-"""Cameras that are kept by name, and what a session's file says of them."""
+"""Saved cameras, and their data in session files."""
 
 import threading
 
@@ -25,14 +25,14 @@ def cameras(qtbot):
     return SavedCameras()
 
 
-def test_a_name_stands_for_the_camera_that_was_kept_last(cameras):
-    told = []
-    cameras.changed.connect(lambda: told.append(dict(cameras.all)))
-    cameras.keep("front", X)
-    cameras.keep("side", X)
-    cameras.keep("front", Y)
-    cameras.keep("front", Y)
-    assert told == [{"front": X}, {"front": X, "side": X}, {"front": Y, "side": X}]
+def test_a_camera_replaces_one_with_the_same_name(cameras):
+    changes = []
+    cameras.changed.connect(lambda: changes.append(dict(cameras.all)))
+    cameras.add("front", X)
+    cameras.add("side", X)
+    cameras.add("front", Y)
+    cameras.add("front", Y)
+    assert changes == [{"front": X}, {"front": X, "side": X}, {"front": Y, "side": X}]
     cameras.rename("front", "in front")
     assert list(cameras.all) == ["in front", "side"]
     cameras.rename("in front", "side")
@@ -42,37 +42,37 @@ def test_a_name_stands_for_the_camera_that_was_kept_last(cameras):
 
 
 @pytest.mark.parametrize("name", ["", " front", "a\nb", "x" * 300])
-def test_a_name_that_cannot_be_written_is_refused(cameras, name):
+def test_an_invalid_name_is_an_error(cameras, name):
     with pytest.raises(ParameterError):
-        cameras.keep(name, X)
+        cameras.add(name, X)
     assert cameras.all == {}
 
 
-def test_there_is_an_end(cameras):
+def test_the_number_of_cameras_is_limited(cameras):
     for number in range(MOST):
-        cameras.keep(str(number), X)
+        cameras.add(str(number), X)
     with pytest.raises(ParameterError, match="101 entries: expected 100"):
-        cameras.keep("one more", X)
+        cameras.add("one more", X)
     cameras.add_all({"another": Y, "3": X})
     assert len(cameras.all) == MOST
 
 
-def test_those_of_a_scene_are_taken_in_and_take_no_name_away(cameras):
-    cameras.keep("front", X)
-    for _ in range(2):  # the same again are there already
+def test_cameras_of_a_scene_are_added_under_free_names(cameras):
+    cameras.add("front", X)
+    for _ in range(2):  # equal cameras are not added again
         cameras.add_all({"front": Y, "top": Y})
         assert cameras.all == {"front": X, "front (2)": Y, "top": Y}
     assert merged({}, {"front": Y}) == {"front": Y}
 
 
-def test_what_a_file_has_is_not_modified(cameras):
-    cameras.keep("front", X)
+def test_saved_cameras_are_not_modified(cameras):
+    cameras.add("front", X)
     assert cameras.modified
-    cameras.saved()
+    cameras.mark_saved()
     assert not cameras.modified
     cameras.restore(NamedCameras({"top": Y}))
     assert cameras.modified
-    cameras.saved()
+    cameras.mark_saved()
     assert not cameras.modified
 
 
@@ -84,24 +84,22 @@ def session(qtbot, tmp_path):
     session.close()
 
 
-def test_a_session_with_other_cameras_than_its_file_is_modified(session, tmp_path):
-    session.saved_cameras.keep("front", X)
-    assert not session.modified  # a mesh's file has none
+def test_a_session_is_modified_if_its_cameras_differ_from_its_file(session, tmp_path):
+    session.saved_cameras.add("front", X)
+    assert not session.modified  # a mesh file has no cameras
     save_and_wait(session, tmp_path / "work.hexmend")
     assert not session.modified
-    session.saved_cameras.keep("top", Y)
+    session.saved_cameras.add("top", Y)
     assert session.modified
     assert session.document.undo_title is None
     save_and_wait(session, tmp_path / "work.hexmend")
     assert not session.modified
 
 
-def test_a_session_that_was_saved_while_another_was_opened_leaves_that_unmodified(
-    session, tmp_path, qtbot, monkeypatch
-):
+def test_saving_a_session_while_another_is_opened_does_not_modify_the_other(session, tmp_path, qtbot, monkeypatch):
     save_and_wait(session, tmp_path / "other.hexmend")
     session.document.replace(State.of(grid(3)), tmp_path / "mesh.vtu")
-    session.saved_cameras.keep("front", X)
+    session.saved_cameras.add("front", X)
     opened, write = threading.Event(), session_data.write
 
     def slow(*values):
@@ -121,9 +119,9 @@ def test_a_session_that_was_saved_while_another_was_opened_leaves_that_unmodifie
     assert cameras_of(tmp_path / "work.hexmend") == {"front": X}
 
 
-def test_a_file_names_its_cameras_and_says_what_is_wrong_with_them(session, tmp_path):
-    session.saved_cameras.keep("front", X)
-    session.saved_cameras.keep("top", Y)
+def test_cameras_are_read_from_a_file_and_errors_name_the_camera(session, tmp_path):
+    session.saved_cameras.add("front", X)
+    session.saved_cameras.add("top", Y)
     path = tmp_path / "work.hexmend"
     save_and_wait(session, path)
     assert cameras_of(path) == {"front": X, "top": Y}

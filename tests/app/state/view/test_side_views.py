@@ -1,4 +1,4 @@
-"""Views beside that of the mesh as it is now: which, how many, and how they lie."""
+"""Side views: their number, their names and their arrangement."""
 
 import pytest
 
@@ -26,27 +26,27 @@ def states(document):
     return [State.of(mesh.with_points(mesh.points * scale)) for scale in (1.0, 2.0, 3.0, 4.0)]
 
 
-def test_there_is_room_for_four_with_that_of_the_mesh(views, states):
-    told = []
-    views.changed.connect(lambda: told.append(len(views.all)))
+def test_there_are_at_most_three_side_views(views, states):
+    counts = []
+    views.changed.connect(lambda: counts.append(len(views.all)))
     assert [views.show(str(k), state) for k, state in enumerate(states)] == [True, True, True, False]
-    assert told == [1, 2, 3]
+    assert counts == [1, 2, 3]
     assert views.full
     assert MOST == 3
     assert [views.shows(state) for state in states] == [True, True, True, False]
 
 
-def test_a_name_has_one_view_whatever_it_shows(views, states):
+def test_a_view_with_the_same_name_is_reused(views, states):
     for state in states:
         assert views.show("iteration", state)
-    assert [one.state for one in views.all] == [states[-1]]
+    assert [view.state for view in views.all] == [states[-1]]
 
 
 def test_views_are_closed_by_number_or_all_or_with_the_mesh(views, states, document):
     for k, state in enumerate(states[:3]):
         views.show(str(k), state)
     views.close_view(2)
-    assert [one.name for one in views.all] == ["0", "2"]
+    assert [view.name for view in views.all] == ["0", "2"]
     document.replace(State.of(gallery.make("cube", size=27)), None)
     assert views.all == ()
 
@@ -64,7 +64,7 @@ def test_a_wipe_needs_two_views_and_ends_with_the_second(views, states):
     assert views.wipe is None
 
 
-def test_the_sides_of_a_wipe_change_places_where_one_is_chosen_for_both(views, states):
+def test_choosing_one_view_for_both_sides_swaps_the_sides(views, states):
     for k, state in enumerate(states[:2]):
         views.show(str(k), state)
     views.set_wiping(True)
@@ -74,35 +74,35 @@ def test_the_sides_of_a_wipe_change_places_where_one_is_chosen_for_both(views, s
     assert (views.wipe.left, views.wipe.right) == (2, 1)
 
 
-@pytest.mark.parametrize(("asked", "low", "high"), [(-3.0, 0.01, 0.1), (0.4, 0.4, 0.4), (7.0, 0.9, 0.99)])
-def test_the_edge_stays_within_the_view(views, states, asked, low, high):
+@pytest.mark.parametrize(("requested", "low", "high"), [(-3.0, 0.01, 0.1), (0.4, 0.4, 0.4), (7.0, 0.9, 0.99)])
+def test_the_edge_stays_within_the_view(views, states, requested, low, high):
     views.show("a", states[0])
     views.move_wipe(0.2)
     assert views.wipe is None
     views.set_wiping(True)
-    told = []
-    views.wiped.connect(lambda: told.append(views.wipe.at))
-    views.move_wipe(asked)
+    positions = []
+    views.wiped.connect(lambda: positions.append(views.wipe.at))
+    views.move_wipe(requested)
     assert low <= views.wipe.at <= high
-    assert told == [views.wipe.at]
+    assert positions == [views.wipe.at]
 
 
-def test_distributions_are_kept_as_long_as_a_view_shows_them(document, states):
-    kept = Snapshots(document)
-    views = SideViews(document, kept)
+def test_a_view_has_a_snapshot_as_long_as_it_is_open(document, states):
+    snapshots = Snapshots(document)
+    views = SideViews(document, snapshots)
     views.show("first", states[0])
     views.show("second", states[1])
-    assert [one.name for one in kept.all] == ["first", "second"]
+    assert [snapshot.name for snapshot in snapshots.all] == ["first", "second"]
     views.show("first", states[2])
-    assert [one.name for one in kept.all] == ["second", "first"]
-    assert kept.of(states[0]) is None
+    assert [snapshot.name for snapshot in snapshots.all] == ["second", "first"]
+    assert snapshots.of(states[0]) is None
     views.close_view(1)
-    assert [one.name for one in kept.all] == ["second"]
+    assert [snapshot.name for snapshot in snapshots.all] == ["second"]
     views.close_all()
-    assert kept.all == ()
+    assert snapshots.all == ()
 
 
-def test_a_state_that_is_shown_gets_no_second_view(views, states):
+def test_a_state_has_one_view_only(views, states):
     assert views.show("first", states[0])
     assert views.show("second", states[0])
-    assert [one.name for one in views.all] == ["first"]
+    assert [view.name for view in views.all] == ["first"]
