@@ -1,4 +1,4 @@
-"""Write docs/keys.md from the declarations of the features; a test compares.
+"""Write docs/keys.md from the actions that features declare; a test checks that it is up to date.
 
 Use: QT_QPA_PLATFORM=offscreen python scripts/write_keys.py
 """

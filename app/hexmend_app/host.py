@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Host(Protocol):
-    """The part of the window that features use.
+    """Part of the window that features use.
 
     Attributes
     ----------

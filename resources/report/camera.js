@@ -1,12 +1,12 @@
-// Where the mesh is looked at from: a camera that goes round a target, with z up.
+// Camera that orbits around a target, with z up.
 
-/** Half the angle of what is seen, up and down. */
+/** Half of the vertical view angle, in radians. */
 const HALF = Math.PI / 12;
 
-/** How much larger the picture is than what is seen. */
+/** Ratio of the size of the picture to that of the fitted mesh. */
 const MARGIN = 1.06;
 
-/** Directions that have a name, as angles round z and above the plane x, y. */
+/** Standard views, as angles around z and above the plane x, y, in radians. */
 const DIRECTIONS = {
   iso: [Math.atan2(-1.3, 1), Math.atan2(0.8, Math.hypot(1, 1.3))],
   x: [0, 0],
@@ -15,7 +15,7 @@ const DIRECTIONS = {
 };
 
 class Camera {
-  /** @param {Float32Array} points Around the origin, (n, 3): what is to be seen. */
+  /** @param {Float32Array} points Points to fit, centred at the origin, (n, 3). */
   constructor(points) {
     this.points = points;
     this.radius = 0;
@@ -26,20 +26,20 @@ class Camera {
     this.reset();
   }
 
-  /** Look at all of it from a corner. */
+  /** Fit the mesh in the isometric view. */
   reset() {
     this.target = [0, 0, 0];
     this.zoom = 1;
     this.look("iso");
   }
 
-  /** Look from a direction that has a name. */
+  /** Set a standard view. */
   look(name) {
     [this.round, this.above] = DIRECTIONS[name];
     this.fit();
   }
 
-  /** Find how far away all points are just seen from here; width by height of the picture may be another. */
+  /** Set the distance that fits all points, for a ratio of width to height of the picture. */
   fit(aspect = this.aspect) {
     this.aspect = aspect;
     const [x, y, z] = this.axes();
@@ -52,42 +52,42 @@ class Camera {
     }
   }
 
-  /** Look at a ball. */
+  /** Look at a sphere. */
   approach(middle, radius) {
     this.target = [...middle];
     this.zoom = Math.min(500, (this.away * Math.sin(HALF)) / radius);
   }
 
-  /** Turn by angles. */
+  /** Rotate by angles. */
   turn(round, above) {
     this.round += round;
     this.above = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, this.above + above));
   }
 
-  /** Come closer by a factor. */
+  /** Zoom by a factor. */
   closer(factor) {
     this.zoom = Math.min(200, Math.max(0.2, this.zoom * factor));
   }
 
-  /** Shift what is looked at by shares of the picture's height. */
+  /** Pan by fractions of the height of the picture. */
   shift(right, up) {
     const [x, y] = this.axes();
     const height = 2 * this.distance() * Math.tan(HALF);
     this.target = this.target.map((place, k) => place - height * (right * x[k] + up * y[k]));
   }
 
-  /** How far it is from the target: at a zoom of 1 all of the mesh is seen. */
+  /** Distance from the target; a zoom of 1 fits the mesh. */
   distance() {
     return this.away / this.zoom;
   }
 
-  /** To the right, up, and towards who looks. */
+  /** Unit vectors to the right, up, and towards the viewer. */
   axes() {
     const [c, s, ca, sa] = [this.round, this.above].flatMap((angle) => [Math.cos(angle), Math.sin(angle)]);
     return [[-s, c, 0], [-sa * c, -sa * s, ca], [ca * c, ca * s, sa]];
   }
 
-  /** The matrices that take places to the picture, column by column. */
+  /** View and projection matrices, in column-major order. */
   matrices() {
     const axes = this.axes();
     const away = this.distance();

@@ -1,40 +1,40 @@
-// A mesh as the page holds it: what is drawn of it is found here, and nothing is known of how.
+// Mesh data of the page: decoding, values, and the faces to draw.
 
-/** Corners of the faces of a hexahedron, each going round it. */
+/** Corners of the faces of a hexahedron, in cyclic order. */
 const FACES = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]];
 
-/** Unpack what is kept as base64 of gzip. */
+/** Decode base64 and gzip. */
 async function unpacked(text) {
   const bytes = Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** An array whose bytes are kept in planes: all the first ones, all the second ones, ... */
+/** Join an array from byte planes: the first bytes of all entries, then the second bytes, ... */
 function joined(bytes, [start, count], Type) {
   const width = Type.BYTES_PER_ELEMENT;
-  const answer = new Uint8Array(count * width);
+  const array = new Uint8Array(count * width);
   for (let plane = 0; plane < width; plane++) {
     const from = start + plane * count;
-    for (let k = 0; k < count; k++) answer[k * width + plane] = bytes[from + k];
+    for (let k = 0; k < count; k++) array[k * width + plane] = bytes[from + k];
   }
-  return new Type(answer.buffer);
+  return new Type(array.buffer);
 }
 
-/** A number in four figures. */
+/** Text of a number with four significant digits. */
 function figure(value) {
   return Number.isNaN(value) ? "none" : Number(value.toPrecision(4)).toString();
 }
 
-/** Points, hexes and values of a mesh in one state or several: as it was given, and as methods left it. */
+/** Points, hexes and values of a mesh in one or several states: the original and the results of methods. */
 class HexMesh {
   /**
-   * @param {object} head What the arrays are, and where among the bytes they begin.
+   * @param {object} head Metadata, with the positions of the arrays in `bytes`.
    * @param {Uint8Array} bytes
    */
   constructor(head, bytes) {
     this.head = head;
-    this.hexes = joined(bytes, head.hexes, Int32Array); // (m, 8), each hex less the one before it
+    this.hexes = joined(bytes, head.hexes, Int32Array); // (m, 8), differences to the previous hex
     for (let k = 8; k < this.hexes.length; k++) this.hexes[k] += this.hexes[k - 8];
     this.count = this.hexes.length / 8;
     this.states = head.states.map((state) => ({
@@ -44,55 +44,55 @@ class HexMesh {
       values: state.values.map((place) => joined(bytes, place, Uint16Array)),
     }));
     this.maps = head.maps.map((map) => ({ name: map.name, table: joined(bytes, map.table, Uint8Array) }));
-    this.neighbours = this.foundNeighbours();
-    this.centres = this.foundCentres(this.states[0].points);
+    this.neighbours = this.findNeighbours();
+    this.centres = this.findCentres(this.states[0].points);
   }
 
-  /** The node of a face's corner. */
+  /** Node at a corner of a face. */
   node(hex, face, corner) {
     return this.hexes[8 * hex + FACES[face][corner]];
   }
 
-  /** The hex across each face, (6 m); -1 where there is none. */
-  foundNeighbours() {
-    const answer = new Int32Array(6 * this.count).fill(-1);
-    const keys = new Int32Array(4 * answer.length); // nodes of each face in ascending order
-    const first = new Int32Array(this.states[0].points.length / 3).fill(-1); // by least node, the last face met
-    const next = new Int32Array(answer.length).fill(-1); // and the one before it
-    for (let place = 0; place < answer.length; place++) {
+  /** Return the neighbour of each hex across each face, (6 m); -1 at the boundary. */
+  findNeighbours() {
+    const neighbours = new Int32Array(6 * this.count).fill(-1);
+    const keys = new Int32Array(4 * neighbours.length); // nodes of each face in ascending order
+    const first = new Int32Array(this.states[0].points.length / 3).fill(-1); // last visited face by smallest node
+    const next = new Int32Array(neighbours.length).fill(-1); // previous face with the same smallest node
+    for (let place = 0; place < neighbours.length; place++) {
       const hex = Math.floor(place / 6);
       const nodes = [0, 1, 2, 3].map((corner) => this.node(hex, place % 6, corner)).sort((a, b) => a - b);
       keys.set(nodes, 4 * place);
       let other = first[nodes[0]];
       while (other >= 0 && !nodes.every((node, k) => node === keys[4 * other + k])) other = next[other];
-      if (other >= 0 && answer[other] < 0) {
-        answer[place] = Math.floor(other / 6);
-        answer[other] = hex;
+      if (other >= 0 && neighbours[other] < 0) {
+        neighbours[place] = Math.floor(other / 6);
+        neighbours[other] = hex;
       }
       next[place] = first[nodes[0]];
       first[nodes[0]] = place;
     }
-    return answer;
+    return neighbours;
   }
 
-  /** Middles of the hexes, (m, 3). */
-  foundCentres(points) {
-    const answer = new Float32Array(3 * this.count);
+  /** Return the centres of the hexes, (m, 3). */
+  findCentres(points) {
+    const centres = new Float32Array(3 * this.count);
     for (let k = 0; k < this.hexes.length; k++) {
-      for (let axis = 0; axis < 3; axis++) answer[3 * (k >> 3) + axis] += points[3 * this.hexes[k] + axis] / 8;
+      for (let axis = 0; axis < 3; axis++) centres[3 * (k >> 3) + axis] += points[3 * this.hexes[k] + axis] / 8;
     }
-    return answer;
+    return centres;
   }
 
-  /** A value of a hex in its unit; NaN where there is none. */
+  /** Return a value of a hex in its unit; NaN if it has none. */
   value(state, metric, hex) {
     const { from, to, steps } = this.head.metrics[metric];
-    const step = this.states[state].values[metric][hex]; // the number after the last step is none
+    const step = this.states[state].values[metric][hex]; // steps + 1 stands for no value
     return step > steps ? NaN : from + ((to - from) * step) / steps;
   }
 
-  /** A value of a hex in words; of what lies beyond the values that are kept, their end is known alone. */
-  said(state, metric, hex) {
+  /** Return a value of a hex as text; a value beyond the stored range as ≤ or ≥ its end. */
+  text(state, metric, hex) {
     const { open, steps } = this.head.metrics[metric];
     const step = this.states[state].values[metric][hex];
     const beyond = open && step === 0 ? "≤ " : open && step === steps ? "≥ " : "";
@@ -100,46 +100,46 @@ class HexMesh {
   }
 
   /**
-   * Which hexes are shown, (m).
+   * Return 1 for each shown hex, else 0, (m).
    *
-   * @param {?{axis: number, at: number, other: boolean}} cut A plane through the box of the mesh, from 0 to 1; hidden is
-   *   what lies beyond it, or with `other` what lies before it. Hexes stay whole, and are judged where they were at
-   *   first, so that the cut is the same in every state.
-   * @param {{state: number, metric: number, low: number, high: number, inverted: boolean}} some Bounds of the values;
-   *   inverted hexes are shown with `inverted`, whatever theirs.
+   * @param {?{axis: number, at: number, other: boolean}} cut Plane at a fraction of the bounding box; hexes
+   *   beyond it are hidden, or with `other` those before it. Centres in the first state are compared, so that the cut
+   *   is the same in every state.
+   * @param {{state: number, metric: number, low: number, high: number, inverted: boolean}} filter Bounds of the values;
+   *   `inverted` shows inverted hexes, regardless of their values.
    */
-  shown(cut, some) {
-    const { inverted } = this.states[some.state];
+  shown(cut, filter) {
+    const { inverted } = this.states[filter.state];
     const { low, high } = this.head.box;
-    const answer = new Uint8Array(this.count);
+    const shown = new Uint8Array(this.count);
     for (let hex = 0; hex < this.count; hex++) {
-      const value = this.value(some.state, some.metric, hex);
-      const apart = inverted[hex] > 0 || Number.isNaN(value);
-      let show = apart ? some.inverted : value >= some.low && value <= some.high;
+      const value = this.value(filter.state, filter.metric, hex);
+      const isInverted = inverted[hex] > 0 || Number.isNaN(value);
+      let show = isInverted ? filter.inverted : value >= filter.low && value <= filter.high;
       if (cut && show) {
         const plane = low[cut.axis] + (high[cut.axis] - low[cut.axis]) * cut.at;
         show = this.centres[3 * hex + cut.axis] > plane === cut.other;
       }
-      answer[hex] = show ? 1 : 0;
+      shown[hex] = show ? 1 : 0;
     }
-    return answer;
+    return shown;
   }
 
-  /** A hex and those that share a node with it, (m). */
+  /** Return 1 for a hex and those that share a node with it, else 0, (m). */
   around(hex) {
     const nodes = new Set(this.hexes.subarray(8 * hex, 8 * hex + 8));
-    const answer = new Uint8Array(this.count);
-    for (let k = 0; k < this.hexes.length; k++) if (nodes.has(this.hexes[k])) answer[k >> 3] = 1;
-    return answer;
+    const near = new Uint8Array(this.count);
+    for (let k = 0; k < this.hexes.length; k++) if (nodes.has(this.hexes[k])) near[k >> 3] = 1;
+    return near;
   }
 
-  /** The faces that can be seen, as 6 hex + face: those of shown hexes beyond which none is shown. */
+  /** Return the outer faces of the shown hexes, as 6 hex + face. */
   skin(shown) {
-    const answer = [];
+    const faces = [];
     for (let place = 0; place < this.neighbours.length; place++) {
       const other = this.neighbours[place];
-      if (shown[Math.floor(place / 6)] && (other < 0 || !shown[other])) answer.push(place);
+      if (shown[Math.floor(place / 6)] && (other < 0 || !shown[other])) faces.push(place);
     }
-    return answer;
+    return faces;
   }
 }

@@ -1,4 +1,4 @@
-// Draws faces of a mesh by WebGL 2: knows neither the page nor what is chosen in it.
+// Drawing of the faces of a mesh with WebGL 2, independent of the page.
 
 const VERTEX = `#version 300 es
 precision highp float;
@@ -43,28 +43,28 @@ void main() {
   }
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
   float light = 0.56 + 0.34 * abs(normal.z) + 0.12 * abs(dot(normal, normalize(vec3(0.5, 0.8, 0.3))));
-  vec3 own = inverted == 1u ? apart : texture(map, vec2(clamp(value, 0.001, 0.999), 0.5)).rgb;
-  if (hex == chosen) own = mix(own, vec3(1.0), 0.55);
+  vec3 base = inverted == 1u ? apart : texture(map, vec2(clamp(value, 0.001, 0.999), 0.5)).rgb;
+  if (hex == chosen) base = mix(base, vec3(1.0), 0.55);
   vec2 wide = fwidth(corner);
   vec2 away = min(corner, 1.0 - corner) / max(wide, vec2(1e-6)); // in pixels
   float thick = hex == chosen ? 2.4 : 0.55;
   float line = 1.0 - smoothstep(thick - 0.5, thick + 0.7, min(away.x, away.y));
-  float room = smoothstep(1.5, 9.0, 1.0 / max(max(wide.x, wide.y), 1e-6)); // small faces are not all edge
-  float ink = hex == chosen ? line : line * room * edges * 0.55;
-  colour = vec4(mix(own * light, vec3(0.106, 0.122, 0.165), ink), 1.0) * opacity;
+  float fade = smoothstep(1.5, 9.0, 1.0 / max(max(wide.x, wide.y), 1e-6)); // fade the edges of small faces
+  float ink = hex == chosen ? line : line * fade * edges * 0.55;
+  colour = vec4(mix(base * light, vec3(0.106, 0.122, 0.165), ink), 1.0) * opacity;
 }`;
 
-/** Numbers of a vertex: its places before and after, its values before and after, hex and inverted. */
-const WIDE = 10;
+/** Numbers per vertex: positions before and after (6), values before and after (2), hex, inverted. */
+const STRIDE = 10;
 
 class Painter {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @throws {Error} Where there is no WebGL 2.
+   * @throws {Error} If WebGL 2 is not available.
    */
   constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
-    if (!gl) throw new Error("there is no WebGL 2");
+    if (!gl) throw new Error("WebGL 2 is not available");
     this.gl = gl;
     this.program = linked(gl);
     this.uniforms = {};
@@ -83,46 +83,46 @@ class Painter {
     gl.bindBuffer(gl.ARRAY_BUFFER, part.vertices);
     [[3, 0], [3, 3], [2, 6]].forEach(([size, from], location) => {
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, gl.FLOAT, false, 4 * WIDE, 4 * from);
+      gl.vertexAttribPointer(location, size, gl.FLOAT, false, 4 * STRIDE, 4 * from);
     });
     gl.enableVertexAttribArray(3);
-    gl.vertexAttribIPointer(3, 2, gl.UNSIGNED_INT, 4 * WIDE, 4 * 8);
+    gl.vertexAttribIPointer(3, 2, gl.UNSIGNED_INT, 4 * STRIDE, 4 * 8);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, part.corners);
     gl.bindVertexArray(null);
     return part;
   }
 
   /**
-   * Take the faces to be drawn.
+   * Set the faces to draw.
    *
-   * @param {string} which "faces", or "ghost" for what is only hinted at.
-   * @param {number[]} places As 6 hex + face.
+   * @param {string} which "faces", or "ghost" for translucent faces.
+   * @param {number[]} places Faces as 6 hex + face.
    * @param {HexMesh} mesh
    * @param {[number, number]} states Before and after.
-   * @param {(state: number, hex: number) => number} place Of a hex's value in the colours, from 0 to 1.
+   * @param {(state: number, hex: number) => number} place Position of the value of a hex in the colour map, from 0 to 1.
    */
   take(which, places, mesh, states, place) {
     const { gl } = this;
-    const floats = new Float32Array(4 * WIDE * places.length);
-    const whole = new Uint32Array(floats.buffer);
+    const floats = new Float32Array(4 * STRIDE * places.length);
+    const integers = new Uint32Array(floats.buffer);
     const corners = new Uint32Array(6 * places.length);
     const [before, after] = states.map((state) => mesh.states[state]);
-    places.forEach((one, k) => {
-      const hex = Math.floor(one / 6);
+    places.forEach((face, k) => {
+      const hex = Math.floor(face / 6);
       const values = states.map((state) => place(state, hex));
       const inverted = before.inverted[hex] | (after.inverted[hex] << 1);
       for (let corner = 0; corner < 4; corner++) {
-        const at = WIDE * (4 * k + corner);
-        const node = 3 * mesh.node(hex, one % 6, corner);
+        const at = STRIDE * (4 * k + corner);
+        const node = 3 * mesh.node(hex, face % 6, corner);
         for (let axis = 0; axis < 3; axis++) {
           floats[at + axis] = before.points[node + axis];
           floats[at + 3 + axis] = after.points[node + axis];
         }
         floats.set(values, at + 6);
-        whole[at + 8] = hex;
-        whole[at + 9] = inverted;
+        integers[at + 8] = hex;
+        integers[at + 9] = inverted;
       }
-      // Vertices of a triangle share the last one's flat figures: those of all four are the same.
+      // Flat values of a triangle are those of its last vertex; all four vertices have the same.
       corners.set([0, 1, 2, 0, 2, 3].map((corner) => 4 * k + corner), 6 * k);
     });
     const part = this.parts[which];
@@ -134,7 +134,7 @@ class Painter {
     gl.bindVertexArray(null);
   }
 
-  /** Take the colours, (256, 3). */
+  /** Set the colour map, (256, 3). */
   colours(table) {
     const { gl } = this;
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
@@ -152,8 +152,8 @@ class Painter {
    * Draw.
    *
    * @param {{view: Float32Array, projection: Float32Array}} camera
-   * @param {{between: number, edges: boolean, apart: number[], chosen: number, ghost: number}} how `ghost` is how dense
-   *   what is only hinted at is; 0 leaves it out.
+   * @param {{between: number, edges: boolean, apart: number[], chosen: number, ghost: number}} how `ghost` is the opacity
+   *   of ghost faces; 0 hides them.
    */
   draw(camera, how) {
     const { gl, uniforms } = this;
@@ -196,7 +196,7 @@ class Painter {
     gl.bindVertexArray(null);
   }
 
-  /** The number of the hex at a pixel counted from the lower left corner; -1 for none. */
+  /** Return the number of the hex at a pixel, counted from the lower left corner; -1 if there is none. */
   pick(camera, how, x, y) {
     const { gl } = this;
     const frame = gl.createFramebuffer();

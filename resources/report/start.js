@@ -1,6 +1,6 @@
-// Brings the viewers of the page to life.
+// Start the viewers of the page.
 
-/** Let numbers of hexes in tables lead to them. */
+/** Turn the numbers of hexes in tables into buttons that show the hexes. */
 function linkTables(section, viewer) {
   for (const table of section.querySelectorAll("[data-version]")) {
     for (const cell of table.querySelectorAll("tbody td:first-child")) {
@@ -28,7 +28,7 @@ async function start(root) {
 }
 
 const seen = new IntersectionObserver((entries) => {
-  for (const entry of entries.filter((one) => one.isIntersecting)) {
+  for (const entry of entries.filter((candidate) => candidate.isIntersecting)) {
     seen.unobserve(entry.target);
     start(entry.target);
   }

@@ -1,6 +1,6 @@
-// How a hand steers the camera.
+// Control of the camera by mouse, touch and keys.
 
-/** Let mouse, fingers and keys steer a camera; a click or tap chooses what is there, Enter what is in the middle. */
+/** Control a camera by mouse, touch and keys; a click or tap selects a position, Enter the centre. */
 function steer(canvas, camera, moved, chosen) {
   const pointers = new Map();
   let went = 0;
@@ -17,8 +17,8 @@ function steer(canvas, camera, moved, chosen) {
     const others = [...pointers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
     went += Math.hypot(right, down);
     if (others.length) {
-      const [apart, wasApart] = [now, before].map(([x, y]) => Math.hypot(x - others[0][0], y - others[0][1]));
-      camera.closer(apart / Math.max(1, wasApart));
+      const [distance, previousDistance] = [now, before].map(([x, y]) => Math.hypot(x - others[0][0], y - others[0][1]));
+      camera.closer(distance / Math.max(1, previousDistance));
       camera.shift(right / 2 / canvas.clientHeight, -down / 2 / canvas.clientHeight);
     } else if (event.buttons > 1 || event.shiftKey) {
       camera.shift(right / canvas.clientHeight, -down / canvas.clientHeight);

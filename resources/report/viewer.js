@@ -1,18 +1,18 @@
-// The viewer on the page: its controls, what they choose, and when it is drawn.
+// Interactive viewer of the page: controls, state and drawing.
 
 class Viewer {
   /**
-   * @param {HTMLElement} root With the controls, each named by `data-is`.
+   * @param {HTMLElement} root Element with the controls, each named by `data-is`.
    * @param {HexMesh} mesh
    */
   constructor(root, mesh) {
     this.root = root;
     this.mesh = mesh;
-    this.is = Object.fromEntries([...root.querySelectorAll("[data-is]")].map((one) => [one.dataset.is, one]));
+    this.is = Object.fromEntries([...root.querySelectorAll("[data-is]")].map((control) => [control.dataset.is, control]));
     this.painter = new Painter(this.is.canvas);
     this.camera = new Camera(mesh.states[0].points);
     this.chosen = -1;
-    this.alone = false; // whether the chosen hex is shown with a hint of what is around it, and nothing else
+    this.alone = false; // only the chosen hex is shown, with its surroundings as ghost
     this.fill();
     this.listen();
     this.reset();
@@ -22,7 +22,7 @@ class Viewer {
     this.chooseMetric();
   }
 
-  /** Put the mesh's states, metrics and maps into the lists. */
+  /** Fill the lists with the states, metrics and colour maps. */
   fill() {
     const { states, metrics } = this.mesh.head;
     options(this.is.metric, metrics.map((metric) => metric.title));
@@ -41,7 +41,7 @@ class Viewer {
     }
     is.axis.addEventListener("input", () => {
       const axis = Number(is.axis.value);
-      is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // the side of who looks is hidden
+      is.other.checked = axis >= 0 && this.camera.axes()[2][axis] < 0; // hide the side of the viewer
       this.rebuild();
     });
     for (const name of ["at", "other", "low", "high", "inverted"]) {
@@ -62,7 +62,7 @@ class Viewer {
     steer(is.canvas, this.camera, () => this.soon(), (x, y) => this.choose(x, y));
   }
 
-  /** Everything as it was when the page was opened. */
+  /** Restore the initial state of the page. */
   reset() {
     const { is } = this;
     this.root.querySelector("form").reset();
@@ -72,7 +72,7 @@ class Viewer {
     this.alone = false;
   }
 
-  /** The number of the state that is shown: the nearer one. */
+  /** Index of the state that is nearer to the position between before and after. */
   get state() {
     return this.states[this.between < 0.5 ? 0 : 1];
   }
@@ -99,7 +99,7 @@ class Viewer {
     this.rebuild();
   }
 
-  /** Go between before and after; another state's values are others. */
+  /** Update after a move between before and after; the faces depend on the nearer state. */
   go() {
     if (this.shownState !== this.state) this.rebuild();
     else this.soon();
@@ -111,7 +111,7 @@ class Viewer {
     this.building = requestAnimationFrame(() => this.build());
   }
 
-  /** Find the faces that are seen, and their colours. */
+  /** Set the visible faces and their colours. */
   build() {
     const { is, mesh, metric } = this;
     const kind = mesh.head.metrics[metric];
@@ -120,8 +120,8 @@ class Viewer {
     const axis = Number(is.axis.value);
     const cut = axis < 0 ? null : { axis, at: Number(is.at.value), other: is.other.checked };
     this.shownState = this.state;
-    const some = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
-    const shown = this.alone ? new Uint8Array(mesh.count) : mesh.shown(cut, some);
+    const filter = { state: this.state, metric, low: ends[0], high: ends[1], inverted: is.inverted.checked };
+    const shown = this.alone ? new Uint8Array(mesh.count) : mesh.shown(cut, filter);
     if (this.alone) shown[this.chosen] = 1;
     const faces = mesh.skin(shown);
     const place = (state, hex) => {
@@ -130,24 +130,24 @@ class Viewer {
     };
     this.painter.take("faces", faces, mesh, this.states, place);
     this.hidden = shown.includes(0);
-    const hint = this.alone ? mesh.skin(mesh.around(this.chosen)) : this.skin;
-    if (this.hidden) this.painter.take("ghost", hint, mesh, this.states, place);
+    const ghost = this.alone ? mesh.skin(mesh.around(this.chosen)) : this.skin;
+    if (this.hidden) this.painter.take("ghost", ghost, mesh, this.states, place);
     const { table } = mesh.maps[is.map.selectedIndex];
     this.painter.colours(table);
     this.bar(kind, table);
     for (const name of ["at", "other"]) is[name].disabled = !cut;
-    const all = shown.reduce((sum, one) => sum + one, 0);
-    is.count.textContent = `${all.toLocaleString("en")} of ${mesh.count.toLocaleString("en")} hexes`;
+    const count = shown.reduce((sum, flag) => sum + flag, 0);
+    is.count.textContent = `${count.toLocaleString("en")} of ${mesh.count.toLocaleString("en")} hexes`;
     is.bounds.textContent = ends.every((end) => !Number.isFinite(end)) ? "all" : bounds.map(figure).join(" to ");
     this.tell();
     this.soon();
   }
 
-  /** The colour bar. */
+  /** Update the colour bar. */
   bar(kind, table) {
-    const turned = kind.better < 0;
+    const reversed = kind.better < 0;
     const stops = Array.from({ length: 33 }, (_, k) => {
-      const at = 3 * Math.round((255 * (turned ? 32 - k : k)) / 32);
+      const at = 3 * Math.round((255 * (reversed ? 32 - k : k)) / 32);
       return `rgb(${table[at]},${table[at + 1]},${table[at + 2]})`;
     });
     this.is.gradient.style.background = `linear-gradient(to right, ${stops.join(",")})`;
@@ -156,27 +156,26 @@ class Viewer {
     this.is.title.textContent = kind.unit ? `${kind.title}, ${kind.unit}` : kind.title;
   }
 
-  /** Say which state is shown, and what is known of the chosen hex. */
+  /** Show the name of the state, and the values of the chosen hex. */
   tell() {
     const { mesh, chosen, is } = this;
     const names = this.states.map((state) => mesh.head.states[state].name);
     const share = this.between;
-    is.moment.textContent = share <= 0 ? names[0] : share >= 1 ? names[1] : `${Math.round(100 * share)} % of the way`;
+    is.moment.textContent = share <= 0 ? names[0] : share >= 1 ? names[1] : `${Math.round(100 * share)} % from before to after`;
     if (chosen < 0) {
-      is.told.textContent = "Click a hex: its number and values are told here.";
+      is.told.textContent = "Click a hex to show its number and values.";
       return;
     }
     const [first, second] = [...new Set(this.states)].map((state) => {
-      const own = mesh.head.metrics.map(({ title }, metric) => [title, mesh.said(state, metric, chosen)]);
-      const wanted = own.filter((_, metric) => metric < 2 || metric === this.metric);
-      const said = wanted.map(([title, value]) => `${title} ${value}`).join(", ");
-      return `${said}${mesh.states[state].inverted[chosen] ? ", inverted" : ""}`;
+      const texts = mesh.head.metrics.map(({ title }, metric) => `${title} ${mesh.text(state, metric, chosen)}`);
+      const values = texts.filter((_, metric) => metric < 2 || metric === this.metric).join(", ");
+      return `${values}${mesh.states[state].inverted[chosen] ? ", inverted" : ""}`;
     });
     const after = second ? `; ${names[1]}: ${second}` : "";
     is.told.textContent = `Hex ${chosen.toLocaleString("en")} – ${names[0]}: ${first}${after}.`;
   }
 
-  /** Choose the hex at a place of the canvas, in its own pixels. */
+  /** Choose the hex at a position on the canvas, in CSS pixels. */
   choose(x, y) {
     const { canvas } = this.is;
     const share = canvas.width / canvas.clientWidth;
@@ -188,7 +187,7 @@ class Viewer {
     this.soon();
   }
 
-  /** Show a hex in a state, with a hint of the hexes around it. */
+  /** Show a hex in a state, with the hexes around it as ghost. */
   approach(hex, state) {
     this.reset();
     this.is.method.selectedIndex = Math.max(0, state - 1);
@@ -208,11 +207,11 @@ class Viewer {
     const { is } = this;
     const apart = this.mesh.head.inverted.map((part) => part / 255);
     const ghost = this.hidden && is.ghost.checked ? (this.alone ? 0.16 : 0.07) : 0;
-    const chosen = this.alone ? -1 : this.chosen; // it needs no mark where there is no other
+    const chosen = this.alone ? -1 : this.chosen; // a single hex needs no highlight
     return { between: this.between, edges: is.edges.checked, apart, chosen, ghost };
   }
 
-  /** Draw before the next frame, once. */
+  /** Draw once before the next frame. */
   soon() {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
@@ -231,9 +230,9 @@ class Viewer {
 }
 
 function element(name, text) {
-  const answer = document.createElement(name);
-  answer.textContent = text;
-  return answer;
+  const created = document.createElement(name);
+  created.textContent = text;
+  return created;
 }
 
 function options(list, texts) {

@@ -43,7 +43,7 @@ def wait_until(condition: Callable[[], object], seconds: float = 120) -> None:
         if condition():
             return
         process_events(0.1)
-    raise TimeoutError(f"waited {seconds} s in vain")
+    raise TimeoutError(f"the condition does not hold after {seconds} s")
 
 
 def open_window(mesh: str | Path, size: tuple[int, int] = (1280, 800)) -> Window:
@@ -77,8 +77,8 @@ def wait_until_drawn(window: Window) -> None:
 def screenshot(window: Window, path: Path) -> None:
     """Save a screenshot of the window."""
     wait_until_drawn(window)
-    at = window.geometry()
-    window.screen().grabWindow(0, at.x(), at.y(), at.width(), at.height()).save(str(path))
+    frame = window.geometry()
+    window.screen().grabWindow(0, frame.x(), frame.y(), frame.width(), frame.height()).save(str(path))
     compress(path)
 
 
@@ -94,18 +94,18 @@ def compress(path: Path) -> None:
 def _coarsened(image: Image.Image) -> Image.Image:
     """Reduce red, green and blue to 32 levels each, except for colours of large areas."""
     pixels = np.asarray(image).reshape(-1, 3)
-    _, which, counts = np.unique(pixels @ (1 << 16, 1 << 8, 1), return_inverse=True, return_counts=True)
+    _, colours, counts = np.unique(pixels @ (1 << 16, 1 << 8, 1), return_inverse=True, return_counts=True)
     coarse = np.rint(np.rint(pixels * (31 / 255)) * (255 / 31))
-    found = np.where((counts > _AREA * len(pixels))[which, None], pixels, coarse).astype(np.uint8)
-    return Image.fromarray(found.reshape(image.height, image.width, 3))
+    reduced = np.where((counts > _AREA * len(pixels))[colours, None], pixels, coarse).astype(np.uint8)
+    return Image.fromarray(reduced.reshape(image.height, image.width, 3))
 
 
 def take_screenshots(scenes: Scenes, folder: Path, prefix: str) -> None:
     """Take a screenshot of each scene in a new window; the files are named after the scenes."""
-    with tempfile.TemporaryDirectory() as place:
-        for scene, name, how in scenes:
-            path = Path(place) / f"{name}.vtu"
-            write(path, make(name, **how))
+    with tempfile.TemporaryDirectory() as directory:
+        for scene, name, parameters in scenes:
+            path = Path(directory) / f"{name}.vtu"
+            write(path, make(name, **parameters))
             window = open_window(path)
             scene(window)
             screenshot(window, folder / f"{prefix}-{scene.__name__}.png")
@@ -138,7 +138,7 @@ def resize_panels(window: Window, width: int, height: int) -> None:
 
 def choose_entry(window: Window, name: str, data: str) -> None:
     """Select an entry of the combo box with this accessible name."""
-    box = next(one for one in window.findChildren(QComboBox) if one.accessibleName() == name)
+    box = next(box for box in window.findChildren(QComboBox) if box.accessibleName() == name)
     box.setCurrentIndex(box.findData(data))
 
 

@@ -191,7 +191,7 @@ def test_touch_rotates_and_zooms(browser, written):
 def test_without_webgl_the_picture_is_shown_instead(browser, written):
     with browser(("--disable-3d-apis",)) as opened:
         opened.open(written, alive=False)
-        assert "cannot be rotated here: there is no WebGL 2" in opened.page.locator(".viewer .cannot").inner_text()
+        assert "cannot be rotated here: WebGL 2 is not available" in opened.page.locator(".viewer .cannot").inner_text()
         assert opened.page.locator(".viewer > figure img").is_visible()
         assert not opened.control("canvas").is_visible()
 
@@ -265,7 +265,7 @@ def test_a_value_out_of_range_is_shown_as_beyond_the_end_of_the_range(fresh, cas
     said = """async () => {
       const part = (name) => document.querySelector(`.viewer script[data-of=${name}]`).textContent;
       const mesh = new HexMesh(JSON.parse(part("head")), await unpacked(part("bytes")));
-      const told = (metric) => Array.from({ length: mesh.count }, (_, hex) => mesh.said(0, metric, hex));
+      const told = (metric) => Array.from({ length: mesh.count }, (_, hex) => mesh.text(0, metric, hex));
       return mesh.head.metrics.map(({ name, from, to }, metric) => [name, from, to, told(metric)]);
     }"""
     beyond = set()

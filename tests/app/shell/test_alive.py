@@ -1,4 +1,4 @@
-"""The window stays alive while a mesh is saved or repaired and while a run ends, and nothing is told too early."""
+"""The window stays responsive while a mesh is saved or repaired and while a run ends; events are not sent too early."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tests.patience import PATIENCE
 
 
 class Gate:
-    """Holds threads that come to a function until it is opened."""
+    """Wrapper of a function that blocks its callers until it is opened."""
 
     def __init__(self, function):
         self.function = function
@@ -38,7 +38,7 @@ class Gate:
 
 @pytest.fixture
 def gate(monkeypatch):
-    """Holds a function of a module; opened at the end, so that a test that fails leaves no thread waiting."""
+    """Return a function that gates a function of a module; gates are opened at the end, so that no thread is left."""
     gates = []
 
     def hold(module, name):
@@ -53,7 +53,7 @@ def gate(monkeypatch):
 
 @pytest.fixture
 def told(window):
-    """What is told of the mesh, in its order."""
+    """Events about the mesh, in order."""
     told = []
     window.session.user_event.connect(told.append)
     yield told
@@ -89,7 +89,7 @@ def test_a_mesh_is_saved_only_when_it_is_written(window, qtbot, tmp_path, gate, 
     np.testing.assert_array_equal(io.read(tmp_path / "out.vtu").points, session.document.now.mesh.points)
 
 
-def test_what_is_changed_while_a_mesh_is_saved_is_not_saved(window, qtbot, tmp_path, gate, told):
+def test_changes_during_a_save_are_not_saved(window, qtbot, tmp_path, gate, told):
     smooth(window, qtbot)
     session, writing = window.session, gate(mesh_saver, "write")
     then = session.document.now
@@ -105,7 +105,7 @@ def test_what_is_changed_while_a_mesh_is_saved_is_not_saved(window, qtbot, tmp_p
     assert not session.document.modified
 
 
-def test_the_last_of_several_saves_of_one_file_is_what_it_holds(window, qtbot, tmp_path, gate):
+def test_a_file_contains_the_last_of_several_saves(window, qtbot, tmp_path, gate):
     session, writing = window.session, gate(mesh_saver, "write")
     path = tmp_path / "out.vtu"
     first = session.commands.save_in_background(path)
@@ -119,7 +119,7 @@ def test_the_last_of_several_saves_of_one_file_is_what_it_holds(window, qtbot, t
     assert not session.document.modified
 
 
-def test_a_save_that_fails_is_said_and_leaves_the_mesh_modified(window, qtbot, tmp_path, monkeypatch, told):
+def test_a_failed_save_is_reported_and_leaves_the_mesh_modified(window, qtbot, tmp_path, monkeypatch, told):
     smooth(window, qtbot)
 
     def fail(path, mesh):
@@ -168,7 +168,7 @@ def test_leaving_waits_for_a_save_or_asks(window, qtbot, tmp_path, gate, answer)
 
 @pytest.fixture
 def tangled(window, qtbot, tmp_path):
-    """A window with a mesh of which every third hex is numbered the wrong way round."""
+    """A window with a mesh in which every third hex has inverted numbering."""
     mesh = gallery.make("cube", size=64)
     hexes = np.array(mesh.hexes)
     hexes[::3] = hexes[::3][:, [4, 5, 6, 7, 0, 1, 2, 3]]
@@ -220,7 +220,7 @@ def test_a_repair_that_is_given_up_changes_nothing(tangled, qtbot, gate, told, e
 
 
 @pytest.mark.parametrize("what", ["reset", "open", "branch"])
-def test_what_ends_a_run_is_done_after_its_iteration(window, qtbot, what, mesh_file, told, monkeypatch):
+def test_actions_that_end_a_run_wait_for_its_iteration(window, qtbot, what, mesh_file, told, monkeypatch):
     session = window.session
     going, goes_on = threading.Event(), threading.Event()
     method = METHODS["laplacian"]

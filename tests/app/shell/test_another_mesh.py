@@ -1,4 +1,4 @@
-"""Whatever was done with a mesh, the next one that is opened is shown, and nothing of the mesh before it."""
+"""Opening another mesh: it is shown without remains of the previous mesh, whatever was done with that."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ WORKS = (
 
 
 def everything(window, qtbot):
-    """Do one after another what can be done while no run goes on, then begin a run."""
+    """Do everything that is possible without a run, then begin a run."""
     for work in (*(one for one in WORKS if one is not run_and_pause), run_and_pause):
         if work is not compare:
             work(window, qtbot)
@@ -145,7 +145,7 @@ def everything(window, qtbot):
 
 
 @pytest.mark.parametrize("work", [*WORKS, everything], ids=lambda one: one.__name__)
-def test_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(window, qtbot, small_file, work):
+def test_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, work):
     work(window, qtbot)
     window.refresh()
     open_and_wait(qtbot, window, small_file)
@@ -155,9 +155,7 @@ def test_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(window, qtbot, 
     is_shown(window)
 
 
-def test_a_session_of_a_smaller_mesh_is_shown_whatever_was_done_with_a_larger(
-    window, qtbot, small_file, mesh_file, tmp_path
-):
+def test_a_session_of_a_smaller_mesh_is_shown_after_a_larger_one(window, qtbot, small_file, mesh_file, tmp_path):
     open_and_wait(qtbot, window, small_file)
     window.session.selection.choose(7, window.session.document.now.mesh.hexes[7, 0])
     assert window.features["session"].save_and_wait(tmp_path / "small.hexmend")
@@ -172,7 +170,7 @@ LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "
 
 
 @pytest.mark.parametrize("layer", LAYERS)
-def test_a_layer_that_fails_on_a_mesh_is_left_out_and_the_mesh_is_shown(window, small_file, qtbot, layer, monkeypatch):
+def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     extras, failures = window.canvas.viewport.extras, []
     window.session.view.change(structure=Structure(original=True))
     window.refresh()
@@ -193,7 +191,7 @@ def test_a_layer_that_fails_on_a_mesh_is_left_out_and_the_mesh_is_shown(window, 
 
 
 @pytest.mark.parametrize("part", ["set_mesh", "rebuild"])
-def test_where_the_elements_cannot_be_drawn_no_mesh_is_shown(window, small_file, mesh_file, qtbot, part, monkeypatch):
+def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_file, qtbot, part, monkeypatch):
     def fail(*_):
         raise RuntimeError("there is no skin")
 
@@ -217,9 +215,7 @@ def test_where_the_elements_cannot_be_drawn_no_mesh_is_shown(window, small_file,
 @pytest.mark.parametrize(
     "name", ["cut", "hex_inspector", "histogram", "structure", "tags", "quality", "smooth", "node_step"]
 )
-def test_a_panel_that_fails_on_a_mesh_does_not_keep_the_mesh_before_in_the_view(
-    window, small_file, qtbot, name, monkeypatch
-):
+def test_a_failing_panel_does_not_keep_the_previous_mesh_in_the_view(window, small_file, qtbot, name, monkeypatch):
     failures = []
 
     def fail(*_):
@@ -233,7 +229,7 @@ def test_a_panel_that_fails_on_a_mesh_does_not_keep_the_mesh_before_in_the_view(
     assert set(failures) == {"this panel has failed"}
 
 
-def test_numbers_of_the_mesh_before_select_and_hide_nothing(window, qtbot, small_file):
+def test_numbers_of_the_previous_mesh_select_and_hide_nothing(window, qtbot, small_file):
     last = window.session.document.now.mesh.n_hexes - 1
     session = window.session
     open_and_wait(qtbot, window, small_file)
@@ -248,7 +244,7 @@ def test_numbers_of_the_mesh_before_select_and_hide_nothing(window, qtbot, small
 
 
 def is_shown(window):
-    """The view shows the open mesh, and no other; no error is said."""
+    """Check that the view shows the open mesh only, without errors."""
     window.refresh()
     QApplication.processEvents()
     mesh, drawn = window.session.document.now.mesh, window.canvas.viewport

@@ -1,4 +1,4 @@
-"""The feature and the metric of docs/extending.md: menu, palette, page of keys, window and pictures have them."""
+"""Examples of docs/extending.md: a feature and a metric in menus, palette, page of keys, window and pictures."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def _add_folder(tmp_path, monkeypatch, name, source):
 
 @pytest.fixture
 def with_folder(qtbot, tmp_path, monkeypatch):
-    """A window that finds one folder more."""
+    """A window with the feature of an additional folder."""
     _add_folder(tmp_path, monkeypatch, "volume", EXAMPLE)
     window = Window()
     window.build_features()
@@ -53,7 +53,7 @@ def with_folder(qtbot, tmp_path, monkeypatch):
         del sys.modules[name]
 
 
-def test_a_folder_is_enough(with_folder, cube):
+def test_a_feature_is_found_by_its_folder(with_folder, cube):
     window = with_folder
     assert "volume" in window.features
     assert window.action("volume").text() == "&Volume of the mesh"
@@ -71,7 +71,7 @@ def test_a_folder_is_enough(with_folder, cube):
 
 @pytest.fixture
 def with_plotter(tmp_path, monkeypatch):
-    """The feature that draws with PyVista is a folder more."""
+    """Add the folder of the feature that draws with PyVista."""
     _add_folder(tmp_path, monkeypatch, "cad_surface", example("Drawing with PyVista"))
     yield
     for name in [name for name in sys.modules if name.startswith("hexmend_app.features.cad_surface")]:
@@ -91,13 +91,13 @@ def test_a_feature_draws_with_pyvista(with_plotter, fresh_window, tmp_path, monk
 
 
 def _picture(window, path):
-    """The pixels of a picture that is saved."""
+    """Save a picture and return its pixels."""
     assert window.features["save"].write_picture(path, window.canvas.scene(Page()))
     return np.asarray(Image.open(path).convert("RGB"), int)
 
 
 def _near(pixels, colour):
-    """How many pixels have about a colour."""
+    """Return the number of pixels with nearly a colour."""
     return np.count_nonzero((np.abs(pixels - colour) < 50).all(axis=-1))
 
 
@@ -109,7 +109,7 @@ def cube():
 
 @pytest.fixture
 def with_metric(monkeypatch):
-    """The metric of the page is among the others."""
+    """Register the metric of the page."""
     monkeypatch.setattr(METRICS, "_entries", dict(METRICS))
     exec(compile(example("A metric"), "extending.md", "exec"), {})
 
@@ -131,7 +131,7 @@ def test_a_metric_is_in_the_lists_and_colours_pictures(with_metric, with_folder,
 
 @pytest.fixture
 def with_notes(tmp_path, monkeypatch):
-    """The feature with a state of its own is a folder more."""
+    """Add the folder of the feature with a state."""
     _add_folder(tmp_path, monkeypatch, "notes", example("State and exports of a feature"))
     yield
     for name in [name for name in sys.modules if name.startswith("hexmend_app.features.notes")]:

@@ -1,4 +1,4 @@
-"""The colour map and the layer of docs/extending.md, each a file: window, sessions and pictures have them."""
+"""Examples of docs/extending.md: a colour map and a layer in window, sessions and pictures."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ BOX = "#cc0066"
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """Register both examples from files, each found in a folder beside Hexmend's own."""
+    """Register both examples from files in additional folders."""
     folder = tmp_path_factory.mktemp("additions")
     with pytest.MonkeyPatch.context() as patch:
         for package, title, registry, load in (
@@ -45,7 +45,7 @@ def files(tmp_path_factory):
 
 @pytest.fixture
 def window(files, fresh_window):
-    """A window that was built with both, with a mesh open in it."""
+    """A window with both examples and an open mesh."""
     return fresh_window
 
 
@@ -106,7 +106,7 @@ def test_commands_and_scenes_have_them(files, mesh_file, tmp_path):
     np.testing.assert_array_equal(*images)
 
 
-def test_an_unknown_layer_or_map_is_named_with_those_that_there_are():
+def test_an_unknown_layer_or_map_is_named_with_the_known_ones():
     with pytest.raises(ParameterError, match="there is no layer 'bounding-bxo'"):
         Structure(extra=("bounding-bxo",))
     with pytest.raises(ParameterError, match="map = 'jet' is unknown: expected one of viridis"):

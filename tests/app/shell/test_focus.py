@@ -1,4 +1,4 @@
-"""The window by keys: everything is reached, in reading order, and has a name."""
+"""Keyboard navigation: every control is reached in reading order and has a name."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SHIFT = Qt.KeyboardModifier.ShiftModifier
 
 
 def tab(window, key=Qt.Key.Key_Tab):
-    """The widget that the focus goes to from where it is."""
+    """Press Tab or another key, and return the widget with the focus."""
     QTest.keyClick(QApplication.focusWidget(), key)
     return QApplication.focusWidget()
 
@@ -57,7 +57,7 @@ def walk(window, key=Qt.Key.Key_Tab):
 
 
 def controls(window):
-    """What Tab is to reach, by what the widgets declare."""
+    """Return the widgets that Tab must reach, according to their focus policies."""
     chosen = [
         widget
         for widget in window.findChildren(QWidget)
@@ -73,7 +73,7 @@ def controls(window):
 
 @pytest.fixture
 def everything_on(window):
-    """The window with as much switched on as there is."""
+    """The window with as many options on as possible."""
     window.action("cut").trigger()
     window.messages.show_error("Something", "to copy and dismiss")
     window.session.selection.choose(7, int(window.session.document.now.mesh.hexes[7, 0]))
@@ -103,7 +103,7 @@ FRONTS = [
 
 
 def bring(window, panels):
-    """Have panels in front."""
+    """Show panels."""
     for panel in panels:
         window.show_panel(panel)
     window.refresh()
@@ -111,12 +111,12 @@ def bring(window, panels):
     assert all(map(window.in_front, panels))
 
 
-def test_every_panel_is_looked_at(window):
+def test_every_panel_is_tested(window):
     assert {panel for panels in FRONTS for panel in panels} == set(window.docks.ids()) - {"timeline"}
 
 
 @pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_tab_reaches_every_control_once_and_comes_back(everything_on, panels):
+def test_tab_reaches_every_control_once_and_returns(everything_on, panels):
     window = everything_on
     bring(window, panels)
     reached = walk(window)
@@ -128,7 +128,7 @@ def test_tab_reaches_every_control_once_and_comes_back(everything_on, panels):
     assert back == [*reached[-2::-1], reached[-1]]
 
 
-def test_tab_in_the_view_hides_all_panels_and_brings_them_back(window):
+def test_tab_in_the_view_hides_and_shows_all_panels(window):
     view, wide = window.canvas.interactor, window.canvas.width()
     view.setFocus()
     assert tab(window) is view
@@ -219,7 +219,7 @@ def test_every_control_has_a_name(everything_on, panels):
 
 
 @pytest.mark.parametrize("panels", FRONTS, ids=" ".join)
-def test_what_has_the_focus_looks_different(everything_on, panels):
+def test_focused_widgets_look_different(everything_on, panels):
     window = everything_on
     bring(window, panels)
     plain = {one: one.grab().toImage() for one in controls(window)}
@@ -236,7 +236,7 @@ def test_what_has_the_focus_looks_different(everything_on, panels):
     assert unmarked == []
 
 
-def test_the_view_is_marked_when_keys_bring_the_focus_to_it(window):
+def test_the_view_is_marked_when_focused_by_keys(window):
     canvas = window.canvas
     last = walk(window)[-2]
 

@@ -1,4 +1,4 @@
-"""What the window's parts do to each other: another mesh, another cut or a run in the midst of something."""
+"""Interactions of features: another mesh, another cut or a run in the middle of an operation."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ def test_a_tag_is_not_renamed_while_a_run_is_paused(window, qtbot):
 
 
 @pytest.mark.parametrize("notch", [False, True])
-def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
+def test_hexes_removed_by_a_smooth_cut_are_not_tagged_as_shown(window, notch):
     clip = PlaneClip((ClipPlane((1, 0, 0), middle(window)), ClipPlane((0, 1, 0), middle(window))), False, notch)
     window.session.view.set_clip(clip)
     window.refresh()
@@ -101,7 +101,7 @@ def test_what_a_smooth_cut_takes_away_is_not_tagged_as_shown(window, notch):
 
 
 @pytest.mark.slow
-def test_the_box_follows_again_after_a_drag_that_a_key_cut_short(window, qtbot):
+def test_the_box_can_be_dragged_again_after_an_interrupted_drag(window, qtbot):
     size = np.ptp(window.session.document.now.mesh.points, axis=0)
     low = window.session.document.now.mesh.points.min(axis=0)
     box = BoxClip(tuple(low + 0.2 * size), tuple(low + 0.8 * size))
@@ -161,7 +161,7 @@ def test_a_cut_begins_in_the_mesh_however_far_unused_nodes_are(window, qtbot, tm
 
 
 @pytest.mark.slow
-def test_a_picture_has_the_elements_of_the_view_where_nodes_moved_since_the_cut(window, tmp_path):
+def test_a_picture_has_the_hexes_of_the_view_after_nodes_moved(window, tmp_path):
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), middle(window)))
     window.refresh()
     mesh = window.session.document.now.mesh
@@ -184,7 +184,7 @@ def _found(view, place):
 
 
 @pytest.mark.slow
-def test_a_click_that_turns_the_mesh_a_little_takes_what_is_under_it(window, qtbot, monkeypatch):
+def test_a_click_with_a_small_movement_selects_the_hex_under_it(window, qtbot, monkeypatch):
     monkeypatch.setattr(body, "MANY", 10)
     view = window.canvas.viewport
     window.canvas.draw_still()

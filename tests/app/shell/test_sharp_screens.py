@@ -1,4 +1,4 @@
-"""The window on screens whose pixels are smaller than those that widgets count in."""
+"""The window on screens with a device pixel ratio above 1."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ window.close()
 
 
 @pytest.mark.parametrize("scale", ["1.5", "2"])
-def test_clicks_hit_what_they_point_at_on_sharp_screens(tmp_path, scale):
+def test_clicks_select_the_hex_under_the_pointer(tmp_path, scale):
     environment = os.environ | {"QT_SCALE_FACTOR": scale}
     picture = tmp_path / "picture.png"
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""Closing waits for threads once, however many are at work, and the window's folder of recovery goes with it."""
+"""Closing waits for all threads together, and removes the recovery folder of the window."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def gate():
-    """An event that threads wait for; set at the end, so that a failing test leaves none waiting."""
+    """Event that threads wait for; set at the end, so that a failing test leaves no thread."""
     gate = threading.Event()
     yield gate
     gate.set()

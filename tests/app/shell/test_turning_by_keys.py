@@ -1,4 +1,4 @@
-"""The view turned, shifted and zoomed by keys."""
+"""The view rotated, panned and zoomed by keys."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_arrow_keys_turn_the_mesh_by_fifteen_degrees(window):
 
 
 def shown_at(window):
-    """Where the mesh's centre is in the picture, and how many pixels it covers."""
+    """Return the centre of the mesh in the picture, and its number of pixels."""
     image = pixels(window)
     mask = image.max(axis=2) - image.min(axis=2) > 60
     rows, columns = np.nonzero(mask)
@@ -62,7 +62,7 @@ def test_keys_pan_and_zoom(window, parallel):
     assert y - shown_at(window)[1] == pytest.approx(0.1 * height, rel=0.2)
 
 
-def test_keys_that_vtk_would_take_do_nothing(window):
+def test_keys_of_vtk_do_nothing(window):
     view = window.canvas.interactor
     view.setFocus()
     before = pixels(window)

@@ -1,4 +1,4 @@
-"""The window as a whole: what stands in it, that nothing is cut off or moved, and that errors are said."""
+"""The window as a whole: content, layout and errors."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_an_opened_mesh_is_shown_with_its_figures(window):
     assert (image.max(axis=2) - image.min(axis=2) > 60).mean() > 0.05
 
 
-def test_the_chosen_hex_is_told_whatever_panel_is_in_front(window):
+def test_the_status_bar_shows_the_selected_hex(window):
     counts = named(window, QLabel, "Counts")
     q = window.session.document.now.figures.q
     chosen = int(q.argmax())
@@ -63,7 +63,7 @@ def test_nothing_is_cut_off(window, qtbot, size):
         assert (window.width(), window.height(), window.docks.centre.width()) == (*size, width)
 
 
-def test_no_panel_is_wider_than_the_column_that_it_is_unfolded_in(window, qtbot):
+def test_expanded_sections_fit_the_width_of_the_column(window, qtbot):
     window.resize(1100, 700)
     qtbot.waitUntil(lambda: window.width() == 1100, timeout=PATIENCE)
     for panel in ("run", "recipe", "look", "cut", "inside", "show"):
@@ -76,7 +76,7 @@ def test_no_panel_is_wider_than_the_column_that_it_is_unfolded_in(window, qtbot)
 
 
 def columns_overflowing(window):
-    """What scrolls beside the view, of which not the whole width is seen."""
+    """Return the scroll areas whose content is wider than they are."""
     return [
         area
         for area in window.findChildren(QScrollArea)
@@ -85,7 +85,7 @@ def columns_overflowing(window):
 
 
 def cut_off(window):
-    """What is seen of which not the whole width is: beyond the window, or narrower than it can be."""
+    """Return the visible widgets that exceed the window or are narrower than their minimum width."""
     return [
         part
         for part in window.findChildren(QWidget)
@@ -106,7 +106,7 @@ def test_unexpected_errors_are_shown(window, monkeypatch):
     assert "ZeroDivisionError: one over nothing" in window.messages.messages()[-1][2]
 
 
-def test_messages_and_the_colour_bar_lie_over_the_view_and_move_nothing(window, qtbot):
+def test_messages_and_the_colour_bar_do_not_change_the_layout(window, qtbot):
     canvas, bar = window.canvas, window.canvas.colour_bar
     before = canvas.interactor.geometry(), bar.geometry()
     assert canvas.interactor.rect().contains(bar.geometry())
@@ -122,7 +122,7 @@ def test_messages_and_the_colour_bar_lie_over_the_view_and_move_nothing(window, 
     assert not window.messages.isVisible()
 
 
-def test_the_mesh_is_not_turned_by_dragging_the_colour_bar(window):
+def test_dragging_the_colour_bar_does_not_rotate_the_mesh(window):
     bar, camera = window.canvas.colour_bar, window.canvas.viewport.camera
     before, place = camera.position, bar.pos()
     drag(bar, QPoint(20, 15), QPoint(-80, 60))
@@ -130,7 +130,7 @@ def test_the_mesh_is_not_turned_by_dragging_the_colour_bar(window):
     assert camera.position == before
 
 
-def test_keys_reach_the_view_as_soon_as_a_mesh_is_shown(fresh_window):
+def test_the_view_has_the_focus_when_a_mesh_is_shown(fresh_window):
     view = fresh_window.canvas.interactor
     fresh_window.canvas.hide()
     fresh_window.refresh()
@@ -141,18 +141,18 @@ def test_keys_reach_the_view_as_soon_as_a_mesh_is_shown(fresh_window):
     assert not fresh_window.docks.hidden
 
 
-def test_it_is_said_that_only_a_part_is_shown_until_esc_brings_back_the_rest(window):
+def test_the_status_bar_shows_isolated_hexes_until_esc(window):
     counts = named(window, QLabel, "Counts")
     window.action("next_worst").trigger()
     window.refresh()
     assert "1 isolated (Esc)" in counts.text()
-    for _ in range(2):  # what was chosen goes too
+    for _ in range(2):  # the second one clears the selection
         key(window, Qt.Key.Key_Escape)
         window.refresh()
     assert "isolated" not in counts.text()
 
 
-def test_a_feature_that_fails_to_refresh_is_said_once_and_the_others_go_on(fresh_window, qtbot, monkeypatch):
+def test_a_failing_refresh_is_reported_once_and_other_features_are_refreshed(fresh_window, qtbot, monkeypatch):
     window = fresh_window
     monkeypatch.setattr(sys, "excepthook", sys.excepthook)
     report_unexpected_errors(window)

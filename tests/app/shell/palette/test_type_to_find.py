@@ -15,7 +15,7 @@ WORDS = ["Laplacian", "Mend", "Steepest descent", "Truss"]
 
 
 class Lists(QWidget):
-    """A window with lists, and keys of which it remembers those that were pressed."""
+    """Window with lists and single-letter shortcuts, which records the shortcuts used."""
 
     def __init__(self):
         super().__init__()
@@ -39,11 +39,11 @@ def lists(shown):
 
 
 def choose_by_mouse(box, at, qtbot):
-    """Open a box by a click, and choose in it by another."""
+    """Open a combo box and choose an entry by mouse."""
     QTest.mouseClick(box, LEFT)
     view = box.view()
     qtbot.waitUntil(view.isVisible)
-    # Qt holds a click back that comes with the one that opened it.
+    # Qt ignores a second click that follows the first one quickly.
     qtbot.waitUntil(lambda: _clicked(view, at) or not view.isVisible(), timeout=5000)
     assert box.currentIndex() == at
 
@@ -54,27 +54,27 @@ def _clicked(view, at):
 
 
 @pytest.mark.parametrize("typed", ["s", "S"])
-def test_a_letter_typed_in_a_box_finds_its_entry(lists, typed):
+def test_a_letter_typed_in_a_combo_box_finds_an_entry(lists, typed):
     lists.box.setFocus(Qt.FocusReason.TabFocusReason)
     QTest.keyClicks(lists.box, typed)
     assert lists.box.currentText() == "Steepest descent"
     assert lists.pressed == []
 
 
-def test_a_word_is_typed_without_a_key_of_the_window_whether_it_is_found_or_not(lists):
+def test_typing_in_a_combo_box_triggers_no_shortcuts(lists):
     lists.box.setFocus(Qt.FocusReason.TabFocusReason)
     QTest.keyClicks(lists.box, "trussnl1")
     assert lists.box.currentText() == "Truss"
     assert lists.pressed == []
 
 
-def test_what_is_no_letter_is_the_windows(lists):
+def test_keys_other_than_letters_trigger_shortcuts(lists):
     lists.box.setFocus(Qt.FocusReason.TabFocusReason)
     QTest.keyClick(lists.box, Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
     assert lists.pressed == ["Ctrl+S"]
 
 
-def test_letters_are_the_boxs_while_it_is_open_and_the_windows_once_the_mouse_has_chosen(lists, qtbot):
+def test_letters_trigger_shortcuts_after_a_choice_by_mouse(lists, qtbot):
     QTest.mouseClick(lists.box, LEFT)
     qtbot.waitUntil(lists.box.view().isVisible)
     QTest.keyClicks(QApplication.focusWidget(), "t")
@@ -84,12 +84,12 @@ def test_letters_are_the_boxs_while_it_is_open_and_the_windows_once_the_mouse_ha
     choose_by_mouse(lists.other, 1, qtbot)
     QTest.keyClicks(lists.other, "s")
     assert (lists.other.currentText(), lists.pressed) == ("Mend", ["S"])
-    QTest.keyClick(lists.other, Qt.Key.Key_Up)  # now it is the keys that choose
+    QTest.keyClick(lists.other, Qt.Key.Key_Up)  # now the combo box is used by keyboard
     QTest.keyClicks(lists.other, "s")
     assert (lists.other.currentText(), lists.pressed) == ("Steepest descent", ["S"])
 
 
-def test_a_list_has_the_letters_that_it_finds_something_by(lists):
+def test_a_list_receives_letters_that_match_an_entry(lists):
     lists.list.setCurrentRow(0)
     lists.list.setFocus()
     QTest.keyClicks(lists.list, "m")
@@ -98,7 +98,7 @@ def test_a_list_has_the_letters_that_it_finds_something_by(lists):
     assert lists.pressed == ["N"]
 
 
-def test_elsewhere_letters_are_the_windows_and_digits_a_number_boxs(lists):
+def test_elsewhere_letters_trigger_shortcuts_and_digits_edit_numbers(lists):
     lists.number.setFocus()
     lists.number.selectAll()
     QTest.keyClicks(lists.number, "11")
@@ -109,7 +109,7 @@ def test_elsewhere_letters_are_the_windows_and_digits_a_number_boxs(lists):
 
 
 @pytest.mark.slow
-def test_a_method_is_found_by_typing_and_the_worst_hexes_are_still_gone_through(window):
+def test_typing_finds_a_method_and_n_selects_the_next_worst_hex(window):
     box = named(window.features["smooth"].panel, QComboBox, "Method")
     box.setFocus(Qt.FocusReason.TabFocusReason)
     structure = window.session.view.look.structure

@@ -1,4 +1,4 @@
-"""Where panels stand around the view, and what room the view has."""
+"""Panels around the view: places, visibility, sizes and saved layouts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ IDS = ("run", "recipe", "look", "histogram", "quality", "worst", "tags")
 
 
 def panels():
-    """Some panels, two of which share a tab."""
+    """Return panels, two of which share a tab."""
     places = (*3 * [PanelPlace.TOOLS], *2 * [PanelPlace.FACTS], *2 * [PanelPlace.DRAWER])
     shared = {"run": "Run", "recipe": "Run"}
     return [
@@ -26,8 +26,8 @@ def panels():
     ]
 
 
-def made(shown):
-    """A main window with the panels."""
+def shown_docks(shown):
+    """Show a main window with the panels."""
     main = QMainWindow()
     docks = Docks(main)
     main.statusBar().addWidget(docks.row, 1)
@@ -39,43 +39,43 @@ def made(shown):
 
 @pytest.fixture
 def docks(shown):
-    return made(shown)
+    return shown_docks(shown)
 
 
 @pytest.fixture
 def another(shown):
-    """Other docks with the same panels."""
-    return made(shown)
+    """Docks of a second window with the same panels."""
+    return shown_docks(shown)
 
 
-def seen(docks):
-    """The panels that are visible."""
+def visible(docks):
+    """Return the ids of the visible panels."""
     QApplication.processEvents()
     return {id for id in docks.ids() if docks.in_front(id)}
 
 
 def dock_of(docks, title):
-    return next(one for one in docks.parent().findChildren(QDockWidget) if one.windowTitle() == title)
+    return next(dock for dock in docks.parent().findChildren(QDockWidget) if dock.windowTitle() == title)
 
 
 def resize(docks, title, width, height):
-    """Drag the edges of a dock to another size."""
+    """Resize a dock."""
     for size, direction in ((width, Qt.Orientation.Horizontal), (height, Qt.Orientation.Vertical)):
         docks.parent().resizeDocks([dock_of(docks, title)], [size], direction)
     QApplication.processEvents()
 
 
-def test_panels_stand_in_their_order_tools_first(docks):
+def test_panels_are_ordered_with_tools_first(docks):
     assert docks.ids() == list(IDS)
-    assert seen(docks) == {"run", "recipe", "histogram"}  # the drawer is folded
+    assert visible(docks) == {"run", "recipe", "histogram"}  # the drawer is folded
 
 
-def test_a_panel_is_brought_to_the_front_with_those_that_share_its_tab(docks):
+def test_showing_a_panel_shows_those_that_share_its_tab(docks):
     docks.show_panel("look")
     docks.show_panel("tags")
-    assert seen(docks) == {"look", "histogram", "tags"}
+    assert visible(docks) == {"look", "histogram", "tags"}
     docks.show_panel("recipe")
-    assert seen(docks) == {"run", "recipe", "histogram", "tags"}
+    assert visible(docks) == {"run", "recipe", "histogram", "tags"}
 
 
 def test_a_panel_is_closed_until_it_is_shown_again(docks):
@@ -86,7 +86,7 @@ def test_a_panel_is_closed_until_it_is_shown_again(docks):
     assert docks.in_front("quality")
 
 
-def test_a_panel_is_offered_where_it_is_without_taking_room(docks):
+def test_offering_a_panel_does_not_open_the_drawer(docks):
     view = docks.centre.size()
     docks.offer_panel("tags")
     docks.offer_panel("quality")
@@ -98,24 +98,24 @@ def test_a_panel_is_offered_where_it_is_without_taking_room(docks):
     assert docks.in_front("tags")
 
 
-def test_panels_are_hidden_and_come_back_as_they_were(docks, qtbot):
+def test_hidden_panels_are_restored(docks, qtbot):
     docks.show_panel("tags")
     docks.show_panel("quality")
-    before, view = seen(docks), docks.centre.width()
+    before, view = visible(docks), docks.centre.width()
     with qtbot.waitSignal(docks.changed):
         docks.set_hidden(True)
     QApplication.processEvents()
     assert docks.hidden
-    assert seen(docks) == set()
+    assert visible(docks) == set()
     assert docks.centre.width() > view
     docks.set_hidden(False)
     QApplication.processEvents()
-    assert seen(docks) == before
+    assert visible(docks) == before
     assert docks.centre.width() == view
     docks.set_hidden(True)
-    docks.show_panel("look")  # brings all back
+    docks.show_panel("look")  # shows all panels
     assert not docks.hidden
-    assert seen(docks) == before - {"run", "recipe"} | {"look"}
+    assert visible(docks) == before - {"run", "recipe"} | {"look"}
 
 
 def test_only_the_panel_in_front_is_visible_and_takes_the_focus(docks):
@@ -125,7 +125,7 @@ def test_only_the_panel_in_front_is_visible_and_takes_the_focus(docks):
     assert {title for title, page in pages.items() if page.isVisible()} == {"Run", "Histogram", "Tags"}
 
 
-def test_the_view_is_never_smaller_than_it_can_be_of_use(docks):
+def test_the_view_has_a_minimum_size(docks):
     docks.show_panel("tags")
     resize(docks, "Tags", 3000, 3000)
     resize(docks, "Run", 3000, 3000)
@@ -135,19 +135,19 @@ def test_the_view_is_never_smaller_than_it_can_be_of_use(docks):
     assert docks.centre.height() >= 240
 
 
-def test_the_row_opens_the_drawer_with_its_panel(docks):
+def test_a_tab_of_the_row_opens_the_drawer_with_its_panel(docks):
     assert docks.row.isVisible()
     assert [docks.row.tabText(at) for at in range(docks.row.count())] == ["Worst", "Tags"]
     QTest.mouseClick(docks.row, LEFT, pos=docks.row.tabRect(1).center())
-    assert "tags" in seen(docks)
+    assert "tags" in visible(docks)
     assert not docks.row.isVisible()
     docks.set_folded(True)
-    assert "tags" not in seen(docks)
+    assert "tags" not in visible(docks)
     docks.set_folded(False)
-    assert "tags" in seen(docks)
+    assert "tags" in visible(docks)
 
 
-def test_the_drawer_opens_as_high_as_it_was(docks):
+def test_the_drawer_keeps_its_height(docks):
     docks.show_panel("tags")
     resize(docks, "Tags", 500, 180)
     height = dock_of(docks, "Tags").height()
@@ -158,7 +158,7 @@ def test_the_drawer_opens_as_high_as_it_was(docks):
     assert dock_of(docks, "Tags").height() == height
 
 
-def test_a_dock_that_the_user_closes_is_opened_again(docks, qtbot):
+def test_a_closed_dock_can_be_shown_again(docks, qtbot):
     with qtbot.waitSignal(docks.changed):
         dock_of(docks, "Quality").close()
     assert not docks.is_open("quality")
@@ -166,17 +166,17 @@ def test_a_dock_that_the_user_closes_is_opened_again(docks, qtbot):
     docks.set_hidden(False)
     assert not docks.is_open("quality")
     docks.show_panel("quality")
-    assert "quality" in seen(docks)
+    assert "quality" in visible(docks)
 
 
-def test_the_default_layout_comes_back(docks):
-    before = seen(docks)
+def test_reset_restores_the_default_layout(docks):
+    before = visible(docks)
     dock_of(docks, "Look").setFloating(True)
     docks.show_panel("tags")
     docks.close_panel("histogram")
     docks.reset()
     assert not dock_of(docks, "Look").isFloating()
-    assert seen(docks) == before
+    assert visible(docks) == before
     assert all(map(docks.is_open, docks.ids()))
 
 
@@ -198,11 +198,11 @@ def test_a_layout_is_restored(docks, another, folded, hidden):
     assert another.hidden is hidden
     for one in (docks, another):
         one.set_hidden(False)
-    assert seen(another) == seen(docks) == {"look", "quality"} | (set() if folded else {"tags"})
+    assert visible(another) == visible(docks) == {"look", "quality"} | (set() if folded else {"tags"})
     assert not another.is_open("worst")
     for one in (docks, another):
         one.set_folded(False)
-    assert seen(another) == seen(docks) == {"look", "quality", "tags"}
+    assert visible(another) == visible(docks) == {"look", "quality", "tags"}
     assert another.centre.size() == docks.centre.size()
 
 
@@ -213,7 +213,7 @@ def test_a_floating_dock_is_restored_through_the_settings(docks, another):
     settings.PANELS.set(docks.state())
     another.restore(settings.PANELS.get())
     assert dock_of(another, "Look").isFloating()
-    assert seen(another) == seen(docks) == {"run", "recipe", "look", "histogram"}
+    assert visible(another) == visible(docks) == {"run", "recipe", "look", "histogram"}
     for one in (docks, another):
         one.set_hidden(True)
 
@@ -221,21 +221,21 @@ def test_a_floating_dock_is_restored_through_the_settings(docks, another):
 @pytest.mark.parametrize(
     "broken", [{"state": None}, {"state": b"broken"}, {"layout": None}, {"fronts": None}, {"drawer": "high"}], ids=str
 )
-def test_a_broken_layout_leaves_the_default(docks, another, broken):
-    size, before = another.centre.size(), seen(another)
+def test_an_invalid_layout_is_ignored(docks, another, broken):
+    size, before = another.centre.size(), visible(another)
     state = docks.state()
     resize(docks, "Run", 400, 300)
     another.restore(state | broken)
-    assert seen(another) == before
+    assert visible(another) == before
     assert another.centre.size() == size
     another.restore({})
-    assert seen(another) == before
+    assert visible(another) == before
 
 
-def test_of_an_older_layout_the_closed_and_front_panels_are_read(docks):
+def test_closed_and_front_panels_of_an_older_layout_are_restored(docks):
     old = {"layout": "7", "all": b"", "right": b"", "hidden": False, "drawer": 300, "folded": False}
     docks.restore(old | {"fronts": ["Look", "Quality", "Tags"], "closed": ["worst", "gone"]})
-    assert seen(docks) == {"look", "quality", "tags"}
+    assert visible(docks) == {"look", "quality", "tags"}
     assert not docks.is_open("worst")
 
 
@@ -252,13 +252,13 @@ def test_the_view_has_most_of_the_window_in_the_default_layout(window, qtbot, si
     window.refresh()
     QApplication.processEvents()
     assert (window.width(), window.height()) == size
-    assert seen(window.docks) == {"run", "recipe", "histogram", "timeline"}
+    assert visible(window.docks) == {"run", "recipe", "histogram", "timeline"}
     view = window.canvas.interactor
     assert view.width() * view.height() >= 0.7 * window.width() * window.height()
 
 
 @pytest.mark.slow
-def test_the_layout_is_kept_from_one_window_to_the_next(fresh_window, qtbot):
+def test_the_layout_is_stored_for_the_next_window(fresh_window, qtbot):
     window = fresh_window
     window.show_panel("tags")
     window.show_panel("quality")

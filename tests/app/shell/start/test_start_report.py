@@ -1,4 +1,4 @@
-"""The start of the whole program: what is on the screen when, and what was loaded for it."""
+"""Start of the program: the order in which things are shown, and the modules loaded by then."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 
 from hexmend_app.bench.start import MOMENTS, measure_start
 
-#: Top packages that the first paint of the window can do without.
+#: Packages that are not needed to paint the window.
 LATER = {"matplotlib", "pyqtgraph", "pyvista", "pyvistaqt", "scipy", "vtk", "vtkmodules"}
 
 
@@ -20,7 +20,7 @@ def loaded(moment):
 
 
 @pytest.mark.slow
-def test_the_window_is_there_first_and_then_its_mesh(moments):
+def test_the_window_is_shown_before_its_mesh(moments):
     assert list(moments) == list(MOMENTS)
     assert 0 < moments["window"]["seconds"] < moments["picture"]["seconds"]
     assert "PySide6" in loaded(moments["window"])
@@ -28,9 +28,9 @@ def test_the_window_is_there_first_and_then_its_mesh(moments):
     assert set(moments["window"]["modules"]) <= set(moments["picture"]["modules"])
 
 
-def test_the_window_is_painted_before_what_draws_in_it_is_loaded(moments):
+def test_the_window_is_painted_before_slow_imports(moments):
     assert loaded(moments["window"]) & LATER == set()
 
 
-def test_nothing_is_loaded_that_saved_figures_alone_need(moments):
+def test_modules_of_saved_figures_are_not_loaded(moments):
     assert "matplotlib.pyplot" not in moments["picture"]["modules"]

@@ -1,4 +1,4 @@
-"""From an empty window to one with a mesh and all panels."""
+"""Start of the window: mesh first, then all panels."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from tests.patience import PATIENCE
 pytestmark = pytest.mark.slow
 
 
-def test_the_mesh_is_drawn_before_the_other_features_are_there(bare_window, qtbot, mesh_file):
+def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbot, mesh_file):
     window, drawn_by = bare_window, []
     WindowStart(window, mesh_file)
-    assert window.session is None  # what it takes is imported beside the window
+    assert window.session is None  # it is imported in a thread
     qtbot.waitUntil(lambda: window.canvas is not None, timeout=PATIENCE)
     window.canvas.interactor.frameSwapped.connect(
         lambda: window.canvas.colouring is not None and drawn_by.append(tuple(window.features))
@@ -27,7 +27,7 @@ def test_the_mesh_is_drawn_before_the_other_features_are_there(bare_window, qtbo
     assert window.session.document.path == mesh_file
 
 
-def test_panels_come_without_a_mesh_too_and_it_is_said_why(bare_window, qtbot, tmp_path):
+def test_panels_are_built_and_an_error_is_shown_if_the_mesh_cannot_be_opened(bare_window, qtbot, tmp_path):
     path = tmp_path / "none.vtk"
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
         WindowStart(bare_window, path)
@@ -36,7 +36,7 @@ def test_panels_come_without_a_mesh_too_and_it_is_said_why(bare_window, qtbot, t
     assert bare_window.features["open"].welcome.isVisible()
 
 
-def test_the_view_comes_into_the_window_that_is_on_the_screen(bare_window, qtbot, mesh_file):
+def test_adding_the_view_does_not_recreate_the_window(bare_window, qtbot, mesh_file):
     before = bare_window.windowHandle().winId()
     WindowStart(bare_window, mesh_file)
     with qtbot.waitSignal(bare_window.ready, timeout=PATIENCE):
