@@ -206,10 +206,12 @@ class Feature(QObject):
         """Show the current session; called once for all changes in a turn of the event loop."""
 
     def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run in progress.
+        """Show the newest iteration of an active run; by default, refresh if the feature declares `shows_iterations`.
 
         Called instead of `refresh`, up to thirty times a second, while nothing else changes.
         """
+        if self.shows_iterations:
+            self.refresh()
 
     def program_started(self) -> None:
         """Start tasks of the program, rather than of every window; called once all features are built."""

@@ -22,6 +22,7 @@ from hexmend_app.scene.camera.vtk_pose import apply_pose, pose_of
 from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.view.camera_request import PoseHistoryData
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from pyvistaqt import BackgroundPlotter
@@ -62,9 +63,9 @@ class CameraView(QWidget):
         super().__init__(parent)
         self.interactor = RenderWidget(self)
         self.interactor.setMinimumSize(*_MIN_SIZE)
-        set_help(self.interactor, "3D view", "")
+        set_help(self.interactor, tr("3D view"), "")
         self.interactor.setAccessibleDescription(
-            "Arrow keys rotate, Shift and arrow keys pan, + and − zoom; F fits the mesh into the view."
+            tr("Arrow keys rotate, Shift and arrow keys pan, + and − zoom; F fits the mesh into the view.")
         )
         self.panes = Panes(self.interactor.render_window, pixel_ratio=self.devicePixelRatioF(), on_failure=_report)
         self.viewport = self.panes.first

@@ -14,6 +14,7 @@ from hexmend_app.canvas.swatch_button import SwatchButton, swatch_text
 from hexmend_app.scene.colour.colouring import range_label
 from hexmend_app.scene.colour.ticks import ticks_with_ends
 from hexmend_app.theme.style import INVERTED, LINE, MUTED, PANEL, TEXT, on_theme_change, set_help, smaller, tabular
+from hexmend_app.translation import tr
 
 #: Sizes in pixels: height, width of the gradient, length of a tick, gap between tick and number, maximum title width.
 _HEIGHT = 300
@@ -109,13 +110,21 @@ class ColourBar(QFrame):
         label, shown = self._title.text(), [swatch for swatch in self.swatches if not swatch.isHidden()]
         set_help(
             self,
-            "Colour bar",
-            f"Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest end. "
-            f"Special colours: {', '.join(swatch.name for swatch in shown)}. Inverted hexes have a corner with a "
-            "determinant σ ≤ 0 and are outlined. Drag the bar to move it; double-click it to reset its position.",
+            tr("Colour bar"),
+            tr(
+                "Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest end. "
+                "Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0 and are outlined. Drag "
+                "the bar to move it; double-click it to reset its position.",
+                label=label,
+                low=low,
+                high=high,
+                names=", ".join(swatch.name for swatch in shown),
+            ),
         )
         texts = "; ".join(swatch_text(swatch.name, swatch.count) for swatch in shown)
-        self.setAccessibleDescription(f"{texts}; {label} from {low} to {high}")
+        self.setAccessibleDescription(
+            tr("{texts}; {label} from {low} to {high}", texts=texts, label=label, low=low, high=high)
+        )
 
     def sizeHint(self) -> QSize:
         """Return the width of the texts, and the default height."""

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import BLUE, LINE, MUTED, TEXT
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 _SIZE, _GAP = 12, 5
 
@@ -47,7 +48,7 @@ class SwatchButton(QAbstractButton):
         self.name, self.count, self._colour = name, count, colour
         self.setEnabled(count > 0)
         self.setCursor(Qt.CursorShape.PointingHandCursor if count else Qt.CursorShape.ArrowCursor)
-        set_help(self, f"Isolate {name}", f"Show only {name} hexes; Esc shows all again.")
+        set_help(self, tr("Isolate {name}", name=name), tr("Show only {name} hexes; Esc shows all again.", name=name))
         self.updateGeometry()
         self.update()
 

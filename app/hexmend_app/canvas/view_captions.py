@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QWidg
 
 from hexmend_app.theme.palette import Role
 from hexmend_app.theme.style import MUTED, WORSE, icon, set_help, smaller, tabular, tint
+from hexmend_app.translation import tr
 from hexmend_app.widgets.eliding_label import ElidingLabel
 from hexmend_app.widgets.legend import Swatch
 from hexmend_app.widgets.wording import figure
@@ -99,7 +100,11 @@ class CaptionRow(QWidget):
             cross.setIconSize(QSize(_CROSS, _CROSS))
             cross.setAutoRaise(True)
             cross.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            set_help(cross, f"Close the view of {caption.name}", f"Close the view of {caption.name}")
+            set_help(
+                cross,
+                tr("Close the view of {name}", name=caption.name),
+                tr("Close the view of {name}", name=caption.name),
+            )
             cross.clicked.connect(lambda: self.closed.emit(number))
             part.layout().addWidget(cross)
         return part
@@ -123,7 +128,11 @@ class WipeRow(QWidget):
         self._sides, self._figures = [], []
         for side in ("left", "right"):
             box, label = QComboBox(), _figures()
-            set_help(box, f"{side.capitalize()} view", f"View on the {side} of the draggable edge")
+            set_help(
+                box,
+                tr("{side} view", side=side.capitalize()),
+                tr("View on the {side} of the draggable edge", side=side),
+            )
             box.activated.connect(lambda _: self.chosen.emit(*(side.currentIndex() for side in self._sides)))
             self._sides.append(box)
             self._figures.append(label)

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QWidget
 
 from hexmend_app.theme.palette import ACCENT, BLUE, FIELD, LINE, TEXT
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 #: Sizes in pixels: width of the line, diameter of its knob.
 _LINE, _KNOB = 5, 22
@@ -38,7 +39,7 @@ class WipeHandle(QWidget):
         self._grip: int | None = None  # distance of the mouse from the line during a drag
         self.setCursor(Qt.CursorShape.SplitHCursor)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self, "Wipe", "Drag, or press the arrow keys, to move the edge between the two views.")
+        set_help(self, tr("Wipe"), tr("Drag, or press the arrow keys, to move the edge between the two views."))
         self.hide()
         over.installEventFilter(self)
 

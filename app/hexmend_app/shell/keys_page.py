@@ -11,6 +11,7 @@ from hexmend_app.feature import Action
 from hexmend_app.shell.keys import tables
 from hexmend_app.theme.palette import MUTED
 from hexmend_app.theme.style import on_theme_change, set_help
+from hexmend_app.translation import tr
 
 
 class KeysPage(QDialog):
@@ -18,14 +19,14 @@ class KeysPage(QDialog):
 
     def __init__(self, actions: Iterable[Action], parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Mouse and keys")
+        self.setWindowTitle(tr("Mouse and keys"))
         self._tables = tables(actions)
         self._field = QLineEdit()
-        self._field.setPlaceholderText("Filter by name, keys or help")
+        self._field.setPlaceholderText(tr("Filter by name, keys or help"))
         self._field.setClearButtonEnabled(True)
-        set_help(self._field, "Filter", "Show only the entries whose name, keys or help contain these words.")
+        set_help(self._field, tr("Filter"), tr("Show only the entries whose name, keys or help contain these words."))
         self._page = QTextBrowser()
-        set_help(self._page, "Mouse and keys", "")
+        set_help(self._page, tr("Mouse and keys"), "")
         layout = QVBoxLayout(self)
         layout.addWidget(self._field)
         layout.addWidget(self._page)

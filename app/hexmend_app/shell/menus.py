@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 from hexmend_app.feature import MENUS, Action, ActionFace
 from hexmend_app.shell.mnemonics import letter_of, letters, with_mnemonic
 from hexmend_app.theme.style import icon
+from hexmend_app.translation import tr
 
 
 class Menus:
@@ -32,7 +33,7 @@ class Menus:
         self._window = window
         self._declared: dict[str, Action] = {}
         self.actions: dict[str, QAction] = {}
-        self._bar = QToolBar("Tools")
+        self._bar = QToolBar(tr("Tools"))
         self._bar.setObjectName("toolbar")
         self._bar.setIconSize(QSize(16, 16))
         self._menus = _menus(window)

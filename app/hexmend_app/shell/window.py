@@ -18,6 +18,7 @@ from hexmend_app.shell.panels.hex_counts import HexCounts
 from hexmend_app.shell.refresh_timer import RefreshTimer
 from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import wait_for_dropped
+from hexmend_app.translation import tr
 from hexmend_app.widgets.busy import Busy
 from hexmend_app.widgets.message_bar import MessageBar
 from hexmend_app.widgets.opengl import reserve_opengl
@@ -61,7 +62,7 @@ class Window(QMainWindow):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setWindowTitle("Hexmend")
+        self.setWindowTitle(tr("Hexmend"))
         self.messages, self.busy = MessageBar(), Busy()
         self.docks = Docks(self)
         Overlay(self.messages, self.docks.centre, (0.5, 0.0), width=560)
@@ -242,7 +243,7 @@ class Window(QMainWindow):
         document = self.session.document
         if document.is_open:
             self._counts.refresh(self.session)
-        self.setWindowTitle(f"{document.name}[*] – Hexmend" if document.is_open else "Hexmend")
+        self.setWindowTitle(tr("{name}[*] – Hexmend", name=document.name) if document.is_open else tr("Hexmend"))
         self.setWindowModified(self.session.modified)
 
     def refresh_iteration(self) -> None:

@@ -11,6 +11,7 @@ from hexmend_app.feature import Action, Panel, PanelPlace
 from hexmend_app.shell.keys_page import KeysPage
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.shell.palette.palette_entries import choice_entries, command_entries, panel_entries
+from hexmend_app.translation import tr
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
@@ -60,12 +61,12 @@ def _layout_actions(docks: Docks) -> list[Action]:
     return [
         Action(
             id="panels",
-            text="Show only the &view",
+            text=tr("Show only the &view"),
             menu="View",
             part=3,
             keys="Ctrl+Tab",
             icon="fullscreen",
-            help="Hide all panels, or show them again (Tab in the view).",
+            help=tr("Hide all panels, or show them again (Tab in the view)."),
             handle=lambda on: docks.set_hidden(on),
             checked=lambda: docks.hidden,
             needs_mesh=False,
@@ -73,23 +74,23 @@ def _layout_actions(docks: Docks) -> list[Action]:
         ),
         Action(
             id="drawer",
-            text="Panels &below the view",
+            text=tr("Panels &below the view"),
             menu="View",
             part=3,
             keys="Ctrl+B",
             icon="dock-bottom",
-            help="Open or close the panels below the view.",
+            help=tr("Open or close the panels below the view."),
             handle=lambda on: docks.set_folded(not on),
             checked=lambda: not docks.folded and not docks.hidden,
             needs_mesh=False,
         ),
         Action(
             id="reset_layout",
-            text="&Reset layout",
+            text=tr("&Reset layout"),
             menu="View/Panels",
             part=9,
             icon="dock-window",
-            help="Open and dock all panels in their default places.",
+            help=tr("Open and dock all panels in their default places."),
             handle=docks.reset,
             needs_mesh=False,
         ),
@@ -101,31 +102,31 @@ def _program_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Acti
     return [
         Action(
             id="commands",
-            text="&Commands…",
+            text=tr("&Commands…"),
             menu="Help",
             keys="Ctrl+Shift+P",
             icon="magnify",
-            help="Find a command, panel, method, metric or setting by name.",
+            help=tr("Find a command, panel, method, metric or setting by name."),
             needs_mesh=False,
             handle=lambda: _show_palette(window, panels),
         ),
         Action(
             id="keys",
-            text="&Mouse and keys",
+            text=tr("&Mouse and keys"),
             menu="Help",
             keys="F1",
             icon="mouse",
-            help="List the mouse controls of the view and all keys.",
+            help=tr("List the mouse controls of the view and all keys."),
             needs_mesh=False,
             handle=lambda: _show_keys(window),
         ),
         Action(
             id="quit",
-            text="&Quit",
+            text=tr("&Quit"),
             menu="File",
             part=9,
             keys="Ctrl+Q",
-            help="Close the window.",
+            help=tr("Close the window."),
             needs_mesh=False,
             handle=window.close,
         ),

@@ -9,6 +9,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 
 
 class Busy(QWidget):
@@ -17,7 +18,7 @@ class Busy(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._text = QLabel()
-        self._text.setAccessibleName("Current task")
+        self._text.setAccessibleName(tr("Current task"))
         bar = QProgressBar()
         bar.setRange(0, 0)
         bar.setFixedSize(140, 10)  # as high as text, so that the layout does not jump

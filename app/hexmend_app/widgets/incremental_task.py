@@ -7,6 +7,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from hexmend_app.translation import tr
 from hexmend_app.widgets.busy import Busy
 
 
@@ -86,4 +87,4 @@ class IncrementalTask(QObject):
         self.finished.emit(items)
 
     def _show(self) -> None:
-        self._busy.show_work(self._owner, self._describe(len(self._items)), "Cancel", self._help, self.cancel)
+        self._busy.show_work(self._owner, self._describe(len(self._items)), tr("Cancel"), self._help, self.cancel)

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 
 from hexmend_app.theme.palette import AMBER, BLUE, INFO, WARNED, WORSE, WRONG
 from hexmend_app.theme.style import icon, on_theme_change, set_help
+from hexmend_app.translation import tr
 
 #: Maximum number of letters of a text that are shown, and of messages that are stored.
 _MAX_SHOWN, _MAX_STORED = 700, 100
@@ -83,7 +84,7 @@ class MessageBar(QFrame):
         self._next = QToolButton()
         self._next.setAutoRaise(True)
         self._next.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(self._next, "Next message", "Show the next message.")
+        set_help(self._next, tr("Next message"), tr("Show the next message."))
         self._next.clicked.connect(self._show_next)
         self._copy, self._dismiss = QToolButton(), QToolButton()
         for button, icon_name, slot in (
@@ -94,8 +95,8 @@ class MessageBar(QFrame):
             button.setAutoRaise(True)
             button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             button.clicked.connect(slot)
-        set_help(self._copy, "Copy message", "Copy the whole message to the clipboard.")
-        set_help(self._dismiss, "Dismiss message", "Dismiss this message (Esc).")
+        set_help(self._copy, tr("Copy message"), tr("Copy the whole message to the clipboard."))
+        set_help(self._dismiss, tr("Dismiss message"), tr("Dismiss this message (Esc)."))
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, self.dismiss)
         self._escape.setEnabled(False)
         self._timer = QTimer(self)
@@ -221,11 +222,13 @@ class MessageBar(QFrame):
         self._icon.setAccessibleName(message.kind)
         self.title.setText(message.title + (f"  (×{message.times})" if message.times > 1 else ""))
         long = len(message.text) > _MAX_SHOWN
-        self.text.setText(f"{message.text[:_MAX_SHOWN]}… (Copy copies the full text.)" if long else message.text)
+        self.text.setText(
+            tr("{text}… (Copy copies the full text.)", text=message.text[:_MAX_SHOWN]) if long else message.text
+        )
         self.text.setVisible(bool(message.text))
         self._show_choices(message)
         self._next.setVisible(len(self._messages) > 1)
-        self._next.setText(f"{self._at + 1} of {len(self._messages)}  ›")
+        self._next.setText(tr("{number} of {count}  ›", number=self._at + 1, count=len(self._messages)))
         if message.timeout_ms:
             self._timer.start(message.timeout_ms)
         self.setAccessibleName(f"{message.kind}: {message.title}")

@@ -25,6 +25,7 @@ class FeatureAppearance(Feature):
     """Draws the session's mesh, and applies the colour panel to its appearance."""
 
     order = 30
+    shows_iterations = True
     refresh_order = 30  # before features that use what the view has drawn
 
     def __init__(self, host: Host):
@@ -101,10 +102,6 @@ class FeatureAppearance(Feature):
                     self.canvas.clear()
                 raise
         self._show_panel()
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _show_panel(self) -> None:
         self.panel.setEnabled(self.session.document.is_open)

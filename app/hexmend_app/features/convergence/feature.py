@@ -29,6 +29,7 @@ class FeatureConvergence(Feature):
     """Plots the values of all runs and sends clicks in the charts to the timeline."""
 
     order = 56
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -82,10 +83,6 @@ class FeatureConvergence(Feature):
             self._mark()
         if self._run.phase is Phase.RUNNING:
             self._throttler.throttle()
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _on_toggled(self, record: RunRecord, on: bool) -> None:
         record.plotted = on

@@ -22,6 +22,7 @@ class FeatureCut(Feature):
     """Connects the cut panels and the handles in the view with the appearance."""
 
     order = 52
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -151,10 +152,6 @@ class FeatureCut(Feature):
         self.inside.set_look(view.look, view.rings)
         if self.canvas is not None:
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _left(self) -> CutLeft | None:
         """Return the hexes left by the cut if cutting the current mesh would leave different ones."""

@@ -38,6 +38,7 @@ class FeatureHexInspector(Feature):
     """Selects hexes and nodes, and shows their details."""
 
     order = 42
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -193,10 +194,6 @@ class FeatureHexInspector(Feature):
         classes = self.session.boundary_classifier.classes
         if self._seen.changed("selection", now, selection.hex, selection.node, corners, editable, self.canvas, classes):
             self._show_selection()
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _show_selection(self) -> None:
         selection, mesh = self._selection, self._document.now.mesh

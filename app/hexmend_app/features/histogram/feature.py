@@ -34,6 +34,7 @@ class FeatureHistogram(Feature):
     """
 
     order = 40
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -93,10 +94,6 @@ class FeatureHistogram(Feature):
         if self._document.is_open and self.panel.isVisible():
             self._count()
         self.panel.set_range(look.quality_range)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _count(self) -> None:
         start, now = self._document.start, self._document.now

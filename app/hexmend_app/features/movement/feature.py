@@ -15,6 +15,7 @@ class FeatureMovement(Feature):
     """Shows the displacement of the nodes since a reference state."""
 
     order = 57
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -59,10 +60,6 @@ class FeatureMovement(Feature):
         if self.canvas is not None:
             layer = self.canvas.viewport.extras.arrows
             self.panel.set_arrows(layer.drawn, layer.moved)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     @property
     def _displacement(self) -> Displacement:

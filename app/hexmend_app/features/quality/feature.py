@@ -14,6 +14,7 @@ class FeatureQuality(Feature):
     """Shows the quality statistics of the mesh as it was opened and as it is now."""
 
     order = 41
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -39,10 +40,6 @@ class FeatureQuality(Feature):
         document = self.session.document
         if document.is_open and self._seen.changed("figures", document.start, document.now):
             self.panel.set_summaries(document.start.summary, document.now.summary)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _isolate(self, kind: str) -> None:
         now = self.session.document.now

@@ -29,6 +29,7 @@ class FeatureRecipe(Feature):
     """Edits, loads, saves and runs a recipe, and marks the active stage."""
 
     order = 27
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -110,10 +111,6 @@ class FeatureRecipe(Feature):
         paused_at = (smoothing.record, smoothing.record.newest) if number and smoothing.phase is Phase.PAUSED else None
         if self._seen.changed("paused at", paused_at) and paused_at is not None:
             self.session.run_setup.show_active(smoothing.work.stages[number - 1])
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def run(self) -> None:
         """Run the recipe on the displayed mesh."""

@@ -24,6 +24,7 @@ class FeatureScript(Feature):
     """Shows the actions in the window as a Python script."""
 
     order = 58
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -77,10 +78,6 @@ class FeatureScript(Feature):
         else:
             self._soon.cancel()
             self._show()
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _show(self) -> None:
         text = self.script.text

@@ -23,6 +23,7 @@ class FeatureSideViews(Feature):
     """Shows states of the mesh in side views."""
 
     order = 56
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -110,10 +111,6 @@ class FeatureSideViews(Feature):
         now = document.now if views.all else None
         if self._seen.changed("captions", views.all, views.wipe, self._snapshots.all, now):
             self._show_captions()
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _several(self) -> bool:
         return bool(self._views.all)

@@ -26,6 +26,7 @@ class FeatureSmooth(Feature):
     """Starts, pauses and stops runs, and shows their progress."""
 
     order = 25
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -134,10 +135,6 @@ class FeatureSmooth(Feature):
         self.panel.set_state(self._state_name())
         self._show_busy()
         self.panel.set_status(*self._status())
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _state_name(self) -> str:
         """Return the name of the state of the run in `STATES`."""

@@ -17,6 +17,7 @@ class FeatureStructure(Feature):
     """Shows and hides the layers of the mesh structure, with counts."""
 
     order = 53
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -76,10 +77,6 @@ class FeatureStructure(Feature):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
             pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
             self.panel.set_nodes(np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _classify_boundary(self) -> None:
         """Classify the boundary nodes for the next run if the result is visible."""

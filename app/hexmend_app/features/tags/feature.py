@@ -15,6 +15,7 @@ class FeatureTags(Feature):
     """Adds and removes tags of hexes, and lists them."""
 
     order = 54
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -81,10 +82,6 @@ class FeatureTags(Feature):
                 )
                 for name, members in now.mesh.hex_sets.items()
             ])  # fmt: skip
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     def _toggle(self, name: str) -> None:
         selected = self.session.selection.hex

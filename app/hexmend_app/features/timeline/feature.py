@@ -24,6 +24,7 @@ class FeatureTimeline(Feature):
     """Navigates in the iterations of runs, and starts branches."""
 
     order = 26
+    shows_iterations = True
 
     def __init__(self, host: Host):
         super().__init__(host)
@@ -87,10 +88,6 @@ class FeatureTimeline(Feature):
                 self.panel.set_track(record.newest, history.recorded_numbers(record), record.pauses, history.bytes)
                 self.panel.set_deletable(not active)
         self.panel.set_number(self._number)
-
-    def refresh_iteration(self) -> None:
-        """Show the newest iteration of a run."""
-        self.refresh()
 
     @property
     def _number(self) -> int | None:

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLineEdit, QTreeWidget, QTre
 
 from hexmend_app.shell.palette.ranking import PaletteEntry, ranked
 from hexmend_app.theme.style import GREY, MUTED, note, on_theme_change, set_help
+from hexmend_app.translation import tr
 
 #: Keys that move in the list while the text field has the focus.
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
@@ -37,24 +38,24 @@ class CommandPalette(QDialog):
 
     def __init__(self, entries: Iterable[PaletteEntry], parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle("Commands")
+        self.setWindowTitle(tr("Commands"))
         self.setWindowFlag(Qt.WindowType.FramelessWindowHint)
         self._entries = list(entries)
         self._found: list[PaletteEntry] = []
         self._list = QTreeWidget()
         self._field = _Field(self._list)
-        self._field.setPlaceholderText("Find a command, panel, method, metric or setting")
-        set_help(self._field, "Command", "Type parts of its name in any order; Enter runs the selected entry.")
+        self._field.setPlaceholderText(tr("Find a command, panel, method, metric or setting"))
+        set_help(self._field, tr("Command"), tr("Type parts of its name in any order; Enter runs the selected entry."))
         self._list.setColumnCount(2)
         self._list.setHeaderHidden(True)
         self._list.setRootIsDecorated(False)
         self._list.setUniformRowHeights(True)
-        self._list.setAccessibleName("Commands")
+        self._list.setAccessibleName(tr("Commands"))
         self._list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._list.header().setStretchLastSection(False)
         self._list.header().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self._list.header().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
-        self._nothing = note("No matches.")
+        self._nothing = note(tr("No matches."))
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         for part in (self._field, self._list, self._nothing):

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QLabel, QWidget
 
+from hexmend_app.translation import tr
+
 if TYPE_CHECKING:
     from hexmend_app.state.session.session import Session
 
@@ -15,13 +17,21 @@ class HexCounts(QLabel):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setAccessibleName("Counts")
+        self.setAccessibleName(tr("Counts"))
 
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
         inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-        self.setText(f"{summary.hexes:,} hexes, {inverted}{_isolated_text(session)}{_selected_text(session)}")
+        self.setText(
+            tr(
+                "{hexes:,} hexes, {inverted}{isolated_text}{selected_text}",
+                hexes=summary.hexes,
+                inverted=inverted,
+                isolated_text=_isolated_text(session),
+                selected_text=_selected_text(session),
+            )
+        )
 
 
 def _isolated_text(session: Session) -> str:

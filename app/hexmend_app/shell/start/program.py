@@ -24,6 +24,7 @@ from hexmend_app.state.settings import settings
 from hexmend_app.state.tasks.task import running
 from hexmend_app.state.tasks.ui_thread_gc import UiThreadGC
 from hexmend_app.theme.theme_choice import apply_theme
+from hexmend_app.translation import tr
 from hexmend_app.widgets.error_report import report_of
 
 if TYPE_CHECKING:
@@ -101,6 +102,8 @@ def report_unexpected_errors(window: Window) -> None:
         log.error("unexpected error", exc_info=(kind, error, trace))
         place = traceback.extract_tb(trace)[-1] if trace else None
         where = f" ({Path(place.filename).name}, line {place.lineno})" if place else ""
-        window.messages.show_error("Unexpected error in Hexmend", f"{kind.__name__}: {error}{where}", report_of(error))
+        window.messages.show_error(
+            tr("Unexpected error in Hexmend"), f"{kind.__name__}: {error}{where}", report_of(error)
+        )
 
     sys.excepthook = hook

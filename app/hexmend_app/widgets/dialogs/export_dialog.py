@@ -25,6 +25,7 @@ from hexmend.io.storage.suffixes import suffix_for
 from hexmend.parameters import declared
 from hexmend.report.charts import FIGURE_SUFFIXES, MM_PER_INCH, Chart, ChartStyle, chart_png
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.save_dialog import SaveDialog
 from hexmend_app.widgets.inputs.parameter_form import ParameterForm
 from hexmend_app.widgets.scrolled import scrolled
@@ -66,11 +67,11 @@ class ExportDialog(SaveDialog):
         self.title = QLineEdit(title)
         self.title.setMaxLength(_MAX_LENGTH)
         self.title.setCursorPosition(0)
-        set_help(self.title, "Title", "Text above the chart or table; leave empty for no title.")
+        set_help(self.title, tr("Title"), tr("Text above the chart or table; leave empty for no title."))
         self.names = {default: QLineEdit(style.names.get(default) or default) for default in names}
         for default, line in self.names.items():
             line.setMaxLength(_MAX_LENGTH)
-            set_help(line, f"Name of {default}", "Its name in the exported file.")
+            set_help(line, tr("Name of {default}", default=default), tr("Its name in the exported file."))
         self._preview_timer = QTimer(self, interval=_PREVIEW_DELAY, singleShot=True)
         self._preview_timer.timeout.connect(self.show_preview)
 
@@ -81,9 +82,9 @@ class ExportDialog(SaveDialog):
         for form in forms:
             column.addWidget(form)
         rows = QFormLayout()
-        rows.addRow("Title", self.title)
+        rows.addRow(tr("Title"), self.title)
         if self.names:
-            rows.addRow(QLabel("<b>Names</b>"))
+            rows.addRow(QLabel(tr("<b>Names</b>")))
         for default, line in self.names.items():
             label = QLabel(default)
             label.setTextFormat(Qt.TextFormat.PlainText)
@@ -154,7 +155,7 @@ class ChartDialog(ExportDialog):
         self.preview = QLabel(alignment=Qt.AlignmentFlag.AlignCenter)
         self.preview.setMinimumSize(360, 260)
         self.preview.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
-        set_help(self.preview, "Preview", "Preview of the exported figure.")
+        set_help(self.preview, tr("Preview"), tr("Preview of the exported figure."))
         self.form = ParameterForm(declared(ChartStyle))
         self.form.set_values(self._style.values())
         self.form.changed.connect(self.changed)
@@ -176,7 +177,7 @@ class ChartDialog(ExportDialog):
         is_figure = self.target.path().suffix.lower() in FIGURE_SUFFIXES
         self.form.setEnabled(is_figure)
         if not is_figure:
-            self.preview.setText("Table of values; no preview.")
+            self.preview.setText(tr("Table of values; no preview."))
             return
         ratio = self.devicePixelRatioF()
         size = self.preview.contentsRect().size() * ratio
@@ -221,7 +222,7 @@ class TableDialog(ExportDialog):
         self._text = text
         self.preview = QTextBrowser()
         self.preview.setMinimumSize(360, 200)
-        set_help(self.preview, "Preview", "Preview of the exported table.")
+        set_help(self.preview, tr("Preview"), tr("Preview of the exported table."))
         self.lay_out(self.preview)
 
     def chosen(self) -> ChartStyle:

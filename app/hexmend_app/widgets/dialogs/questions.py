@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 from hexmend.io import readable_suffixes, writable_suffixes
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.settings.settings import FOLDER
+from hexmend_app.translation import tr
 
 
 class Answer(Enum):
@@ -123,7 +124,7 @@ def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
     """Ask for the name under which to save a camera; "" if cancelled. Ask again before one of `names` is replaced."""
     default = next(name for k in range(1, len(names) + 2) if (name := f"camera {k}") not in names)
     label = "Name, for pictures and hexmend render --camera:"
-    text, accepted = QInputDialog.getText(parent, "Save camera", label, QLineEdit.EchoMode.Normal, default)
+    text, accepted = QInputDialog.getText(parent, tr("Save camera"), label, QLineEdit.EchoMode.Normal, default)
     name = text.strip() if accepted else ""
     return name if name not in names or _ask_yes(parent, f"The camera “{name}” already exists.", "Replace it?") else ""
 
@@ -134,8 +135,12 @@ def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
     box = QMessageBox(parent)
     box.setTextFormat(Qt.TextFormat.PlainText)
     box.setIcon(QMessageBox.Icon.Question)
-    box.setText(f"{name} has unsaved {'changes' if of_mesh else 'cameras'}.")
-    box.setInformativeText(f"Save the {'mesh' if of_mesh else 'session'} before closing it?")
+    box.setText(
+        tr("{name} has unsaved changes.", name=name) if of_mesh else tr("{name} has unsaved cameras.", name=name)
+    )
+    box.setInformativeText(
+        tr("Save the mesh before closing it?") if of_mesh else tr("Save the session before closing it?")
+    )
     box.setStandardButtons(buttons.Save | buttons.Discard | buttons.Cancel)
     box.setDefaultButton(buttons.Save)
     return {buttons.Save: Answer.SAVE, buttons.Discard: Answer.DISCARD}.get(box.exec(), Answer.CANCEL)
@@ -150,7 +155,9 @@ def ask_short_of_memory(parent: QWidget, problem: str, remedy: str) -> bool:
     space = re.compile(r"(?<=\d) (?=[GM]B)")  # made unbreakable, to keep numbers and units together
     box.setText(space.sub("\u00a0", problem))
     remedy = space.sub("\u00a0", remedy)
-    box.setInformativeText(f"{remedy} If memory runs out, the system may end the program. Run anyway?")
+    box.setInformativeText(
+        tr("{remedy} If memory runs out, the system may end the program. Run anyway?", remedy=remedy)
+    )
     box.setStandardButtons(buttons.Yes | buttons.No)
     box.setDefaultButton(buttons.No)
     return box.exec() == buttons.Yes

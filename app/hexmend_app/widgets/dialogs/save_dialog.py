@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLayout, QPushButton, Q
 
 from hexmend.errors import FileError, ParameterError
 from hexmend_app.theme.style import WORSE, note
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.target_row import TargetRow
 
 
@@ -31,7 +32,7 @@ class SaveDialog(QDialog):
 
     def __init__(self, subject: str, name: str, kinds: str, parent: QWidget | None = None):
         super().__init__(parent)
-        self.setWindowTitle(f"Save {subject}")
+        self.setWindowTitle(tr("Save {subject}", subject=subject))
         self._subject = subject
         self.suffixes = re.findall(r"\*(\.\w+)", kinds)
         self.target = TargetRow(
@@ -39,7 +40,7 @@ class SaveDialog(QDialog):
         )
         self.target.edited.connect(lambda: self.refuse(""))
         self._problem = note("", WORSE)
-        self._problem.setAccessibleName("Problem")
+        self._problem.setAccessibleName(tr("Problem"))
 
     def lay_out_below(self, upper: QLayout, *additional: QPushButton) -> None:
         """Lay out path, problem and buttons, the `additional` ones on the left, below the layout of the settings."""

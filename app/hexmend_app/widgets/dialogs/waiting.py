@@ -7,6 +7,8 @@ from collections.abc import Callable
 from PySide6.QtCore import QEventLoop, Qt, QTimer
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
+from hexmend_app.translation import tr
+
 #: Milliseconds until the dialog is shown, and between two checks.
 _DELAY, _PERIOD = 300, 20
 
@@ -27,7 +29,7 @@ class WaitingDialog(QDialog):
 
     def __init__(self, text: str, over: Callable[[], bool], leave: str, parent: QWidget):
         super().__init__(parent)
-        self.setWindowTitle("Please wait")
+        self.setWindowTitle(tr("Please wait"))
         self.setWindowModality(Qt.WindowModality.ApplicationModal)
         label = QLabel(text)
         label.setTextFormat(Qt.TextFormat.PlainText)

@@ -16,6 +16,7 @@ from hexmend.parameters import Parameter
 from hexmend_app.codec.config_table import ConfigTable, Option, options_of
 from hexmend_app.codec.docstring_help import helps
 from hexmend_app.theme.style import WORSE, note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, Text, editor_for
 from hexmend_app.widgets.wording import name_in_words
 
@@ -131,7 +132,7 @@ def _editor(option: Option) -> Editor | SuggestionBox:
     if isinstance(kind, type) and issubclass(kind, StrEnum):
         return editor_for(Parameter(name, str, option.default.value, None, None, tuple(kind), "", ""))
     editor = editor_for(Parameter(name, str, "", None, None, None, "", ""))
-    editor.setPlaceholderText("automatic" if option.default in (None, "") else _text(option.default))
+    editor.setPlaceholderText(tr("automatic") if option.default in (None, "") else _text(option.default))
     return editor
 
 

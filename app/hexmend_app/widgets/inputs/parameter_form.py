@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QTo
 from hexmend.errors import ParameterError
 from hexmend.parameters import Parameter
 from hexmend_app.theme.style import BLUE, WORSE, icon, note, set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.editors import Editor, editor_for
 from hexmend_app.widgets.inputs.number_box import LONGEST_UNIT, NumberBox
 from hexmend_app.widgets.wording import name_in_words, short_number
@@ -76,7 +77,7 @@ class ParameterForm(QWidget):
         self._grid.setVerticalSpacing(4)
         self._grid.setColumnStretch(0, 1)
         self._grid.setColumnStretch(1, 1)
-        self.none = note("No parameters.")
+        self.none = note(tr("No parameters."))
         self._defaults = self._button("Defaults", "restore", "Reset all parameters to their defaults.")
         self._defaults.clicked.connect(self._reset_all)
         self._explain = self._button("Explain", "help-circle-outline", "Show the help of each parameter.")
@@ -145,7 +146,7 @@ class ParameterForm(QWidget):
         reset.setIcon(icon("restore", BLUE))
         reset.setAutoRaise(True)
         reset.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        set_help(reset, f"Reset {name}", f"Reset to the default, {escape(shown)}.")
+        set_help(reset, tr("Reset {name}", name=name), tr("Reset to the default, {default}.", default=escape(shown)))
         # Keep the space of the hidden button, so that editors do not change width.
         policy = reset.sizePolicy()
         policy.setRetainSizeWhenHidden(True)

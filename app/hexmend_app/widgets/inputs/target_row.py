@@ -9,6 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
 
 from hexmend_app.theme.style import set_help
+from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_replacing, folder, named, remember_folder
 
 
@@ -39,13 +40,13 @@ class TargetRow(QWidget):
         self._title, self._kinds = title, kinds
         self._replaced = ""  # path that the file dialog has confirmed to be replaced
         self.line = QLineEdit(str(folder() / name))
-        set_help(self.line, "File", help)
+        set_help(self.line, tr("File"), help)
         self.line.textChanged.connect(lambda: self.edited.emit())
-        browse = QPushButton("Browse…")
+        browse = QPushButton(tr("Browse…"))
         browse.clicked.connect(self._browse)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        label = QLabel("File")
+        label = QLabel(tr("File"))
         label.setBuddy(self.line)
         row.addWidget(label)
         row.addWidget(self.line, 1)
