@@ -112,9 +112,9 @@ class ColourBar(QFrame):
             self,
             tr("Colour bar"),
             tr(
-                "Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest end. "
-                "Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0 and are outlined. Drag "
-                "the bar to move it; double-click it to reset its position.",
+                "Colours show {label} from {low} to {high}; values outside the range have the colour of the nearest "
+                "end. Special colours: {names}. Inverted hexes have a corner with a determinant σ ≤ 0 and are "
+                "outlined. Drag the bar to move it; double-click it to reset its position.",
                 label=label,
                 low=low,
                 high=high,
