@@ -167,6 +167,8 @@ class Feature(QObject):
 
     #: Order in which features are built; default of the other two orders.
     order: ClassVar[int] = 50
+    #: True if `refresh` is called for each iteration of an active run too.
+    shows_iterations: ClassVar[bool] = False
     #: Order of the actions of features in each menu.
     menu_order: ClassVar[int]
     #: Order in which features are refreshed.
