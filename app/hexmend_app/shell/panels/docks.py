@@ -10,7 +10,6 @@ from hexmend_app.shell.panels import default_layout
 from hexmend_app.shell.panels.dock import Dock
 from hexmend_app.shell.panels.dock_set import DockSet
 from hexmend_app.shell.panels.saved_layout import LAYOUT, SavedLayout
-from hexmend_app.shell.panels.stacked_panels import unfold
 from hexmend_app.shell.panels.tab_bars import TabBars
 
 
@@ -24,6 +23,8 @@ class Docks(DockSet):
 
     def show_panel(self, id: str) -> None:
         """Open a panel in front of its tabs, and show all panels if they are hidden."""
+        from hexmend_app.shell.panels.stacked_panels import unfold  # superqt is not needed before the first picture
+
         self.set_hidden(False)
         if id in self._bars:
             self._bars[id].show()
