@@ -5,11 +5,14 @@ from __future__ import annotations
 import inspect
 import pkgutil
 import sys
-from collections.abc import Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Sequence
 from importlib import import_module
+from typing import TypeVar
 
 import hexmend_app.features as folder
 from hexmend_app.feature import Feature, Host
+
+Declaration = TypeVar("Declaration")
 
 
 def names() -> list[str]:
@@ -49,11 +52,6 @@ def in_order(kinds: Iterable[type[Feature]]) -> list[type[Feature]]:
     return sorted(kinds, key=lambda kind: (kind.order, kind.__module__))
 
 
-def feature_classes() -> list[type[Feature]]:
-    """Return the classes of all features, in the order in which they are built."""
-    return in_order(map(feature_class, names()))
-
-
 def name_of(kind: type[Feature]) -> str:
     """Return the name of a feature, which is that of its folder."""
     return kind.__module__.split(".")[-2]
@@ -73,15 +71,32 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
     dict
         All features by name, in building order; a feature that raises is reported and omitted.
     """
+    kinds, features = [], dict(built)
     for name in names():
-        feature_class(name)  # importing takes longer than building
+        try:
+            kinds.append(feature_class(name))  # importing takes longer than building
+        except Exception:  # build the other features nevertheless
+            sys.excepthook(*sys.exc_info())
         yield
-    kinds, features = feature_classes(), dict(built)
+    kinds = in_order(kinds)
     for kind in kinds:
         if name_of(kind) not in features:
             try:
                 features[name_of(kind)] = kind(host)
-            except Exception:  # build the other features nevertheless
+            except Exception:
                 sys.excepthook(*sys.exc_info())
             yield
     return {name_of(kind): features[name_of(kind)] for kind in kinds if name_of(kind) in features}
+
+
+def declared(
+    features: Iterable[Feature], declarations: Callable[[Feature], Sequence[Declaration]]
+) -> list[Declaration]:
+    """List what features declare, such as their actions; a feature that raises is reported and declares nothing."""
+    listed: list[Declaration] = []
+    for feature in features:
+        try:
+            listed += declarations(feature)
+        except Exception:  # the others are shown nevertheless
+            sys.excepthook(*sys.exc_info())
+    return listed

@@ -12,6 +12,7 @@ from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, PanelPlace
+from hexmend_app.shell.features import build_remaining, declared, feature_class, first_names, in_order, name_of
 from hexmend_app.shell.palette.type_to_find import TypeToFind
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
@@ -93,7 +94,6 @@ class Window(QMainWindow):
 
     def begin(self) -> None:
         """Build the session and the features that open and draw a mesh."""
-        from hexmend_app.shell.features import feature_class, first_names, in_order, name_of
         from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
@@ -108,21 +108,21 @@ class Window(QMainWindow):
 
     def build_steps(self) -> Iterator[None]:
         """Build the other features step by step; in the last step, add all panels and menus."""
-        from hexmend_app.shell.features import build_remaining
         from hexmend_app.shell.menus import Menus
         from hexmend_app.shell.window_actions import declare_actions
 
         first = self.features
         self.features = yield from build_remaining(self, first)
-        self._add_states(self.features[name] for name in self.features.keys() - first.keys())
+        added = [feature for name, feature in self.features.items() if name not in first]
+        self._add_states(added)
         panels = self._panels()
         self.docks.add([panel for panel in panels if panel.place is not PanelPlace.EMPTY])
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
-        actions = [action for feature in in_menu_order for action in feature.actions()]
+        actions = declared(in_menu_order, lambda feature: feature.actions())
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
         if self.canvas is not None:
-            for name in self.features.keys() - first.keys():
-                self.features[name].canvas_ready(self.canvas)
+            for feature in added:
+                feature.canvas_ready(self.canvas)
         self.docks.restore(settings.PANELS.get())
         self.refresh()
         self.ready.emit()
@@ -135,12 +135,11 @@ class Window(QMainWindow):
             pass
 
     def _add_states(self, features: Iterable[Feature]) -> None:
-        for feature in features:
-            for part in feature.states():
-                self.session.feature_states.add(part)
+        for part in declared(features, lambda feature: feature.states()):
+            self.session.feature_states.add(part)
 
     def _panels(self) -> list[Panel]:
-        return [panel for feature in self.features.values() for panel in feature.panels()]
+        return declared(self.features.values(), lambda feature: feature.panels())
 
     def build_canvas(self) -> None:
         """Build the 3D view."""

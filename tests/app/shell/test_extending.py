@@ -196,3 +196,26 @@ def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_oth
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
     assert "the window.features.notes.3 is of another type: expected str" in window.messages.messages()[-1][2]
+
+
+def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_path, monkeypatch):
+    _add_folder(tmp_path, monkeypatch, "not_importable", "raise RuntimeError('at import')")
+    source = EXAMPLE.replace("class FeatureVolume", "class FeatureTwice(Feature):\n    pass\n\n\nclass FeatureVolume")
+    _add_folder(tmp_path, monkeypatch, "two_classes", source)
+    _add_folder(
+        tmp_path, monkeypatch, "no_actions", EXAMPLE.replace("        return (\n", "        return 1 / 0, (\n", 1)
+    )
+    reported = []
+    monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: reported.append(kind))
+    window = Window()
+    window.build_features()
+    assert set(reported) >= {RuntimeError, TypeError, ZeroDivisionError}
+    assert {"smooth", "cut", "histogram", "no_actions"} <= window.features.keys()
+    assert "not_importable" not in window.features
+    assert window.action("run").text() == "&Run or pause"
+    assert "volume" not in window.window_actions
+    assert "volume" in window.docks.ids()
+    window.close()
+    window.deleteLater()
+    for name in [name for name in sys.modules if name.endswith(("two_classes.feature", "no_actions.feature"))]:
+        del sys.modules[name]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from PySide6.QtWidgets import QLabel, QMenu
@@ -54,9 +56,13 @@ class FeatureCounting(Feature):
 @pytest.fixture
 def with_example(qtbot, monkeypatch, tmp_path):
     """A window with the example among its features."""
-    classes = finding.feature_classes()
-    monkeypatch.setattr(finding, "feature_classes", lambda: [*classes, FeatureCounting])
-    monkeypatch.setattr(finding, "name_of", lambda kind: kind.__name__.removeprefix("Feature").lower())
+    names, feature_class = finding.names(), finding.feature_class
+    monkeypatch.setitem(sys.modules, "hexmend_app.features.counting", ModuleType("counting"))
+    monkeypatch.setattr(FeatureCounting, "__module__", "hexmend_app.features.counting.feature")
+    monkeypatch.setattr(finding, "names", lambda: [*names, "counting"])
+    monkeypatch.setattr(
+        finding, "feature_class", lambda name: FeatureCounting if name == "counting" else feature_class(name)
+    )
     window = Window()
     qtbot.addWidget(window)
     window.build_features()
@@ -111,7 +117,7 @@ def test_no_two_actions_have_the_same_keys(with_example):
 
 
 def test_every_folder_is_a_feature():
-    names = [finding.name_of(kind) for kind in finding.feature_classes()]
+    names = [finding.name_of(kind) for kind in finding.in_order(map(finding.feature_class, finding.names()))]
     assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
     assert len(names) == len(set(names))
 

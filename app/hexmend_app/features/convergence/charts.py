@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from hexmend.iteration.figures import DIAGNOSTICS, HISTORY
 from hexmend.quantity import Quantity, format_significant
+from hexmend_app.codec.checks import check_known
 
 #: Seconds per iteration: the plot computes them from the recorded times.
 STEP_SECONDS = Quantity(
@@ -80,3 +81,29 @@ CHARTS: dict[str, Chart] = {
 
 #: Charts shown by default.
 DEFAULT_CHARTS = ("objective", "quality", "inverted")
+
+
+@dataclass(frozen=True)
+class ChartSettings:
+    """Settings of the convergence charts.
+
+    Parameters
+    ----------
+    shown : tuple of str
+        Of `CHARTS`.
+    logarithmic : bool
+    from_zero : bool
+        Whether branches begin at 0.
+    by_time : bool
+        Whether the axis is of seconds, not of iterations.
+    """
+
+    shown: tuple[str, ...]
+    logarithmic: bool
+    from_zero: bool
+    by_time: bool
+
+    def __post_init__(self) -> None:
+        shown = tuple("backtracks" if name == "cuts" else name for name in self.shown)  # of version 0.1
+        object.__setattr__(self, "shown", shown)
+        check_known("chart", shown, CHARTS)

@@ -6,8 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
-from hexmend_app.features.convergence.chart_settings import ChartSettings
-from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS
+from hexmend_app.features.convergence.charts import CHARTS, DEFAULT_CHARTS, ChartSettings
 from hexmend_app.theme.style import icon, smaller
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.menu_button import MenuButton

@@ -87,7 +87,7 @@ class CameraController:
         return *camera.GetFocalPoint(), round(camera.GetDistance(), 9), camera.GetParallelScale()
 
     def look_along(self, direction: str | Vector) -> None:
-        """Show the mesh from a direction: a name of `VIEWS`, or a vector."""
+        """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector."""
         look_from(self.camera, direction, self.up)
         self.fit()
 
@@ -128,7 +128,7 @@ class CameraController:
     # Flights
 
     def flight_along(self, direction: str | Vector) -> Flight:
-        """Return the flight to a fitted view from a direction: a name of `VIEWS`, or a vector."""
+        """Return the flight to a fitted view from a direction: a name of `DIRECTIONS`, or a vector."""
         camera = vtkCamera()
         camera.DeepCopy(self.camera)
         look_from(camera, direction, self.up)

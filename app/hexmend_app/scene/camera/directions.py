@@ -17,15 +17,12 @@ UPS: dict[str, tuple[Vector, Vector]] = {
 #: Direction of the isometric view, by vertical axis.
 _CORNERS: dict[str, Vector] = {"x": (0.8, 1.0, -1.3), "y": (1.0, 0.8, 1.3), "z": (1.0, -1.3, 0.8)}
 
-#: Names of view directions.
-VIEWS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
-
 #: Sine of the angle to the vertical axis below which a direction counts as parallel to it.
 _PARALLEL = 1e-6
 
 
 def direction_of(name: str | Vector, up: str) -> Vector:
-    """Return the direction of a name of `VIEWS`, or the given vector; `up` is a name of `UPS`."""
+    """Return the direction of a name of `DIRECTIONS`, or the given vector; `up` is a name of `UPS`."""
     if not isinstance(name, str):
         return name
     if name == "iso":
@@ -48,7 +45,7 @@ def look_from(camera: vtkCamera, name: str | Vector, up: str) -> None:
     ----------
     camera : vtkCamera
     name : str or (x, y, z)
-        One of `VIEWS`, or a vector.
+        One of `DIRECTIONS`, or a vector.
     up : str
         The vertical axis: x, y or z.
     """

@@ -198,7 +198,7 @@ class Viewport:
         return places if len(places) else mesh.points[mesh.topology.used]
 
     def view(self, direction: str | tuple[float, float, float]) -> None:
-        """Show the mesh from a direction: a name of `VIEWS`, or a vector, with z up if possible."""
+        """Show the mesh from a direction: a name of `DIRECTIONS`, or a vector, with z up if possible."""
         CameraController.of(self).look_along(direction)
 
     # Fast and fine frames

@@ -110,8 +110,11 @@ class DockSet(QObject):
                 for panel in group:
                     self.view.insertWidget(0, panel.widget, 1)
             else:
-                for title, members in groupby(group, key=lambda panel: panel.tab or panel.title):
-                    self._add_dock(title, list(members))
+                docks: dict[str, list[Panel]] = {}
+                for panel in group:
+                    docks.setdefault(panel.tab or panel.title, []).append(panel)
+                for title, members in docks.items():
+                    self._add_dock(title, members)
         if self._docks:
             if self._placeholder is not None:
                 self._main.removeDockWidget(self._placeholder)

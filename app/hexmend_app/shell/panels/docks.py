@@ -41,8 +41,8 @@ class Docks(DockSet):
 
     def offer_panel(self, id: str) -> None:
         """Put an open panel in front of its tabs; the drawer and hidden panels stay closed."""
-        dock = self._docks[id]
-        if not dock.is_open:
+        dock = self._docks.get(id)
+        if dock is None or not dock.is_open:  # a bar below the view is always visible
             return
         if self.hidden or (self.folded and self._in_drawer(dock)):
             self._offered.append(dock)

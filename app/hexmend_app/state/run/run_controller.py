@@ -178,8 +178,7 @@ class RunController(QObject):
         """End the run after the current iteration, or when it is prepared, and keep its result."""
         if self._worker is not None:
             self._worker.end()
-            if self.phase is Phase.PREPARING:
-                self._set_phase(Phase.STOPPING)
+            self._set_phase(Phase.STOPPING)
 
     def end(self, then: Callable[[], object]) -> None:
         """End the run after the current iteration, record its result, then call a function.

@@ -78,6 +78,7 @@ class Recovery(QObject):
         session.data_changed.connect(self._on_change)
         for signal in (session.run.ended, session.run.failed):
             signal.connect(lambda _: self._on_run())
+        session.opener.began.connect(self._on_began)
         session.opener.ended.connect(lambda _: self._on_opened())
         session.opener.failed.connect(lambda *_: self._cancel_recovering())
         session.opener.cancelled.connect(lambda _: self._cancel_recovering())
@@ -195,12 +196,18 @@ class Recovery(QObject):
     def _cancel_recovering(self) -> None:
         self._recovering = None
 
+    def _on_began(self, path: Path) -> None:
+        """Another file is read instead of the recovered session."""
+        if self._recovering is not None and path != self._recovering.path:
+            self._recovering = None
+
     def _on_written(self) -> None:
         task, self._task = self._task, None
         callbacks, self._after_writing = self._after_writing, []
         for callback in callbacks:
             callback()
         if isinstance(task.error, HexmendError | OSError):
+            self._changed = True  # the next attempt may succeed
             self.failed.emit(task.error)
         elif task.error is not None:
             raise task.error

@@ -10,8 +10,9 @@ from PySide6.QtCore import QObject, Signal
 
 from hexmend_app.codec.codec import Codec, DecodeError
 
-#: Declared parts of features by name, to check session files before anything is restored.
-_DECLARED: dict[str, StatePart] = {}
+#: Types of the data of features' parts by name, each with its check: session files are checked before anything is
+#: restored. Functions of parts are not stored here, because they would keep closed windows alive.
+_DECLARED: dict[str, tuple[Any, Callable[[Any], object]]] = {}
 
 
 def _nothing(*_: object) -> None:
@@ -48,12 +49,6 @@ class StatePart:
     close: Callable[[], object] = _nothing
     changed: Any = None
 
-    def decode(self, encoded: Any, where: str = "") -> Any:
-        """Return the data of a part of a feature; raises `DecodeError` if they are not of its type."""
-        data = Codec({}).decode(encoded, self.data, where or self.name)
-        self.check(data)
-        return data
-
 
 def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
     """Check the encoded data of all parts that features have declared.
@@ -64,7 +59,15 @@ def check_feature_data(encoded: Mapping[str, Any], where: str) -> None:
         If data are not of the declared type.
     """
     for name in encoded.keys() & _DECLARED.keys():
-        _DECLARED[name].decode(encoded[name], f"{where}.{name}")
+        _decode(name, encoded[name], f"{where}.{name}")
+
+
+def _decode(name: str, encoded: Any, where: str) -> Any:
+    """Return the data of a declared part, once they are checked."""
+    kind, check = _DECLARED[name]
+    data = Codec({}).decode(encoded, kind, where)
+    check(data)
+    return data
 
 
 class FeatureStates(QObject):
@@ -99,7 +102,8 @@ class FeatureStates(QObject):
         """
         if part.name in self._parts:
             raise ValueError(f"two features declare the state {part.name!r}")
-        self._parts[part.name] = _DECLARED[part.name] = part
+        self._parts[part.name] = part
+        _DECLARED[part.name] = part.data, part.check
         if part.changed is not None:
             part.changed.connect(self.changed)
         if part.name in self._unclaimed:
@@ -125,6 +129,6 @@ class FeatureStates(QObject):
 
     def _restore(self, part: StatePart, encoded: Any) -> None:
         try:
-            part.restore(part.decode(encoded))
+            part.restore(_decode(part.name, encoded, part.name))
         except (DecodeError, ValueError) as error:
             self.failed.emit(part.name, error)

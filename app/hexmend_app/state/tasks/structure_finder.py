@@ -70,10 +70,10 @@ class StructureFinder(QObject):
 
     def _finish(self) -> None:
         task, self._task = self._task, None
-        if task.error is not None:
-            raise task.error
         if self._mesh.topology is not self._document.start.mesh.topology:
             self.search()
+        elif task.error is not None:
+            raise task.error
         else:
             self.structure = task.result
             self.found.emit()

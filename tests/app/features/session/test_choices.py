@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QScrollBar, QTabBar, QTableV
 
 from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
-from hexmend_app.features.convergence.chart_settings import CHARTS
 from hexmend_app.picture import Camera
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
 from hexmend_app.widgets.section import Section
@@ -211,7 +210,7 @@ def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
     ("worst", "metric", "taste", "there is no metric 'taste'"),
     ("compare", "ticked", ["taste"], "there is no method 'taste'"),
     ("compare", "sorted_by", "taste", "there is no column 'taste'"),
-    ("histogram", "bins", "many", "the window.features.histogram.bins is of another kind"),
+    ("histogram", "bins", "many", "the window.features.histogram.bins is of another type"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
 ])  # fmt: skip
@@ -233,10 +232,6 @@ def test_too_many_iterations_per_step_are_rejected(window, qtbot, tmp_path):
     with qtbot.waitSignal(window.session.opener.failed, timeout=PATIENCE):
         window.features["open"].open(path)
     assert "the number of steps is not from 1 to 1,000,000" in window.messages.messages()[-1][2]
-
-
-def test_the_charts_of_sessions_match_the_panel(window):
-    assert tuple(window.features["convergence"].panel.head.charts) == CHARTS
 
 
 def test_the_list_of_the_worst_follows_the_session(window, qtbot, tmp_path):

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QPushButton
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
+from hexmend_app.state.session import recovery as recovery_module
 from hexmend_app.state.session import session_data
 from hexmend_app.state.settings.paths import VARIABLE
 from tests.app.driving import open_and_wait, press
@@ -233,3 +234,29 @@ def test_a_change_during_a_write_is_written_too(fresh_window, qtbot, own_state):
         recovery.write()
     (own,) = own_state.iterdir()
     assert session_data.read(own / "session.hexmend").view.look.peel == 1
+
+
+def test_a_session_to_recover_survives_another_file_opened_meanwhile(killed, fresh_window, qtbot, mesh_file, own_state):
+    window, session = fresh_window, fresh_window.session
+    window.features["session"].start_autosave()
+    recovery = window.features["session"].recovery
+    (crashed,) = recovery.recoverable
+    recovery.recover(crashed)
+    with qtbot.waitSignal(session.opener.ended, timeout=PATIENCE):
+        session.opener.open(mesh_file)  # instead of the session, which is still being read
+    assert not session.history.records
+    assert recovery.recoverable == (crashed,)
+    assert crashed.path.exists()
+
+
+def test_a_failed_write_is_repeated(fresh_window, qtbot, own_state, monkeypatch):
+    run(fresh_window, qtbot)
+    recovery = fresh_window.features["session"].recovery
+    recovery.begin()
+    with monkeypatch.context() as patch, qtbot.waitSignal(recovery.failed, timeout=PATIENCE):
+        patch.setattr(recovery_module, "write_session", lambda *_: (_ for _ in ()).throw(OSError("the disk is full")))
+        recovery.write()
+    with qtbot.waitSignal(recovery.written, timeout=PATIENCE):
+        recovery.write()  # nothing has changed since
+    (own,) = own_state.iterdir()
+    assert session_data.read(own / "session.hexmend").history.records

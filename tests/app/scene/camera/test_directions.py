@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from vtkmodules.vtkRenderingCore import vtkCamera
 
-from hexmend_app.scene.camera.directions import UPS, VIEWS, look_from, up_in
+from hexmend_app.picture.camera import DIRECTIONS
+from hexmend_app.scene.camera.directions import UPS, look_from, up_in
 
 
 @pytest.mark.parametrize("up", UPS)
-@pytest.mark.parametrize("name", VIEWS)
+@pytest.mark.parametrize("name", DIRECTIONS)
 def test_the_vertical_axis_is_up_in_all_views_not_along_it(name, up):
     camera = vtkCamera()
     look_from(camera, name, up)
