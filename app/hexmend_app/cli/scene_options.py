@@ -113,8 +113,8 @@ def add_arguments(
     parser.add_argument(
         "--structure",
         metavar="NAMES",
-        help="draw irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes; separate "
-        "several by commas",
+        help="draw layers: irregular, boundary or sharp edges, fixed, free or locked nodes, kinds of boundary nodes, "
+        "others (cells that are not hexes), or an additional layer; separate several by commas",
     )
     parser.add_argument("--no-edges", action="store_true", help="do not draw the edges of the hexes")
 

@@ -125,7 +125,7 @@ class Colours(ConfigTable):
     metric : str
         Quality metric, as listed by `hexmend info --metrics`, or movement.
     map : str
-        viridis, cividis, plasma or inferno.
+        Name of a colour map, such as viridis, cividis, plasma or inferno.
     range : Range or tuple of 2 floats
         full, fitted or acceptable, or the values at both ends.
     reverse : bool
