@@ -116,7 +116,7 @@ def close_window(window: Window) -> None:
     """Close the window without asking to save."""
     end_run(window.session)
     window.session.document.commit("shown", window.session.document.now)
-    window.session.document.saved(window.session.document.path)
+    window.session.document.mark_saved(window.session.document.path)
     window.close()
     process_events(0.1)
 

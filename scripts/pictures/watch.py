@@ -15,6 +15,7 @@ from hexmend_app.picture.appearance import Arrows, Since, Traces
 from hexmend_app.shell.window import Window
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.theme.theme_choice import ThemeChoice, choose
+from hexmend_app.widgets.section import Section
 
 
 def cut_open(window: Window) -> None:
@@ -27,7 +28,7 @@ def timeline(window: Window) -> None:
     """A run paused where a hex inverts; another view shows the iteration before, with the same cut and selected hex."""
     panel = window.features["smooth"].panel
     set_method(window, "laplacian", tolerance=0.0)
-    panel.show_break_points()
+    next(section for section in panel.findChildren(Section) if section.isAncestorOf(panel.breakpoint_form)).expand()
     panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True))
     panel.run_or_pause()
     wait_until(lambda: window.session.run.phase is Phase.PAUSED)
