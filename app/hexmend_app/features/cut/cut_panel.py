@@ -35,7 +35,7 @@ class CutPanel(QWidget):
 
     Signals
     -------
-    clip_changed(PlaneClip, BoxClip or None)
+    clip_changed(PlaneClip | BoxClip | None)
         The user changed the cut; None if it is off.
     plane_chosen(int)
         The user selected the plane to edit here and in the view.
@@ -75,8 +75,8 @@ class CutPanel(QWidget):
         self._hide_planes = Segmented(
             "Hide",
             [
-                ("any", "Beyond any", "Hide everything beyond at least one plane."),
-                ("all", "Beyond all", "Hide only the region beyond all planes; cuts out a corner."),
+                ("any", "Any plane", "Hide everything beyond at least one plane."),
+                ("all", "All planes", "Hide only the region beyond all planes; removes a corner."),
             ],
         )
         self._hide_box = Segmented(

@@ -90,7 +90,7 @@ class MovementPanel(QWidget):
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
         set_help(self.factor, tr("Length of arrows"), _FACTOR)
-        self.show_newly = QPushButton(tr("Show new"))
+        self.show_newly = QPushButton(tr("Show newly inverted"))
         self._drawn = note()
         set_help(self._drawn, tr("Number of arrows"), _DRAWN)
         self._figures = {name: _figure_label() for name in _FIGURES}

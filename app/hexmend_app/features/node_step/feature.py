@@ -85,7 +85,7 @@ class FeatureNodeStep(Feature):
             )
 
     def states(self) -> Sequence[StatePart]:
-        """The isolation of the patch of the node."""
+        """Return the isolation of the patch of the node."""
         return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
 
     def panels(self) -> Sequence[Panel]:

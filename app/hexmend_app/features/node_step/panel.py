@@ -32,7 +32,7 @@ SWEEP = ("next_node", "ten_nodes", "finish_sweep")
 _LEGEND = (
     ("gradient", UPHILL, "Gradient of the energy with respect to the node: uphill. Its length has no meaning."),
     ("direction", SEARCH, "Search direction, or the direction to the target position. Its length has no meaning."),
-    ("step", TAKEN, "Accepted step, in its true length, and its trial."),
+    ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
 )
 

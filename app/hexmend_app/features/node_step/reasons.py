@@ -54,7 +54,7 @@ def reason_for_no_sweep(session: Session, smoother: Smoother | None) -> str:
     if not session.document.is_open:
         return "Open a mesh first."
     if session.run.busy:
-        return "A run is in progress: stop it first. While it is paused, steps can be shown but not made."
+        return "A run is in progress: stop it first. While it is paused, steps can be inspected but not applied."
     if not session.editable:
         return "Another mesh is being opened."
     if smoother is None:

@@ -13,7 +13,7 @@ from hexmend_app.widgets.wording import counted, figure, name_in_words, short_nu
 
 _DIRECTIONS = {
     "sd": ("steepest descent (A.2)", "Negative gradient of the p-th root of the energy."),
-    "nr": ("Newton (A.3)", "To the minimum of the parabola that fits the slope and curvature of the energy."),
+    "nr": ("Newton (A.3)", "To the minimum of the local quadratic model of the energy."),
     "mnr": (
         "modified Newton (A.4)",
         "Newton direction with the smallest eigenvalue increased to a thousandth of the largest.",
@@ -111,8 +111,8 @@ def _eigenvalues(step: NodeStep) -> Row:
         )
     else:
         meaning = (
-            "Curvatures of the energy (of the 3 × 3 Hessian). All positive: a bowl; the Newton direction leads to the "
-            "bottom of the fitted parabola."
+            "Curvatures of the energy (of the 3 × 3 Hessian). All positive: locally convex; the Newton direction "
+            "leads to the minimum of the local quadratic model."
         )
         if values[2] > 100 * values[0]:
             meaning += " They differ strongly: a narrow valley, which steepest descent crosses in a zigzag."
@@ -126,7 +126,7 @@ def _direction(step: NodeStep) -> list[Row]:
     if step.fallback:
         name, meaning = _DIRECTIONS["sd"][0], "Replaces the Newton direction, which would lead uphill."
     if step.is_global:
-        meaning += " Shown is the node's part of the direction of all nodes."
+        meaning += " This is the node's component of the global search direction."
     rows = [Row("Direction", name, meaning, WORSE if step.fallback else TEXT)]
     if kind == "mnr":
         hessian = "Hessian of the whole mesh" if step.is_global else "Hessian"
@@ -162,7 +162,11 @@ def _target(step: NodeStep) -> list[Row]:
         meaning = f"Positions of the node in each hex made more regular, white balls in the view. Weights: {weights}."
     return [
         Row("Target", f"mean of {positions}", meaning),
-        Row("Step", f"{100 * step.alpha:.0f} %", "Of the way to the target; less if the full step would do harm."),
+        Row(
+            "Step",
+            f"{100 * step.alpha:.0f} %",
+            "Fraction of the way to the target; smaller if the full step would lower the quality.",
+        ),
     ]
 
 
