@@ -79,9 +79,9 @@ class MovementPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._traces = Traces()
-        self.since = Segmented("Compare with", _SINCE)
-        self.colours = Segmented("Colours of the movement", _COLOURS)
-        self.arrows = Segmented("Arrows", _ARROWS)
+        self.since = Segmented(tr("Compare with"), _translated(_SINCE))
+        self.colours = Segmented(tr("Colours of the movement"), _translated(_COLOURS))
+        self.arrows = Segmented(tr("Arrows"), _translated(_ARROWS))
         self.factor = QDoubleSpinBox()
         self.factor.setRange(0.01, 100_000)
         self.factor.setDecimals(2)
@@ -214,3 +214,7 @@ def _figure_label() -> QLabel:
     label.setFont(tabular(label.font()))
     label.setWordWrap(False)
     return label
+
+
+def _translated(options: list[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
+    return [(key, tr(text), tr(help)) for key, text, help in options]

@@ -74,14 +74,14 @@ class FeatureNodeStep(Feature):
         for id, amount, text, keys, label, help in _SWEEP:
             yield Action(
                 id=id,
-                text=text,
+                text=tr(text),
                 menu="Smooth",
                 part=3,
                 keys=keys,
-                help=help,
+                help=tr(help),
                 handle=partial(self._advance, amount),
                 enabled=lambda: not self._reason_for_no_sweep(),
-                face=lambda label=label, help=help: ActionFace(label, "", self._reason_for_no_sweep() or help),
+                face=lambda label=label, help=help: ActionFace(tr(label), "", self._reason_for_no_sweep() or tr(help)),
             )
 
     def states(self) -> Sequence[StatePart]:

@@ -58,7 +58,7 @@ class FeatureSmooth(Feature):
                 help=tr("Run the selected method; pause or resume a run."),
                 handle=self.panel.run_or_pause,
                 enabled=lambda: self._ready() and self._state().run,
-                face=lambda: ActionFace(*self._state()[:3]),
+                face=self._run_face,
             ),
             Action(
                 id="step",
@@ -144,6 +144,10 @@ class FeatureSmooth(Feature):
 
     def _state(self) -> RunState:
         return STATES[self._state_name()]
+
+    def _run_face(self) -> ActionFace:
+        state = self._state()
+        return ActionFace(tr(state.text), state.icon, tr(state.help))
 
     def _ready(self) -> bool:
         return self.session.document.is_open and not self.session.opener.busy
