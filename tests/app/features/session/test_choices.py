@@ -211,7 +211,7 @@ def test_a_session_of_version_2_has_no_cameras(window, qtbot, tmp_path):
     ("worst", "metric", "taste", "there is no metric 'taste'"),
     ("compare", "ticked", ["taste"], "there is no method 'taste'"),
     ("compare", "sorted_by", "taste", "there is no column 'taste'"),
-    ("histogram", "bins", "many", "the window.features.histogram.bins is of another kind"),
+    ("histogram", "bins", "many", "the window.features.histogram.bins is of another type"),
     ("histogram", "bins", 10**20, "the number of bins is not from 1 to 1,000,000"),
     ("cut", "colour", 1, "the window.features.cut has an unknown field 'colour'"),
 ])  # fmt: skip
