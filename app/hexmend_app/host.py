@@ -59,7 +59,10 @@ class Host(Protocol):
         """Return True if no feature objects to closing the mesh."""
 
     def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-        """Wait until `over()` is true; return False if the user pressed the button `leave` instead."""
+        """Wait until `over()` is true.
+
+        Return True when it is over or the user pressed `leave`; False if the user cancelled.
+        """
 
     def refresh_soon(self) -> None:
         """Request a refresh of everything, once, in the next turn of the event loop."""

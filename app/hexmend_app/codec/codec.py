@@ -1,8 +1,8 @@
 """Conversion of values to plain data and back by the types of dataclass fields, for the state in session files.
 
-Dataclasses become tables of their fields, enumerations become their values, tuples and sets become lists. Decoding
-checks types: an error names the place of a field that is unknown, missing or of another type. A field that was added in
-a later version has its default when read from older files; a renamed field is also read under its former name.
+Dataclasses become tables of their fields, enumerations become their values, tuples and frozensets become lists.
+Decoding checks types: an error names the place of a field that is unknown, missing or of another type. A field that was
+added in a later version has its default when read from older files; a renamed field is also read under its former name.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from hexmend_app.feature import MENUS, Action
+from hexmend_app.translation import tr
 
 #: Mouse and key controls of the view.
 VIEW = (
@@ -21,11 +22,12 @@ VIEW = (
 def tables(actions: Iterable[Action]) -> list[tuple[str, list[tuple[str, str, str]]]]:
     """Return titles with rows of (name, keys, help): first the view, then each menu."""
     actions = list(actions)
-    found = [("In the view", [(name, keys, "") for name, keys in VIEW])]
+    found = [(tr("In the view"), [(tr(name), tr(keys), "") for name, keys in VIEW])]
     for menu in (*MENUS, ""):
         rows = [(name_of(action), action.keys, action.help) for action in actions if action.menu == menu]
         if rows:
-            found.append((menu.replace("/", " › ") or "Without a menu", rows))
+            title = " › ".join(map(tr, menu.split("/"))) if menu else tr("Without a menu")
+            found.append((title, rows))
     return found
 
 

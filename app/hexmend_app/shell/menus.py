@@ -79,7 +79,7 @@ class Menus:
         action.setShortcut(QKeySequence(declared.keys))
         action.setProperty("name", declared.text.replace("&", "").rstrip("…"))
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
-        action.setProperty("within", declared.menu.rpartition("/")[2] if "/" in declared.menu else "")
+        action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
         handle = declared.handle
         if declared.checked is not None:
@@ -156,5 +156,5 @@ def _menus(window: QMainWindow) -> dict[str, QMenu]:
     menus: dict[str, QMenu] = {}
     for name in MENUS:
         parent, _, title = name.rpartition("/")
-        menus[name] = (menus[parent] if parent else window.menuBar()).addMenu(title)
+        menus[name] = (menus[parent] if parent else window.menuBar()).addMenu(tr(title))
     return menus

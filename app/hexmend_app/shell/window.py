@@ -50,6 +50,7 @@ class Window(QMainWindow):
     Attributes
     ----------
     session : Session
+        None until `begin`.
     features : dict of Feature
         By name.
     docks : Docks
@@ -221,7 +222,10 @@ class Window(QMainWindow):
         return True
 
     def wait_until(self, text: str, over: Callable[[], bool], leave: str = "") -> bool:
-        """Wait until `over()` is true; return False if the user pressed the button `leave` instead."""
+        """Wait until `over()` is true.
+
+        Return True when it is over or the user pressed `leave`; False if the user cancelled.
+        """
         from hexmend_app.widgets.dialogs.waiting import wait_until
 
         return wait_until(self, text, over, leave)

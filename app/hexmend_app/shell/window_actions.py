@@ -32,6 +32,15 @@ class ActionWindow(Protocol):
     def refresh(self) -> None:
         """Show the current state of the session."""
 
+    def close(self) -> bool:
+        """Close the window; return False if it stays open."""
+
+    def width(self) -> int:
+        """Return the width in pixels."""
+
+    def mapToGlobal(self, point: QPoint) -> QPoint:
+        """Convert a position in the window to one on the screen."""
+
 
 def declare_actions(window: ActionWindow, panels: Sequence[Panel]) -> list[Action]:
     """Return the actions of the window, including one for each of the `panels` of all features."""

@@ -70,7 +70,7 @@ class ColourPanel(QWidget):
         set_help(
             self._reverse, tr("Reverse"), tr("Reverse the colour map. By default the dark end marks the worst values.")
         )
-        self._mode = Segmented("Range", [(mode.value, text, help) for mode, (text, help) in _MODES.items()])
+        self._mode = Segmented(tr("Range"), [(mode.value, tr(text), tr(help)) for mode, (text, help) in _MODES.items()])
         self._low, self._high = (NumberBox(Parameter(n, float, d, None, None, None, "", "")) for n, d in _BOXES)
         set_help(self._low, tr("Lowest value"), tr("Value of the first colour. Pin the range to set it."))
         set_help(self._high, tr("Highest value"), tr("Value of the last colour. Pin the range to set it."))

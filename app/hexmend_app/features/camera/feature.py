@@ -150,7 +150,7 @@ class FeatureCamera(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The pose of the camera, and its history."""
+        """Return the pose of the camera, and its history."""
         return (StatePart(name="camera", data=CameraData, to_data=self._to_data, restore=self._restore),)
 
     def canvas_ready(self, canvas: Canvas) -> None:

@@ -76,7 +76,7 @@ class FeatureCompare(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The selected methods, and the order of the table."""
+        """Return the selected methods, and the order of the table."""
         return (
             StatePart(name="compare", data=ComparisonSettings, to_data=self.panel.settings, restore=self.panel.restore),
         )

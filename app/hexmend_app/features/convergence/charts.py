@@ -93,9 +93,9 @@ class ChartSettings:
         Of `CHARTS`.
     logarithmic : bool
     from_zero : bool
-        Whether branches begin at 0.
+        True if branches begin at 0.
     by_time : bool
-        Whether the axis is of seconds, not of iterations.
+        True if the axis shows seconds, not iterations.
     """
 
     shown: tuple[str, ...]

@@ -51,7 +51,7 @@ class FeatureConvergence(Feature):
         panel.save_requested.connect(self.ask)
 
     def states(self) -> Sequence[StatePart]:
-        """The settings of the charts."""
+        """Return the settings of the charts."""
         return (
             StatePart(
                 name="charts", data=ChartSettings, to_data=self.panel.head.settings, restore=self.panel.head.restore

@@ -63,10 +63,10 @@ class ConvergenceHead(QWidget):
         options.setIcon(icon("dots-vertical"))
         options.menu().addActions([self.log, self.from_zero, self.save])
         self.axis = Segmented(
-            "Chart axis",
+            tr("Chart axis"),
             [
-                ("iteration", "Iteration", "Plot against iterations."),
-                ("time", "Time", "Plot against the seconds spent in the method."),
+                ("iteration", tr("Iteration"), tr("Plot against iterations.")),
+                ("time", tr("Time"), tr("Plot against the seconds spent in the method.")),
             ],
         )
         self.axis.setFont(smaller(self.font()))

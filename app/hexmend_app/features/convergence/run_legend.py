@@ -102,19 +102,17 @@ class RunRow(QWidget):
         font = self.box.font()
         font.setBold(curve.current)
         self.box.setFont(font)
-        branch = f", branched from {record.parent.name}" if record.parent is not None else ""
-        current = " This is the current run." if curve.current else ""
-        set_help(
-            self.box,
-            record.name,
-            tr(
-                "Plot {title}: {count}{branch}.{current}",
-                title=record.title,
-                count=counted(record.newest, "iteration"),
-                branch=branch,
-                current=current,
-            ),
-        )
+        values = {"title": record.title, "count": counted(record.newest, "iteration")}
+        if record.parent is None:
+            help = tr("Plot {title}: {count}.", **values)
+        else:
+            help = tr("Plot {title}: {count}, branched from {parent}.", parent=record.parent.name, **values)
+        if curve.current:
+            help += " " + tr("This is the current run.")
+        set_help(self.box, record.name, help)
         self.cross.setEnabled(not curve.running)
-        help = "Stop the run to delete it." if curve.running else "Delete this run with its iterations and values."
+        if curve.running:
+            help = tr("Stop the run to delete it.")
+        else:
+            help = tr("Delete this run with its iterations and values.")
         set_help(self.cross, tr("Delete {name}", name=record.name), help)

@@ -35,7 +35,7 @@ class CutPanel(QWidget):
 
     Signals
     -------
-    clip_changed(PlaneClip, BoxClip or None)
+    clip_changed(PlaneClip | BoxClip | None)
         The user changed the cut; None if it is off.
     plane_chosen(int)
         The user selected the plane to edit here and in the view.
@@ -59,10 +59,10 @@ class CutPanel(QWidget):
         self._switch = QCheckBox(tr("Cut"))
         set_help(self._switch, tr("Cut"), tr("Cut the mesh open (C)."))
         self._kind = Segmented(
-            "Cut by",
+            tr("Cut by"),
             [
-                ("planes", "Planes", "Cut along one or more planes."),
-                ("box", "Box", "Cut along the six sides of a box."),
+                ("planes", tr("Planes"), tr("Cut along one or more planes.")),
+                ("box", tr("Box"), tr("Cut along the six sides of a box.")),
             ],
         )
         self._handles = QCheckBox(tr("Handles"))
@@ -73,24 +73,24 @@ class CutPanel(QWidget):
         self._box_page = BoxPage()
         self._hide_label = QLabel(tr("Hide"))
         self._hide_planes = Segmented(
-            "Hide",
+            tr("Hide"),
             [
-                ("any", "Beyond any", "Hide everything beyond at least one plane."),
-                ("all", "Beyond all", "Hide only the region beyond all planes; cuts out a corner."),
+                ("any", tr("Any plane"), tr("Hide everything beyond at least one plane.")),
+                ("all", tr("All planes"), tr("Hide only the region beyond all planes; removes a corner.")),
             ],
         )
         self._hide_box = Segmented(
-            "Hidden side of the box",
+            tr("Hidden side of the box"),
             [
-                ("any", "Outside", "Hide everything outside the box."),
-                ("all", "Inside", "Hide everything inside the box."),
+                ("any", tr("Outside"), tr("Hide everything outside the box.")),
+                ("all", tr("Inside"), tr("Hide everything inside the box.")),
             ],
         )
         self._cut_mode = Segmented(
-            "Cut",
+            tr("Cut"),
             [
-                ("crinkle", "Whole hexes", "Show whole hexes whose centre is on the visible side."),
-                ("smooth", "Smooth cut", "Cut through hexes and cap the cut surface."),
+                ("crinkle", tr("Whole hexes"), tr("Show whole hexes whose centre is on the visible side.")),
+                ("smooth", tr("Smooth cut"), tr("Cut through hexes and cap the cut surface.")),
             ],
         )
         self._lay_out()

@@ -97,7 +97,7 @@ class FeatureCut(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The planes and the box, also while nothing is cut."""
+        """Return the planes and the box, also while nothing is cut."""
         return (StatePart(name="cut", data=CutPanelSettings, to_data=self.panel.settings, restore=self._propose),)
 
     def panels(self) -> Sequence[Panel]:
@@ -154,7 +154,7 @@ class FeatureCut(Feature):
             self.inside.set_shown(self.canvas.viewport.shown, document.now.mesh.n_hexes)
 
     def _left(self) -> CutLeft | None:
-        """Return the hexes left by the cut if cutting the current mesh would leave different ones."""
+        """Return the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
         document, look = self.session.document, self._view.look
         filters = None if self.canvas is None else self.canvas.viewport.filters
         if filters is None or not document.is_open or not filters.suit(document.now.mesh):

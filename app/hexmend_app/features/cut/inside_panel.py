@@ -23,7 +23,7 @@ _PEEL = (
 _NO_LAYERS = "No layers to peel: every hex has a face on the boundary."
 _SHRINK = (
     "Shrink each hex towards its centre to see its shape and the hexes behind it. In meshes of more than "
-    f"{WHOLE:,} hexes only those with a visible face are drawn, and their sides once the view stops moving."
+    f"{WHOLE:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
 )
 _CUT_SMOOTHLY = "Hexes cannot be shrunk with a smooth cut: select <i>Whole hexes</i> for the cut."
 _RINGS = (
@@ -154,7 +154,10 @@ class InsidePanel(QWidget):
 
     def set_shown(self, shown: int, total: int) -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""
-        cut = ", then cut" if shown and self._cut_smoothly else ""
-        self.shown.setText(
-            tr("{shown:,} of {count} shown{cut}", shown=shown, count=counted(total, "hex"), cut=cut) if total else ""
-        )
+        count = counted(total, "hex")
+        if not total:
+            self.shown.clear()
+        elif shown and self._cut_smoothly:
+            self.shown.setText(tr("{shown:,} of {count} shown (before the cut)", shown=shown, count=count))
+        else:
+            self.shown.setText(tr("{shown:,} of {count} shown", shown=shown, count=count))

@@ -37,9 +37,15 @@ class PlanePage(QWidget):
         self._bounds = np.array([[0.0] * 3, [1.0] * 3])  # lowest and highest corner
         self._plane = ClipPlane()
         self._axis = Segmented(
-            "Axis",
-            [(key, key.upper(), f"A plane normal to the {key.upper()} axis.") for key in _AXES]
-            + [("free", "Free", "A plane that was rotated in the view; select X, Y or Z to align it with an axis.")],
+            tr("Axis"),
+            [(key, key.upper(), tr("A plane normal to the {axis} axis.", axis=key.upper())) for key in _AXES]
+            + [
+                (
+                    "free",
+                    tr("Free"),
+                    tr("A plane that was rotated in the view; select X, Y or Z to align it with an axis."),
+                )
+            ],
         )
         self._flip = QPushButton(icon("swap-horizontal"), "")
         self._flip.setFixedWidth(34)

@@ -126,7 +126,8 @@ class FeatureFilm(Feature):
             )
 
     def _on_failed(self, error: Exception) -> None:
-        self.host.messages.show_error(tr("Film not saved"), tr("A frame could not be drawn: {error}.", error=error))
+        text = tr("A frame could not be drawn: {error}.", error=str(error).rstrip("."))
+        self.host.messages.show_error(tr("Film not saved"), text)
 
     def _write(self, frames: list[Image.Image]) -> None:
         from hexmend_app.scene.film.film import write_film

@@ -138,7 +138,7 @@ class FeatureHexInspector(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The settings of the list of worst hexes, and of the labels of corners."""
+        """Return the settings of the list of worst hexes, and of the labels of corners."""
         return (
             StatePart(
                 name="worst",

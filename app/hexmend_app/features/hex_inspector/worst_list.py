@@ -206,17 +206,14 @@ class WorstList(QWidget):
         self._model.title = metric.title
         self._table.setColumnHidden(JACOBIAN, metric.name == "scaled-jacobian")
         self._model.fill(worst.hexes, worst.values, worst.jacobians, worst.states)
-        listed = "" if worst.hexes.size == mesh.n_hexes else f"The {worst.hexes.size:,} worst of "
-        order = "" if metric.name == "scaled-jacobian" else "; ties sorted by scaled Jacobian"
-        self._text.setText(
-            tr(
-                "{listed}{count}, {n_inverted:,} inverted{order}",
-                listed=listed,
-                count=counted(mesh.n_hexes, "hex"),
-                n_inverted=figures.n_inverted,
-                order=order,
-            )
-        )
+        counts = {"total": counted(mesh.n_hexes, "hex"), "inverted": figures.n_inverted}
+        if worst.hexes.size == mesh.n_hexes:
+            text = tr("{total}, {inverted:,} inverted.", **counts)
+        else:
+            text = tr("The {listed:,} worst of {total}, {inverted:,} inverted.", listed=worst.hexes.size, **counts)
+        if metric.name != "scaled-jacobian":
+            text += " " + tr("Ties are sorted by scaled Jacobian.")
+        self._text.setText(text)
         self._select_row()
 
     def _select_row(self) -> None:

@@ -54,7 +54,7 @@ class FeatureHistogram(Feature):
         panel.inverted_requested.connect(self._isolate_inverted)
 
     def states(self) -> Sequence[StatePart]:
-        """The settings of the histogram."""
+        """Return the settings of the histogram."""
         return (
             StatePart(
                 name="histogram",

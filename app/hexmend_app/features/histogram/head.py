@@ -71,10 +71,10 @@ class HistogramHead(QWidget):
         self.metric_box.view().setMinimumWidth(220)
         self.metric_box.activated.connect(lambda: self.metric_chosen.emit(self.metric_box.currentData()))
         self.scale = Segmented(
-            "Scale of the counts",
+            tr("Scale of the counts"),
             [
-                ("linear", "Linear", "Linear heights."),
-                ("log", "Log", "Logarithmic heights, which show a few bad hexes among many good ones."),
+                ("linear", tr("Linear"), tr("Linear heights.")),
+                ("log", tr("Log"), tr("Logarithmic heights, which show a few bad hexes among many good ones.")),
             ],
         )
         self.scale.setFont(smaller(self.font()))

@@ -79,9 +79,9 @@ class MovementPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._traces = Traces()
-        self.since = Segmented("Compare with", _SINCE)
-        self.colours = Segmented("Colours of the movement", _COLOURS)
-        self.arrows = Segmented("Arrows", _ARROWS)
+        self.since = Segmented(tr("Compare with"), _translated(_SINCE))
+        self.colours = Segmented(tr("Colours of the movement"), _translated(_COLOURS))
+        self.arrows = Segmented(tr("Arrows"), _translated(_ARROWS))
         self.factor = QDoubleSpinBox()
         self.factor.setRange(0.01, 100_000)
         self.factor.setDecimals(2)
@@ -90,7 +90,7 @@ class MovementPanel(QWidget):
         self.factor.setKeyboardTracking(False)
         self.factor.setFont(tabular(self.factor.font()))
         set_help(self.factor, tr("Length of arrows"), _FACTOR)
-        self.show_newly = QPushButton(tr("Show new"))
+        self.show_newly = QPushButton(tr("Show newly inverted"))
         self._drawn = note()
         set_help(self._drawn, tr("Number of arrows"), _DRAWN)
         self._figures = {name: _figure_label() for name in _FIGURES}
@@ -214,3 +214,7 @@ def _figure_label() -> QLabel:
     label.setFont(tabular(label.font()))
     label.setWordWrap(False)
     return label
+
+
+def _translated(options: list[tuple[str, str, str]]) -> list[tuple[str, str, str]]:
+    return [(key, tr(text), tr(help)) for key, text, help in options]

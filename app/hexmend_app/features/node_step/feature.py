@@ -74,18 +74,18 @@ class FeatureNodeStep(Feature):
         for id, amount, text, keys, label, help in _SWEEP:
             yield Action(
                 id=id,
-                text=text,
+                text=tr(text),
                 menu="Smooth",
                 part=3,
                 keys=keys,
-                help=help,
+                help=tr(help),
                 handle=partial(self._advance, amount),
                 enabled=lambda: not self._reason_for_no_sweep(),
-                face=lambda label=label, help=help: ActionFace(label, "", self._reason_for_no_sweep() or help),
+                face=lambda label=label, help=help: ActionFace(tr(label), "", self._reason_for_no_sweep() or tr(help)),
             )
 
     def states(self) -> Sequence[StatePart]:
-        """The isolation of the patch of the node."""
+        """Return the isolation of the patch of the node."""
         return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
 
     def panels(self) -> Sequence[Panel]:
@@ -136,7 +136,7 @@ class FeatureNodeStep(Feature):
             self._task.ask(*request)
             self._computing_timer.start()
         elif self._task.error is not None:
-            self._draw_message(tr("The step could not be computed: {error}.", error=self._task.error))
+            self._draw_message(tr("The step could not be computed: {error}.", error=str(self._task.error).rstrip(".")))
         elif self._task.step is not None:
             self._show(self._task.step, done=False)
 

@@ -32,7 +32,7 @@ SWEEP = ("next_node", "ten_nodes", "finish_sweep")
 _LEGEND = (
     ("gradient", UPHILL, "Gradient of the energy with respect to the node: uphill. Its length has no meaning."),
     ("direction", SEARCH, "Search direction, or the direction to the target position. Its length has no meaning."),
-    ("step", TAKEN, "Accepted step, in its true length, and its trial."),
+    ("step", TAKEN, "Accepted step, drawn to scale, and its trial in the plot."),
     ("rejected", TRIED, "Rejected trial steps, at the positions that they would give the node."),
 )
 
@@ -59,7 +59,7 @@ class NodePanel(QWidget):
         self._title.setFont(font)
         self._status.setWordWrap(True)
         self._status.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        for label, name in ((self._title, "Node"), (self._status, "Outcome of the step")):
+        for label, name in ((self._title, tr("Node")), (self._status, tr("Outcome of the step"))):
             label.setAccessibleName(name)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self._message = note()
@@ -94,12 +94,13 @@ class NodePanel(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         for text, role, help in _LEGEND:
-            entry = legend_entry(text, role)
-            set_help(entry, text, help)
+            entry = legend_entry(tr(text), role)
+            set_help(entry, tr(text), tr(help))
             layout.addWidget(entry)
-        self._edges = {text: legend_entry(text, OTHERWISE) for text in ("after", "before")}  # one of them is shown
-        for text, entry in self._edges.items():
-            set_help(entry, text, tr("Edges at the node {text} the step.", text=text))
+        self._edges = {name: legend_entry(tr(name), OTHERWISE) for name in ("after", "before")}  # one of them is shown
+        set_help(self._edges["after"], tr("after"), tr("Edges at the node after the step."))
+        set_help(self._edges["before"], tr("before"), tr("Edges at the node before the step."))
+        for entry in self._edges.values():
             layout.addWidget(entry)
         row.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         layout.addStretch()
@@ -157,7 +158,7 @@ class NodePanel(QWidget):
         status = displayed_status(step)
         moves = status in (StepStatus.MOVED, StepStatus.SHORTENED)
         outcome = status.value if done or not moves else status.value.replace("Moved", "Will be moved")
-        self._status.setText(f"{method}. {outcome}")
+        self._status.setText(tr("{method}. {outcome}", method=method, outcome=tr(outcome)))
         tint(self._status, MUTED if moves else WORSE)
         self.plot.show_step(step)
         self.plot.setVisible(self.plot.drawn)

@@ -9,13 +9,17 @@ from hexmend.smoothers.local.single_node import LocalDescent
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from hexmend_app.state.session.session import Session
+from hexmend_app.translation import tr
 
 _HINT = (
     "Click a hex in the view and select one of its free nodes, or press D for a node of the worst hex, to see how the "
     "selected method moves it, and why. F11 runs a sweep node by node."
 )
 _INVALID = "Correct the marked parameter of the method first."
-_INSIDE = "Peel, cut (C) or dig (Ctrl+click) to reach the hexes inside, or clear the selection and press D."
+_NO_FREE_NODES = (
+    "The hex has no free nodes. Peel, cut (C) or dig (Ctrl+click) to reach the hexes inside, or clear the selection "
+    "and press D."
+)
 
 
 def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
@@ -29,40 +33,44 @@ def reason_for_no_step(session: Session, smoother: Smoother | None) -> str:
     """
     selection, run = session.selection, session.run
     if not session.document.is_open:
-        return "Open a mesh to see how a method moves its nodes."
+        return tr("Open a mesh to see how a method moves its nodes.")
     if run.busy and run.phase is not Phase.PAUSED:
-        return "A run is in progress. Pause it (F5) to see the step of a node."
+        return tr("A run is in progress. Pause it (F5) to see the step of a node.")
     if smoother is None:
-        return _INVALID
+        return tr(_INVALID)
     if selection.hex is None:
-        return _HINT
+        return tr(_HINT)
     mesh, node = session.document.now.mesh, selection.node
     has_free = bool(mesh.free[mesh.hexes[selection.hex]].any())
-    remedy = "Select a free node below." if has_free else f"The hex has no free nodes. {_INSIDE}"
+    remedy = tr("Select a free node below.") if has_free else tr(_NO_FREE_NODES)
     if node is None:
         return remedy
     if not mesh.fixed[node]:
         return ""
     boundary = bool(mesh.topology.boundary[node])
     if smoother.slides and boundary:
-        return f"Node {node:,} is on the sliding boundary: only steps of interior nodes are shown. {remedy}"
-    return f"Node {node:,} is {'on the boundary' if boundary else 'pinned'}: no method moves it. {remedy}"
+        reason = tr("Node {node:,} is on the sliding boundary: only steps of interior nodes are shown.", node=node)
+    elif boundary:
+        reason = tr("Node {node:,} is on the boundary: no method moves it.", node=node)
+    else:
+        reason = tr("Node {node:,} is pinned: no method moves it.", node=node)
+    return f"{reason} {remedy}"
 
 
 def reason_for_no_sweep(session: Session, smoother: Smoother | None) -> str:
     """Return the reason why a sweep cannot be run node by node; "" if it can. See `reason_for_no_step`."""
     if not session.document.is_open:
-        return "Open a mesh first."
+        return tr("Open a mesh first.")
     if session.run.busy:
-        return "A run is in progress: stop it first. While it is paused, steps can be shown but not made."
+        return tr("A run is in progress: stop it first. While it is paused, steps can be inspected but not applied.")
     if not session.editable:
-        return "Another mesh is being opened."
+        return tr("Another mesh is being opened.")
     if smoother is None:
-        return _INVALID
+        return tr(_INVALID)
     if not isinstance(smoother, LocalDescent):
         local = ", ".join(method.title for method in METHODS.values() if issubclass(method, LocalDescent))
-        return f"Only local methods move one node at a time. Select one of: {local}."
-    return "" if session.document.now.mesh.free.any() else "All nodes of the mesh are fixed."
+        return tr("Only local methods move one node at a time. Select one of: {methods}.", methods=local)
+    return "" if session.document.now.mesh.free.any() else tr("All nodes of the mesh are fixed.")
 
 
 def worst_free_node(state: State, hexes: np.ndarray) -> tuple[int, int] | None:

@@ -88,10 +88,6 @@ class NodePlot(QWidget):
         """True if the step has a curve to plot."""
         return self._step is not None and len(self._step.curve) > 0 and math.isfinite(self._step.energy)
 
-    def shown_trials(self) -> list[tuple[int, float, float]]:
-        """Return number, alpha and height of every trial that is drawn."""
-        return [(spot.data(), spot.pos().x(), spot.pos().y()) for spot in self._dots.points() if spot.data()]
-
     def _show_power(self, largest: float) -> None:
         """Write the power of ten of large and small values in the label of the axis."""
         power = 0 if largest == 0 or 1e-2 <= largest < 1e3 else math.floor(math.log10(largest))

@@ -63,11 +63,11 @@ class OutcomePanel(QWidget):
         self._locked = _HexList("Locked", "kept inverted by fixed nodes alone")
         self._unlocked = _HexList("Inverted", "that are inverted but not locked")
         self._surface = self._text()
-        self._limiting = _HexList("Limiting", "whose corners keep the least scaled Jacobian from rising further")
+        self._limiting = _HexList("Limiting", "that limit the minimum scaled Jacobian")
         self._locked_below = _HexList(
             "Locked lower",
-            "with a corner of fixed nodes that is lower than all corners that can move",
-            "the hexes that are locked lower",
+            "whose worst corner has only fixed nodes",
+            "the hexes limited by fixed corners",
         )
         self._hex_lists = (self._locked, self._unlocked, self._limiting, self._locked_below)
         for hex_list in self._hex_lists:

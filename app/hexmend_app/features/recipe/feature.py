@@ -21,7 +21,7 @@ _LIMITS = {
     "max_iterations": "at most {} iterations",
     "tolerance": "tolerance {}",
     "max_seconds": "at most {} s",
-    "keep_last": "keep the last iterate",
+    "keep_last": "keep the last iteration",
 }
 
 

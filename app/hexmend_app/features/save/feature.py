@@ -77,14 +77,14 @@ class FeatureSave(Feature):
         answer = ask_unsaved(self.host.dialog_parent, session.document.name, of_mesh)
         if answer is Answer.SAVE:
             session.run.stop()
-            stopping = "The run stops after this iteration."
+            stopping = tr("The run stops after this iteration.")
             return self.host.wait_until(stopping, lambda: not session.run.busy) and self._ask_before_leaving()
         return answer is Answer.DISCARD
 
     def _wait_for_saving(self) -> bool:
         saver = self.session.saver
-        text = f"{saver.path.name} is being saved. If you leave now, the file may be incomplete."
-        return self.host.wait_until(text, lambda: not saver.busy, tr("Leave now"))
+        text = tr("{file} is being saved. If you close now, the file may be incomplete.", file=saver.path.name)
+        return self.host.wait_until(text, lambda: not saver.busy, tr("Close anyway"))
 
     def ask_mesh(self) -> None:
         """Ask for a path and save the mesh in the background."""

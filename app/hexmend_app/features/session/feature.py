@@ -96,7 +96,11 @@ class FeatureSession(Feature):
         self.host.refresh_soon()
 
     def _on_state_failed(self, name: str, error: Exception) -> None:
-        problem = f"The session's data of “{name}” are not valid: {error}. Everything else was restored."
+        problem = tr(
+            "Invalid data for “{name}” in the session file: {error}. Everything else was restored.",
+            name=name,
+            error=str(error).rstrip("."),
+        )
         self.host.messages.show_error(tr("Part of the session was not restored"), problem)
 
     def _on_failed(self, error: Exception) -> None:

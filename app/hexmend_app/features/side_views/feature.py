@@ -36,7 +36,7 @@ class FeatureSideViews(Feature):
         return (
             Action(
                 id="beside",
-                text=tr("Keep &in a view"),
+                text=tr("Show in &second view"),
                 menu="Compare",
                 part=1,
                 keys="V",

@@ -11,11 +11,11 @@ from hexmend_app.theme.style import set_help, tabular
 _INVERTS = "Pause after an iteration that inverts a valid hex, and select that hex."
 _FALLS = "Pause after an iteration that lowers the minimum quality, and select the worst hex."
 _NODE = (
-    "Pause when this node moves further than this in one iteration, in mean edge lengths. Ticking the box takes the "
+    "Pause when this node moves further than this in one iteration, in mean edge lengths. Select the box to use the "
     "node selected in the view."
 )
 _HEX = (
-    "Pause when q(H) of this hex changes by more than this in one iteration. Ticking the box takes the hex selected in "
+    "Pause when q(H) of this hex changes by more than this in one iteration. Select the box to use the hex selected in "
     "the view."
 )
 _BACKTRACKS = (
@@ -44,7 +44,7 @@ class BreakpointForm(QWidget):
         grid.setHorizontalSpacing(6)
         grid.setVerticalSpacing(4)
         self._inverts = self._check(grid, 0, "A hex inverts", _INVERTS)
-        self._falls = self._check(grid, 1, "q min falls", _FALLS)
+        self._falls = self._check(grid, 1, "Minimum q drops", _FALLS)
         self._node, self._node_box, self._move = self._watch(grid, 2, "Node", "moves", _NODE, " edge")
         self._hex, self._hex_box, self._change = self._watch(grid, 4, "Hex", "changes", _HEX, " q")
         self._backtracks = self._check(grid, 6, "Line search backtracks", _BACKTRACKS)
@@ -96,7 +96,7 @@ class BreakpointForm(QWidget):
         self._on_changed()
 
     def set_selected(self, hex: int | None, node: int | None) -> None:
-        """Set the hex and node selected in the view, which are proposed when a box is ticked."""
+        """Set the hex and node selected in the view, which are proposed when a box is selected."""
         self._selected_hex, self._selected_node = hex, node
 
     def set_mesh(self, hexes: int, nodes: int) -> None:

@@ -58,7 +58,7 @@ class FeatureSmooth(Feature):
                 help=tr("Run the selected method; pause or resume a run."),
                 handle=self.panel.run_or_pause,
                 enabled=lambda: self._ready() and self._state().run,
-                face=lambda: ActionFace(*self._state()[:3]),
+                face=self._run_face,
             ),
             Action(
                 id="step",
@@ -93,7 +93,7 @@ class FeatureSmooth(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The number of iterations of a step."""
+        """Return the number of iterations of a step."""
         steps = StatePart(
             name="steps",
             data=int,
@@ -145,6 +145,10 @@ class FeatureSmooth(Feature):
     def _state(self) -> RunState:
         return STATES[self._state_name()]
 
+    def _run_face(self) -> ActionFace:
+        state = self._state()
+        return ActionFace(tr(state.text), state.icon, tr(state.help))
+
     def _ready(self) -> bool:
         return self.session.document.is_open and not self.session.opener.busy
 
@@ -195,7 +199,7 @@ class FeatureSmooth(Feature):
 
     def _ask_for_memory(self, shortage: Shortage, start: Callable[[], object]) -> None:
         """Ask whether to start a run for which memory will probably not suffice."""
-        smaller_region = "isolate a part and move only that (Hex menu)"
+        smaller_region = tr("isolate a region and pin the rest (Hex menu)")
         remedy = shortage.remedy(smaller_region, titled=True)
         if ask_short_of_memory(self.host.dialog_parent, shortage.problem, remedy):
             start()
@@ -203,10 +207,14 @@ class FeatureSmooth(Feature):
     def _on_failed(self, error: Exception) -> None:
         record = self.session.run.record
         kept = record is not None and record.result
-        where = f"is at iteration {kept}, the last valid one" if kept else "is unchanged"
-        self.host.messages.show_error(
-            tr("The method failed"), tr("{error}. The mesh {where}.", error=error, where=where), report_of(error)
-        )
+        text = str(error).rstrip(".")
+        if kept:
+            text = tr(
+                "{error}. The mesh was set to iteration {iteration}, the last valid one.", error=text, iteration=kept
+            )
+        else:
+            text = tr("{error}. The mesh is unchanged.", error=text)
+        self.host.messages.show_error(tr("The method failed"), text, report_of(error))
 
     def _on_hit(self, frame: IterationFrame) -> None:
         self._hit, hit = frame, frame.hit

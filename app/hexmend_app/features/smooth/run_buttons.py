@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 from hexmend_app.theme.palette import ACCENT, ACCENT_HOVER, ACCENT_PRESSED, FAINT, INACTIVE, LINE, ON_ACCENT, TEXT
 from hexmend_app.theme.style import on_theme_change
+from hexmend_app.translation import tr
 from hexmend_app.widgets.action_button import ActionButton
 
 
@@ -70,7 +71,7 @@ class RunButtons(QWidget):
         """Reserve the width of the longest text, so that no button moves when the state changes."""
         run = self._buttons["run"]
         run.ensurePolished()
-        text = max(run.fontMetrics().horizontalAdvance(state.text) for state in STATES.values())
+        text = max(run.fontMetrics().horizontalAdvance(tr(state.text)) for state in STATES.values())
         run.setMinimumWidth(text + run.iconSize().width() + 24)
 
     def show_actions(self, actions: Mapping[str, QAction]) -> None:

@@ -145,10 +145,6 @@ class SmoothingPanel(QWidget):
         """Set the number of iterations per step."""
         self._steps.setValue(count)
 
-    def show_breakpoints(self) -> None:
-        """Expand the section of the breakpoints."""
-        self._sections[-1].expand()
-
     def run_or_pause(self) -> None:
         """Run, pause or resume, depending on the state."""
         if self._state == "running":

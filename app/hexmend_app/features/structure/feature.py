@@ -31,11 +31,11 @@ class FeatureStructure(Feature):
         return [
             Action(
                 id=f"show_{layer.name}",
-                text=layer.action or layer.title,
+                text=tr(layer.action or layer.title),
                 menu="View",
                 part=2,
                 keys=layer.keys,
-                help=layer.action_help or layer.help,
+                help=tr(layer.action_help or layer.help),
                 handle=lambda on, name=layer.name: self._switch(name, on),
                 enabled=lambda name=layer.name: self.panel.offered()[name],
                 checked=lambda name=layer.name: self._view.look.structure.is_on(name),

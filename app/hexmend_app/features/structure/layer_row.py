@@ -8,9 +8,8 @@ from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QWidget
 
 from hexmend_app.theme.palette import RIM, Role
 from hexmend_app.theme.style import note, set_help, tabular
+from hexmend_app.translation import tr
 
-_COUNTING = "Counting."
-_FAILED = "failed"
 _COLUMNS = 2
 
 #: Maximum length of texts in two columns; longer ones are cut off in a narrow panel.
@@ -67,7 +66,7 @@ class LayerRow:
             old.hide()
             old.deleteLater()
         if not entries:
-            text = _FAILED if error is not None else "counting…" if entries is None else "none"
+            text = tr("failed") if error is not None else tr("counting…") if entries is None else tr("none")
             self._grid.addWidget(_text(text), 0, 0, 1, _COLUMNS)
         columns = _COLUMNS if len(entries or ()) > 1 and max(len(text) for *_, text in entries) <= _WIDEST else 1
         for at, entry in enumerate(entries or ()):
@@ -83,7 +82,10 @@ class LayerRow:
         if self._hidden_when_empty:
             self.box.setVisible(offered)
             self.entries.setVisible(offered)
-        reason = f"Counting failed: {self._error}." if failed else _COUNTING if waiting else self._reason
+        if failed:
+            reason = tr("Counting failed: {error}.", error=str(self._error).rstrip("."))
+        else:
+            reason = tr("Counting.") if waiting else self._reason
         set_help(self.box, self._name, self._help if offered else reason)
 
 

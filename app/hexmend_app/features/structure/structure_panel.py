@@ -23,6 +23,7 @@ from hexmend_app.scene.layers.optional.structure import (
     VALENCES,
 )  # fmt: skip
 from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryClasses
+from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
 _EDGES = ("irregular", "boundary", "sharp")
@@ -56,7 +57,7 @@ class StructurePanel(QWidget):
         self._classes: BoundaryClasses | None = None
         self.layers = {
             switch.name: LayerRow(
-                switch.title, switch.help, switch.empty, switch.offered_early, switch.hidden_when_empty
+                tr(switch.title), tr(switch.help), tr(switch.empty), switch.offered_early, switch.hidden_when_empty
             )
             for switch in ordered_layers()
         }

@@ -49,7 +49,7 @@ class FeatureTags(Feature):
         )
 
     def states(self) -> Sequence[StatePart]:
-        """The name for the next tag."""
+        """Return the name for the next tag."""
         return (StatePart(name="tag", data=str, to_data=lambda: self.panel.name, restore=self.panel.set_name),)
 
     def panels(self) -> Sequence[Panel]:

@@ -47,12 +47,12 @@ class FeatureTimeline(Feature):
         return [
             Action(
                 id=f"iteration_{name}",
-                text=text,
+                text=tr(text),
                 menu="Timeline",
                 part=int(name == "branch"),
                 keys=keys,
                 icon=icon,
-                help=help,
+                help=tr(help),
                 handle=handle,
                 enabled=lambda name=name: self._timeline.record is not None and self._can()[name],
                 face=self._play_face if name == "play" else None,

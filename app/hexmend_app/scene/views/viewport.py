@@ -44,7 +44,7 @@ class Viewport:
     axes : bool
         Draw the axes in a corner.
     filters : Filters, optional
-        Filters of new_mesh view, which are reused if the mesh has the same hexes.
+        Filters of another view, reused if its mesh has the same hexes.
     pixel_ratio : float
         Width of a thin line, in pixels.
     on_failure : callable, optional
@@ -87,7 +87,7 @@ class Viewport:
     def draw(self, frame: Frame) -> None:
         """Draw a frame, and update only what differs from the last frame.
 
-        If drawing the hexes of new_mesh mesh fails, nothing is drawn, not even the previous mesh.
+        If drawing a new mesh fails, the view is cleared.
         """
         new_mesh = not frame.is_of(self.frame)
         try:

@@ -22,22 +22,17 @@ class HexCounts(QLabel):
     def refresh(self, session: Session) -> None:
         """Show the counts of the current mesh."""
         summary = session.document.now.summary
-        inverted = f"{summary.inverted:,} inverted" if summary.inverted else "none inverted"
-        self.setText(
-            tr(
-                "{hexes:,} hexes, {inverted}{isolated_text}{selected_text}",
-                hexes=summary.hexes,
-                inverted=inverted,
-                isolated_text=_isolated_text(session),
-                selected_text=_selected_text(session),
-            )
-        )
+        if summary.inverted:
+            text = tr("{hexes:,} hexes, {inverted:,} inverted", hexes=summary.hexes, inverted=summary.inverted)
+        else:
+            text = tr("{hexes:,} hexes, none inverted", hexes=summary.hexes)
+        self.setText("  ·  ".join(filter(None, (text, _isolated_text(session), _selected_text(session)))))
 
 
 def _isolated_text(session: Session) -> str:
     """Return the number of isolated hexes and the key that shows all hexes; "" if none are isolated."""
     isolation = session.view.look.isolation
-    return "" if isolation is None else f"  ·  {len(isolation.hexes):,} isolated (Esc)"
+    return "" if isolation is None else tr("{count:,} isolated (Esc)", count=len(isolation.hexes))
 
 
 def _selected_text(session: Session) -> str:
@@ -45,5 +40,6 @@ def _selected_text(session: Session) -> str:
     selected, now = session.selection.hex, session.document.now
     if selected is None:
         return ""
-    state = "inverted" if now.figures.inverted[selected] else f"q {now.figures.q[selected]:.3f}"
-    return f"  ·  hex {selected:,}: {state}"
+    if now.figures.inverted[selected]:
+        return tr("hex {hex:,}: inverted", hex=selected)
+    return tr("hex {hex:,}: q {q:.3f}", hex=selected, q=now.figures.q[selected])

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QMainWindow, QTabBar, QWidget
 
 from hexmend_app.feature import PanelPlace
 from hexmend_app.shell.panels.dock import Dock
+from hexmend_app.translation import tr
 
 #: Accessible names of the tab bars.
 _NAMES = {PanelPlace.TOOLS: "Tools", PanelPlace.FACTS: "Figures", PanelPlace.DRAWER: "Panels below the view"}
@@ -36,14 +37,14 @@ class TabBars:
         for bar in self._all():
             bar.setFocusPolicy(Qt.FocusPolicy.TabFocus if bar.count() else Qt.FocusPolicy.NoFocus)
             first = next((by_title[title] for title in map(bar.tabText, range(bar.count())) if title in by_title), None)
-            if first is None or bar.accessibleName() == _NAMES[first.place]:
+            if first is None or bar.accessibleName() == tr(_NAMES[first.place]):
                 continue
             if not bar.accessibleName():
                 bar.setElideMode(Qt.TextElideMode.ElideNone)
                 bar.setUsesScrollButtons(True)
                 bar.setDrawBase(False)
                 bar.tabBarDoubleClicked.connect(lambda _, bar=bar: self._on_double_click(bar))
-            bar.setAccessibleName(_NAMES[first.place])
+            bar.setAccessibleName(tr(_NAMES[first.place]))
             before = first.previousInFocusChain()
             while not before.focusPolicy() & Qt.FocusPolicy.TabFocus:  # setTabOrder ignores other widgets
                 before = before.previousInFocusChain()
@@ -60,4 +61,4 @@ class TabBars:
 
 
 def _is_drawer(bar: QTabBar) -> bool:
-    return bar.accessibleName() == _NAMES[PanelPlace.DRAWER]
+    return bar.accessibleName() == tr(_NAMES[PanelPlace.DRAWER])

@@ -212,7 +212,10 @@ class History:
         return next(slot for slot in range(len(used) + 1) if slot not in used)
 
     def _thin(self) -> None:
-        """Drop positions until the limit is met: each time those with the smallest ratio of resulting gap to age."""
+        """Drop the positions with the smallest gap-to-age ratio until the limit is met.
+
+        Old iterations become sparse.
+        """
         while self._bytes > self._limit:
             numbers = np.array([number for _, number, _ in self._positions])
             age = self._stamp + 1 - np.array([stamp for _, _, stamp in self._positions])

@@ -49,7 +49,7 @@ class RunController(QObject):
     following : bool
         True if iterations are shown as they come; False while the user looks at earlier ones.
     iterating : bool
-        True while the signals being emitted are about a new iteration only.
+        True while `iterated` is emitted and nothing else has changed.
 
     Signals
     -------

@@ -40,7 +40,7 @@ class RunSetup(QObject):
     changed
         The method, a value or a limit has changed.
     chosen
-        The program has set `stage`: forms show it.
+        The program, not the user, has set `stage`.
     refused
         The stage was requested while one of its values is invalid.
 

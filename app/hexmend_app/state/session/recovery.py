@@ -123,7 +123,7 @@ class Recovery(QObject):
             return
         self._changed = False
         write = partial(write_session, self._folder, self._session_folder, session.to_data())
-        self._task = Task("keeping the session", write)
+        self._task = Task("autosaving the session", write)
         self._task.ended.connect(self._on_written)
         self._task.start()
 

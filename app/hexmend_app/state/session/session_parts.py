@@ -48,7 +48,7 @@ class SessionParts(QObject):
     about_to_save
         The data for a session file are about to be collected: views store data that only they know.
     data_changed
-        A session file written now would differ from the last one in more than the selection and the camera.
+        Data to autosave have changed: anything except selection and camera.
 
     Attributes
     ----------

@@ -98,7 +98,7 @@ class Task(QObject):
 
     @property
     def dropped(self) -> bool:
-        """True if the result is no longer wanted."""
+        """True after `drop` or `wait`: no more signals are emitted."""
         return not self._emits
 
     def start(self) -> None:

@@ -39,7 +39,7 @@ class ViewData:
         if scale.map not in COLOUR_MAPS:
             raise ValueError(f"there is no colour map {scale.map!r}")
         clip = self.look.clip
-        if not 0 <= self.plane_at < (len(clip.planes) if isinstance(clip, PlaneClip) else 1 + self.plane_at):
+        if self.plane_at < 0 or (isinstance(clip, PlaneClip) and self.plane_at >= len(clip.planes)):
             raise ValueError(f"there is no plane {self.plane_at}")
 
     def check(self, hexes: int) -> None:
@@ -128,7 +128,7 @@ class ViewModel(QObject):
         self.metric_wanted.emit(metric)
 
     def note_cut(self, left: CutLeft | None) -> None:
-        """Store the hexes that the cut by whole hexes leaves, if the cut of the current mesh would leave others."""
+        """Store the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
         self.look = dataclasses.replace(self.look, left=left)
 
     def show_all(self) -> None:

@@ -27,63 +27,69 @@ class Answer(Enum):
 def ask_mesh(parent: QWidget) -> str:
     """Ask for the mesh or session to open; "" if cancelled."""
     kinds = " ".join(f"*{suffix}" for suffix in readable_suffixes())
-    filters = f"Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{SUFFIX});;All files (*)"
-    return _ask_to_open(parent, "Open mesh or session", filters)
+    filters = tr(
+        "Hexahedral meshes and sessions ({kinds});;Hexmend sessions (*{suffix});;All files (*)",
+        kinds=kinds,
+        suffix=SUFFIX,
+    )
+    return _ask_to_open(parent, tr("Open mesh or session"), filters)
 
 
 def ask_target(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the mesh to; "" if cancelled."""
-    kinds = ";;".join(f"{suffix[1:].upper()} mesh (*{suffix})" for suffix in writable_suffixes())
-    return _ask_to_save(parent, "Save mesh as", f"{stem}-smoothed.vtu", kinds, "VTU mesh (*.vtu)")
+    kinds = ";;".join(map(_mesh_kind, writable_suffixes()))
+    return _ask_to_save(parent, tr("Save mesh as"), f"{stem}-smoothed.vtu", kinds, _mesh_kind(".vtu"))
 
 
 def ask_session(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the session to; "" if cancelled."""
-    return _ask_to_save(parent, "Save session as", f"{stem}{SUFFIX}", f"Hexmend session (*{SUFFIX})")
+    return _ask_to_save(
+        parent, tr("Save session as"), f"{stem}{SUFFIX}", tr("Hexmend session (*{suffix})", suffix=SUFFIX)
+    )
 
 
 def ask_list(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the list of the worst hexes to; "" if cancelled."""
-    return _ask_to_save(parent, "Save list as", f"{stem}-worst.csv", "Table (*.csv)")
+    return _ask_to_save(parent, tr("Save list as"), f"{stem}-worst.csv", tr("Table (*.csv)"))
 
 
 def ask_recipe(parent: QWidget) -> str:
     """Ask for the recipe to load; "" if cancelled."""
-    return _ask_to_open(parent, "Load recipe", "Recipes (*.toml);;All files (*)")
+    return _ask_to_open(parent, tr("Load recipe"), tr("Recipes (*.toml);;All files (*)"))
 
 
 def ask_recipe_target(parent: QWidget) -> str:
     """Ask for the file to save the recipe to; "" if cancelled."""
-    return _ask_to_save(parent, "Save recipe as", "recipe.toml", "Recipe (*.toml)")
+    return _ask_to_save(parent, tr("Save recipe as"), "recipe.toml", tr("Recipe (*.toml)"))
 
 
 def ask_scene(parent: QWidget) -> str:
     """Ask for the scene to load; "" if cancelled."""
-    return _ask_to_open(parent, "Load scene", "Scenes (*.toml);;All files (*)")
+    return _ask_to_open(parent, tr("Load scene"), tr("Scenes (*.toml);;All files (*)"))
 
 
 def ask_scene_target(parent: QWidget) -> str:
     """Ask for the file to save the scene to; "" if cancelled."""
-    return _ask_to_save(parent, "Save scene as", "scene.toml", "Scene (*.toml)")
+    return _ask_to_save(parent, tr("Save scene as"), "scene.toml", tr("Scene (*.toml)"))
 
 
 def ask_script(parent: QWidget, stem: str) -> str:
     """Ask for the file to save the script to; "" if cancelled."""
-    return _ask_to_save(parent, "Save script as", f"{stem}.py", "Python script (*.py)")
+    return _ask_to_save(parent, tr("Save script as"), f"{stem}.py", tr("Python script (*.py)"))
 
 
 def ask_film(parent: QWidget, stem: str) -> str:
     """Ask for the file to save a film of a run to; "" if cancelled."""
-    kinds = (
+    kinds = tr(
         "GIF animation (*.gif);;MP4 video (*.mp4);;WebP animation, smaller files (*.webp);;"
         "PNG animation, lossless (*.png)"
     )
-    return _ask_to_save(parent, "Save film as", f"{stem}.gif", kinds)
+    return _ask_to_save(parent, tr("Save film as"), f"{stem}.gif", kinds)
 
 
 def ask_figures(parent: QWidget, stem: str) -> str:
     """Ask where to create a folder for figures and return the path of the new folder; "" if cancelled."""
-    parent_folder = QFileDialog.getExistingDirectory(parent, "Create folder of figures in", str(folder()))
+    parent_folder = QFileDialog.getExistingDirectory(parent, tr("Create folder of figures in"), str(folder()))
     if not parent_folder:
         return ""
     remember_folder(Path(parent_folder) / stem)
@@ -117,16 +123,17 @@ def ask_replacing(parent: QWidget, path: str) -> bool:
         exists = Path(path).exists()
     except OSError:  # the path is invalid, which is reported when it is written
         exists = False
-    return not exists or _ask_yes(parent, f"{Path(path).name} already exists.", "Replace it?")
+    return not exists or _ask_yes(parent, tr("{file} already exists.", file=Path(path).name), tr("Replace it?"))
 
 
 def ask_camera_name(parent: QWidget, names: Collection[str]) -> str:
     """Ask for the name under which to save a camera; "" if cancelled. Ask again before one of `names` is replaced."""
     default = next(name for k in range(1, len(names) + 2) if (name := f"camera {k}") not in names)
-    label = "Name, for pictures and hexmend render --camera:"
+    label = tr("Name, for pictures and hexmend render --camera:")
     text, accepted = QInputDialog.getText(parent, tr("Save camera"), label, QLineEdit.EchoMode.Normal, default)
     name = text.strip() if accepted else ""
-    return name if name not in names or _ask_yes(parent, f"The camera “{name}” already exists.", "Replace it?") else ""
+    problem = tr("The camera “{name}” already exists.", name=name)
+    return name if name not in names or _ask_yes(parent, problem, tr("Replace it?")) else ""
 
 
 def ask_unsaved(parent: QWidget, name: str, of_mesh: bool = True) -> Answer:
@@ -167,11 +174,19 @@ def show_about(parent: QWidget, version: str) -> None:
     """Show version, licence and source of the mathematics."""
     QMessageBox.about(
         parent,
-        "About Hexmend",
-        f"<b>Hexmend {version}</b><p>Viewer and smoother for hexahedral meshes.</p>"
-        "<p>Its methods follow T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
-        "Meshes</i>. BSD 3-clause licence.</p>",
+        tr("About Hexmend"),
+        tr(
+            "<b>Hexmend {version}</b><p>Viewer and smoother for hexahedral meshes.</p>"
+            "<p>Its methods follow T. J. Wilson's thesis <i>Simultaneous Untangling and Smoothing of Hexahedral "
+            "Meshes</i>. BSD 3-clause licence.</p>",
+            version=version,
+        ),
     )
+
+
+def _mesh_kind(suffix: str) -> str:
+    """Return the entry of a mesh format in a file dialog."""
+    return tr("{format} mesh (*{suffix})", format=suffix[1:].upper(), suffix=suffix)
 
 
 def _ask_yes(parent: QWidget, text: str, question: str) -> bool:

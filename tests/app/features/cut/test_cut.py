@@ -110,7 +110,7 @@ def test_two_planes_cut_a_corner_out(window, qtbot):
     press(named(window.features["cut"].panel, QPushButton, "Add plane"))
     assert len(window.session.view.look.clip.planes) == 2
     both = window.canvas.viewport.shown
-    choose(window, "Beyond all")
+    choose(window, "All planes")
     corner = window.canvas.viewport.shown
     assert 0 < both < one < corner < window.session.document.now.mesh.n_hexes
     press(named(window.features["cut"].panel, QPushButton, "Remove plane"))

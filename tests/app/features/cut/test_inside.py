@@ -241,7 +241,7 @@ def test_a_smooth_cut_is_not_shrunk(window):
     window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
     window.refresh()
     assert window.canvas.viewport.body.faces.shrink == 0
-    assert shown(window) == "1,000 of 1,000 hexes shown, then cut"
+    assert shown(window) == "1,000 of 1,000 hexes shown (before the cut)"
 
 
 def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):

@@ -66,10 +66,10 @@ def test_the_list_states_the_order_of_ties(worst_list):
     def text():
         return " ".join(label.text() for label in worst_list.findChildren(QLabel))
 
-    assert "ties sorted by scaled Jacobian" in text()
+    assert "Ties are sorted by scaled Jacobian." in text()
     metric = worst_list.findChild(QComboBox)
     metric.setCurrentIndex(metric.findData("scaled-jacobian"))
-    assert "ties" not in text()
+    assert "Ties" not in text()
 
 
 def test_a_click_on_a_row_selects_its_hex(worst_list, qtbot):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import unescape
 
 import numpy as np
+import pyqtgraph as pg
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QLabel
 
@@ -14,6 +15,13 @@ from tests.patience import PATIENCE
 
 def shown_step(window):
     return window.canvas.viewport.extras.selection.node_step
+
+
+def drawn_trials(plot):
+    """Return number, alpha and height of each trial that a `NodePlot` draws."""
+    items = plot.findChild(pg.PlotWidget).getPlotItem().items
+    dots = next(item for item in items if isinstance(item, pg.ScatterPlotItem))
+    return [(spot.data(), spot.pos().x(), spot.pos().y()) for spot in dots.points() if spot.data()]
 
 
 def wait_for_step(window, qtbot, method, node=None):

@@ -22,6 +22,7 @@ from tests.app.driving import LEFT, choose, choose_by_keys, click, key, named, p
 from tests.app.features.node_step.step_display import (
     button,
     count_pixels,
+    drawn_trials,
     grab,
     patch_box,
     shown_step,
@@ -53,7 +54,7 @@ def test_a_key_explains_a_free_node_of_the_worst_hex(node_window):
 
 def test_the_trials_are_numbered_in_the_plot(node_window):
     step = shown_step(node_window)
-    drawn = node_window.features["node_step"].panel.plot.shown_trials()
+    drawn = drawn_trials(node_window.features["node_step"].panel.plot)
     assert drawn
     for number, alpha, height in drawn:
         trial = step.trials[number - 1]

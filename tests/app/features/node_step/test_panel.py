@@ -14,6 +14,7 @@ from hexmend_app.features.node_step.step_plot import NodePlot, extent
 from hexmend_app.features.node_step.step_texts import displayed_status, rows
 from hexmend_app.theme.style import TEXT, WORSE
 from tests.app.driving import named
+from tests.app.features.node_step.step_display import drawn_trials
 from tests.core.grids import grid, scrambled
 
 MESH = scrambled(grid(3), 0.2, 5)
@@ -38,7 +39,7 @@ def test_a_move_within_rounding_counts_as_none():
 
 def test_a_negative_eigenvalue_is_called_a_saddle():
     step = step_of("local-nr")
-    assert "bowl" in row(step, "Eigenvalues").meaning
+    assert "locally convex" in row(step, "Eigenvalues").meaning
     assert row(step, "Eigenvalues").colour is TEXT
     saddle = dataclasses.replace(step, hessian=np.diag([-2.0, 1.0, 3.0]), fallback=True)
     assert "1 negative, as on a saddle" in row(saddle, "Eigenvalues").meaning
@@ -91,7 +92,7 @@ def test_trials_above_the_plot_are_drawn_at_its_upper_edge(shown):
     plot = shown(NodePlot(), 260, 180)
     plot.show_step(step)
     low, high = extent(step)
-    drawn = plot.shown_trials()
+    drawn = drawn_trials(plot)
     assert [number for number, _, _ in drawn] == list(range(len(trials) + 1 - len(drawn), len(trials) + 1))
     assert len(drawn) > 3  # most trials, from 50 times the step on, are beyond the right edge
     for number, alpha, height in drawn:

@@ -159,7 +159,7 @@ def test_a_branch_is_a_second_run(window, qtbot):
 
 
 def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
-    window.features["smooth"].panel.show_breakpoints()
+    click(window, "Pause when")
     check(window, "A hex inverts")
     choose(window, "laplacian", ENDLESS)
     with qtbot.waitSignal(window.session.run.hit, timeout=PATIENCE) as hit:
@@ -177,7 +177,7 @@ def test_a_breakpoint_pauses_and_selects_the_hex(window, qtbot):
     ("text", "method", "chooses"), [("Node moves", "laplacian", True), ("Line search backtracks", "global-sd", False)]
 )
 def test_breakpoints_for_a_node_and_for_the_line_search(window, qtbot, text, method, chooses):
-    window.features["smooth"].panel.show_breakpoints()
+    click(window, "Pause when")
     mesh = window.session.document.now.mesh
     node = int(np.flatnonzero(mesh.free)[100])
     window.session.selection.choose(int(np.flatnonzero((mesh.hexes == node).any(axis=1))[0]), node)
