@@ -87,7 +87,7 @@ class Canvas(CameraView):
 
     def _connect_pointer(self) -> None:
         pointer = Pointer(self.interactor)
-        pointer.pressed.connect(self.travel.leave)
+        pointer.pressed.connect(self.camera_animation.leave)
         pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
         pointer.dug.connect(self._dig)
         pointer.double_clicked.connect(self._rotate_about)
@@ -107,7 +107,7 @@ class Canvas(CameraView):
         self.panes.draw(frame)
         if not frame.is_of(last):
             self._selected = None, False
-            self.travel.restart()
+            self.camera_animation.restart()
             for handles in (self.plane, self.box):
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()

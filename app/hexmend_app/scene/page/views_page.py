@@ -28,7 +28,7 @@ def scene_of(
     cameras : mapping, optional
         Additional cameras of the scene, by name.
     """
-    pose = pose_of(panes.first.camera, panes.eye.up)
+    pose = pose_of(panes.first.camera, panes.camera_controller.up)
     tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
     frame = panes.first.frame
     return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), pose, **tables)

@@ -30,7 +30,7 @@ class Panes:
         Pane of the first view.
     wipe : Wipe or None
         None if the views are side by side.
-    eye : CameraController
+    camera_controller : CameraController
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Panes:
         self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
         self._arrangement = Arrangement(self._window, pixel_ratio)
-        self.eye = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
+        self.camera_controller = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
         self.arrange()
         self._observe(self.first)
         # Widgets that are dragged are in the first view.
@@ -89,7 +89,7 @@ class Panes:
             view.draw(view.frame.matching(frame))
         self.share_colour_range()
         if new_mesh:
-            self.eye.look_along("iso")
+            self.camera_controller.look_along("iso")
 
     def clear(self) -> None:
         """Draw no mesh."""
@@ -106,7 +106,7 @@ class Panes:
         wipe : Wipe, optional
             None shows all views side by side.
         """
-        aspect, fitted = self._arrangement.aspect, self.eye.fitted
+        aspect, fitted = self._arrangement.aspect, self.camera_controller.fitted
         previous = self._others
         known = {id(mesh): view for mesh, view in previous}
         self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
@@ -117,7 +117,7 @@ class Panes:
         self.arrange()
         self.share_colour_range()
         if fitted and abs(self._arrangement.aspect - aspect) > 1e-6:
-            self.eye.fit()
+            self.camera_controller.fit()
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
         pane = Pane(self._window, self.first.camera)
@@ -179,12 +179,12 @@ class Panes:
 
     def _begin(self, view: Viewport) -> None:
         if self._arrangement.outdated:
-            fitted = self.eye.fitted
+            fitted = self.camera_controller.fitted
             self.arrange()
             if fitted:
-                self.eye.fit()
+                self.camera_controller.fit()
         if self._others and view is self.seen[0]:
-            self.eye.reset_depth()
+            self.camera_controller.reset_depth()
         self._aim(view)
 
     def _aim(self, view: Viewport) -> None:

@@ -240,9 +240,9 @@ def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(
     assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
     viewport.extras.selection.select(inner, True, None)
     np.testing.assert_array_equal(pixels(), marked)  # too small for figures
-    eye = CameraController.of(viewport)
-    eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
-    eye.reset_depth()
+    controller = CameraController.of(viewport)
+    controller.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
+    controller.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
     np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
     pane.camera.Dolly(2.0)
