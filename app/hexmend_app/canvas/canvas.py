@@ -148,19 +148,19 @@ class Canvas(CameraView):
     def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
         """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
         self._selected = h, corners
-        self.viewport.extras.selection.select(h, corners, node)
+        self.viewport.overlay_layers.selection.select(h, corners, node)
         self._select_in_other_views()
         self.changed()
 
     def _select_in_other_views(self) -> None:
         """Mark the same hex in the other views."""
         for view in self.panes.all[1:]:
-            view.extras.selection.select(*self._selected, None)
+            view.overlay_layers.selection.select(*self._selected, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw the step of a node; None removes it."""
         if not self._closed:
-            self.viewport.extras.selection.show_node_step(step)
+            self.viewport.overlay_layers.selection.show_node_step(step)
             self.changed()
 
     def show_side_by_side(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:

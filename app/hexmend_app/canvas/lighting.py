@@ -38,9 +38,9 @@ class Lighting(QObject):
         if self._task is not None:
             return
         for view in self._panes.seen:
-            scene = view.body.needs_shading
+            scene = view.mesh_layer.needs_shading
             if scene is not None:
-                self._begin(view.body, scene)
+                self._begin(view.mesh_layer, scene)
                 return
 
     def _begin(self, mesh_layer: MeshLayer, scene: Polygons) -> None:

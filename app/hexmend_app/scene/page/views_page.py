@@ -44,7 +44,7 @@ def draw_views(
     scene: Scene, panes: Panes, names: Sequence[str] = (), props: Callable[[float], list[vtkProp]] | None = None
 ) -> PageRenderer:
     """Draw a scene of views, with the result of their cut by whole hexes and their node step; see `draw_page`."""
-    step = panes.first.extras.selection.node_step
+    step = panes.first.overlay_layers.selection.node_step
     filters = panes.first.filters.copied()
     return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step, props=props)
 

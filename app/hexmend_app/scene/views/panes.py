@@ -11,7 +11,7 @@ from hexmend.quality import ElementQuality
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import declared_ends
 from hexmend_app.scene.geometry.filters import Filters
-from hexmend_app.scene.layers.extra_layers import raise_error
+from hexmend_app.scene.layers.overlay_layers import raise_error
 from hexmend_app.scene.views.arrangement import Arrangement
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane

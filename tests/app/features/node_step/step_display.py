@@ -13,7 +13,7 @@ from tests.patience import PATIENCE
 
 
 def shown_step(window):
-    return window.canvas.viewport.extras.selection.node_step
+    return window.canvas.viewport.overlay_layers.selection.node_step
 
 
 def wait_for_step(window, qtbot, method, node=None):

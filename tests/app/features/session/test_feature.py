@@ -76,8 +76,8 @@ def seen(window, qtbot):
     window.refresh()
     window.canvas.draw_still()
     pixels(window)
-    body, lighting = window.canvas.viewport.body, window.canvas.lighting
-    qtbot.waitUntil(lambda: body.light is not None and not lighting.active, timeout=PATIENCE)
+    mesh_layer, lighting = window.canvas.viewport.mesh_layer, window.canvas.lighting
+    qtbot.waitUntil(lambda: mesh_layer.light is not None and not lighting.active, timeout=PATIENCE)
     return pixels(window)
 
 

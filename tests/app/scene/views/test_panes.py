@@ -223,8 +223,8 @@ def test_all_views_have_the_same_reference_state(panes):
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]
     far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
-    assert panes.first.extras.arrows.drawn == panes.first.extras.arrows.moved == 0
-    assert other.extras.arrows.drawn == MESH.free.sum()
+    assert panes.first.overlay_layers.arrows.drawn == panes.first.overlay_layers.arrows.moved == 0
+    assert other.overlay_layers.arrows.drawn == MESH.free.sum()
     assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
     look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")
