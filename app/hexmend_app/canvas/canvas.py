@@ -15,8 +15,8 @@ from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, NodeDetails
 from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.canvas.lighting import Lighting
 from hexmend_app.canvas.pointer import Pointer
+from hexmend_app.canvas.shading_task import ShadingTask
 from hexmend_app.canvas.view_captions import HEIGHT
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
@@ -80,8 +80,8 @@ class Canvas(CameraView):
         self._connect_pointer()
         self.interactor.installEventFilter(self)
         self._ring = False
-        self.lighting = Lighting(self.panes, self)
-        self.lighting.lit.connect(self.interactor.update)
+        self.shading_task = ShadingTask(self.panes, self)
+        self.shading_task.finished.connect(self.interactor.update)
         self._closed = False
         on_theme_change(self, self._apply_theme)
 
@@ -139,7 +139,7 @@ class Canvas(CameraView):
         """Place the handles in the first view; they are hidden if it is not visible."""
         handles, at = self._handles
         clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
-        shown = handles and self.viewport in self.panes.seen
+        shown = handles and self.viewport in self.panes.visible
         self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
         self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
@@ -253,7 +253,7 @@ class Canvas(CameraView):
 
         return scene_of(self.panes, self.names, page, cameras)
 
-    def sheet(self, scene: Scene) -> PageRenderer:
+    def draw_page(self, scene: Scene) -> PageRenderer:
         """Draw the page of a scene of the current views."""
         from hexmend_app.scene.page.views_page import draw_views
 
@@ -262,7 +262,7 @@ class Canvas(CameraView):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Release graphics resources while the window still exists."""
         self._closed = True
-        self.lighting.shut_down()
+        self.shading_task.shut_down()
         self.plane.close()
         self.box.close()
         self.let_go()
@@ -290,4 +290,4 @@ class Canvas(CameraView):
     def draw_still(self) -> None:
         """Draw a fine frame, and start to compute its shading."""
         super().draw_still()
-        self.lighting.start()
+        self.shading_task.start()

@@ -58,7 +58,7 @@ class Panes:
         self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
         self._arrangement = Arrangement(self._window, pixel_ratio)
-        self.camera_controller = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
+        self.camera_controller = CameraController(lambda: self.visible, lambda: self._arrangement.aspect)
         self.arrange()
         self._observe(self.first)
         # Widgets that are dragged are in the first view.
@@ -72,7 +72,7 @@ class Panes:
         return [self.first, *(view for _, view in self._others)]
 
     @property
-    def seen(self) -> list[Viewport]:
+    def visible(self) -> list[Viewport]:
         """The visible views; both views of a wipe."""
         return self.all if self.wipe is None else [self.all[self.wipe.left], self.all[self.wipe.right]]
 
@@ -158,7 +158,7 @@ class Panes:
 
     def arrange(self) -> None:
         """Place all views in the window at its current size."""
-        self._arrangement.arrange(self.all, self.seen, self.wipe)
+        self._arrangement.arrange(self.all, self.visible, self.wipe)
 
     def at(self, x: float, y: float) -> Viewport:
         """Return the view at a position in pixels of the window, from its lower left corner."""
@@ -183,7 +183,7 @@ class Panes:
             self.arrange()
             if fitted:
                 self.camera_controller.fit()
-        if self._others and view is self.seen[0]:
+        if self._others and view is self.visible[0]:
             self.camera_controller.reset_depth()
         self._aim(view)
 
@@ -195,20 +195,20 @@ class Panes:
 
     def moving(self) -> None:
         """Prepare for fast frames."""
-        for view in self.seen:
+        for view in self.visible:
             view.moving()
 
     def turning(self) -> None:
         """Prepare for fast frames in which only the camera moves."""
-        for view in self.seen:
-            view.turning(len(self.seen))
+        for view in self.visible:
+            view.turning(len(self.visible))
 
     def still(self) -> None:
         """Prepare for a fine frame."""
-        for view in self.seen:
+        for view in self.visible:
             view.still()
 
     def shade(self) -> None:
         """Compute the shading of a fine frame in this thread."""
-        for view in self.seen:
+        for view in self.visible:
             view.shade()

@@ -222,9 +222,9 @@ class Viewport:
 
     def shade(self) -> None:
         """Compute the shading of a fine frame in this thread, if necessary."""
-        scene = self.mesh_layer.needs_shading
-        if scene is not None:
-            self.mesh_layer.apply_shading(scene, occlusion.light(scene))
+        polygons = self.mesh_layer.needs_shading
+        if polygons is not None:
+            self.mesh_layer.apply_shading(polygons, occlusion.ambient_light(polygons))
 
     def _set_fast(self, fast: bool) -> None:
         if fast == self._fast:

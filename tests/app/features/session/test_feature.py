@@ -76,8 +76,8 @@ def seen(window, qtbot):
     window.refresh()
     window.canvas.draw_still()
     pixels(window)
-    mesh_layer, lighting = window.canvas.viewport.mesh_layer, window.canvas.lighting
-    qtbot.waitUntil(lambda: mesh_layer.light is not None and not lighting.active, timeout=PATIENCE)
+    mesh_layer, shading_task = window.canvas.viewport.mesh_layer, window.canvas.shading_task
+    qtbot.waitUntil(lambda: mesh_layer.light is not None and not shading_task.active, timeout=PATIENCE)
     return pixels(window)
 
 

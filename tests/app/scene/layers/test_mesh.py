@@ -84,10 +84,10 @@ def test_shading_is_dropped_when_nodes_move(viewport):
 
 def test_shading_of_an_outdated_scene_is_rejected(viewport):
     draw(viewport)
-    scene = viewport.mesh_layer.needs_shading
-    light = occlusion.light(scene)
+    polygons = viewport.mesh_layer.needs_shading
+    light = occlusion.ambient_light(polygons)
     draw(viewport, Look())
-    assert not viewport.mesh_layer.apply_shading(scene, light)
+    assert not viewport.mesh_layer.apply_shading(polygons, light)
     np.testing.assert_allclose(shades(viewport), 1)
 
 
