@@ -9,7 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 from hexmend.boundary.displacement import ROUNDING, Displacement
 from hexmend_app.picture.appearance import Arrows
 from hexmend_app.scene.layers.mesh import MeshLayer
-from hexmend_app.scene.layers.optional.structure import uncut
+from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -92,7 +92,7 @@ class ArrowLayer:
             nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
         else:
             nodes = mesh_layer.visible_nodes(mesh)
-        self.show(frame.movement, nodes & uncut(frame.look, mesh.points), traces.factor, through)
+        self.show(frame.movement, nodes & points_kept_by_cut(frame.look, mesh.points), traces.factor, through)
 
     def hide(self) -> None:
         """Hide all arrows."""

@@ -126,7 +126,7 @@ class Viewport:
     def _set_mesh(self) -> None:
         self.overlay_layers.set_mesh(self.frame)
         mesh = self.frame.mesh
-        if self.filters is None or not self.filters.suit(mesh):
+        if self.filters is None or not self.filters.matches(mesh):
             self.filters = Filters(mesh)
         self.mesh_layer.set_mesh(mesh)
 
@@ -151,9 +151,9 @@ class Viewport:
         """Return True for hexes shown whole or in part, (m,) bool; None for all."""
         return None if self.frame is None else self.filters.kept(self.frame)
 
-    def left(self) -> np.ndarray | None:
+    def remaining_after_cut(self) -> np.ndarray | None:
         """Return True for shown hexes that a smooth cut leaves at least in part, (m,) bool; None for all."""
-        return None if self.frame is None else self.filters.left(self.frame)
+        return None if self.frame is None else self.filters.remaining_after_cut(self.frame)
 
     @property
     def shown(self) -> int:
