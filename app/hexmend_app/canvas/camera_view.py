@@ -75,7 +75,7 @@ class CameraView(QWidget):
         self.camera_animation.moved.connect(self._on_flight_frame)
         self.camera_animation.changed.connect(self.views_changed)
         observe = self.interactor.iren.AddObserver
-        observe("StartInteractionEvent", lambda *_: self.camera_animation.leave())
+        observe("StartInteractionEvent", lambda *_: self.camera_animation.begin_move())
         observe("InteractionEvent", lambda *_: self.turning())
         observe("EndInteractionEvent", lambda *_: self._on_interaction_end())
         self._keys = _Keys(self)
@@ -151,9 +151,9 @@ class CameraView(QWidget):
 
     def _move_camera(self, move: Callable[[], None]) -> None:
         """Move the camera immediately and record the movement."""
-        self.camera_animation.leave()
+        self.camera_animation.begin_move()
         move()
-        self.camera_animation.arrive()
+        self.camera_animation.end_move()
         self.panes.camera_controller.reset_depth()
         self.changed()
 
@@ -196,7 +196,7 @@ class CameraView(QWidget):
 
     def return_to_pose(self) -> None:
         """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
-        self.camera_animation.come_back()
+        self.camera_animation.fly_to_bookmark()
 
     def _on_flight_frame(self) -> None:
         self.panes.camera_controller.reset_depth()
@@ -204,7 +204,7 @@ class CameraView(QWidget):
         self.draw_soon()
 
     def _on_interaction_end(self) -> None:
-        self.camera_animation.arrive()
+        self.camera_animation.end_move()
         self._rest.start()
 
     # Fast and fine frames
@@ -237,13 +237,13 @@ class CameraView(QWidget):
         self.panes.still()
         self.interactor.update()
 
-    def let_go(self) -> None:
+    def release_graphics(self) -> None:
         """Release graphics resources while the window still exists."""
         self._rest.stop()
         self.camera_animation.stop()
         if self._plotter is not None:
             self._plotter.close()
-        self.interactor.let_go()
+        self.interactor.release_graphics()
 
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""

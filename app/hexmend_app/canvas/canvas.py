@@ -87,7 +87,7 @@ class Canvas(CameraView):
 
     def _connect_pointer(self) -> None:
         pointer = Pointer(self.interactor)
-        pointer.pressed.connect(self.camera_animation.leave)
+        pointer.pressed.connect(self.camera_animation.begin_move)
         pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
         pointer.dug.connect(self._dig)
         pointer.double_clicked.connect(self._rotate_about)
@@ -265,7 +265,7 @@ class Canvas(CameraView):
         self.shading_task.shut_down()
         self.plane.close()
         self.box.close()
-        self.let_go()
+        self.release_graphics()
         super().closeEvent(event)
 
     @property
