@@ -62,7 +62,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     )
     go(window, record, 3)
     press(panel.since, "iteration")
-    then = window.session.history.state(type(timeline.moment)(record, 2), window.session.document.now.mesh)
+    then = window.session.history.state(type(timeline.shown_iteration)(record, 2), window.session.document.now.mesh)
     np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
