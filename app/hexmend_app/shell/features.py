@@ -12,7 +12,7 @@ import hexmend_app.features as folder
 from hexmend_app.feature import Feature, Host
 
 
-def names() -> list[str]:
+def feature_names() -> list[str]:
     """Return the names of all features, which are those of their folders."""
     return [module.name for module in pkgutil.iter_modules(folder.__path__)]
 
@@ -22,7 +22,7 @@ def first_names() -> list[str]:
 
     They are built first, so that the first picture does not wait for the others. No module `feature` is imported.
     """
-    return [name for name in names() if getattr(import_module(f"{folder.__name__}.{name}"), "FIRST", False)]
+    return [name for name in feature_names() if getattr(import_module(f"{folder.__name__}.{name}"), "FIRST", False)]
 
 
 def feature_class(name: str) -> type[Feature]:
@@ -51,10 +51,10 @@ def in_order(kinds: Iterable[type[Feature]]) -> list[type[Feature]]:
 
 def feature_classes() -> list[type[Feature]]:
     """Return the classes of all features, in the order in which they are built."""
-    return in_order(map(feature_class, names()))
+    return in_order(map(feature_class, feature_names()))
 
 
-def name_of(kind: type[Feature]) -> str:
+def feature_name(kind: type[Feature]) -> str:
     """Return the name of a feature, which is that of its folder."""
     return kind.__module__.split(".")[-2]
 
@@ -73,15 +73,15 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
     dict
         All features by name, in building order; a feature that raises is reported and omitted.
     """
-    for name in names():
+    for name in feature_names():
         feature_class(name)  # importing takes longer than building
         yield
     kinds, features = feature_classes(), dict(built)
     for kind in kinds:
-        if name_of(kind) not in features:
+        if feature_name(kind) not in features:
             try:
-                features[name_of(kind)] = kind(host)
+                features[feature_name(kind)] = kind(host)
             except Exception:  # build the other features nevertheless
                 sys.excepthook(*sys.exc_info())
             yield
-    return {name_of(kind): features[name_of(kind)] for kind in kinds if name_of(kind) in features}
+    return {feature_name(kind): features[feature_name(kind)] for kind in kinds if feature_name(kind) in features}

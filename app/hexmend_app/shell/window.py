@@ -93,11 +93,11 @@ class Window(QMainWindow):
 
     def begin(self) -> None:
         """Build the session and the features that open and draw a mesh."""
-        from hexmend_app.shell.features import feature_class, first_names, in_order, name_of
+        from hexmend_app.shell.features import feature_class, feature_name, first_names, in_order
         from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
-        self.features = {name_of(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
+        self.features = {feature_name(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
         self._add_states(self.features.values())
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
         for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):

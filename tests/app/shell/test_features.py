@@ -56,7 +56,7 @@ def with_example(qtbot, monkeypatch, tmp_path):
     """A window with the example among its features."""
     classes = finding.feature_classes()
     monkeypatch.setattr(finding, "feature_classes", lambda: [*classes, FeatureCounting])
-    monkeypatch.setattr(finding, "name_of", lambda kind: kind.__name__.removeprefix("Feature").lower())
+    monkeypatch.setattr(finding, "feature_name", lambda kind: kind.__name__.removeprefix("Feature").lower())
     window = Window()
     qtbot.addWidget(window)
     window.build_features()
@@ -111,7 +111,7 @@ def test_no_two_actions_have_the_same_keys(with_example):
 
 
 def test_every_folder_is_a_feature():
-    names = [finding.name_of(kind) for kind in finding.feature_classes()]
+    names = [finding.feature_name(kind) for kind in finding.feature_classes()]
     assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
     assert len(names) == len(set(names))
 
