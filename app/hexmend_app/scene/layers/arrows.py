@@ -16,7 +16,7 @@ from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
 #: Maximum number of arrows; the longest are drawn. They take 20 ms of a fast frame in software rendering.
-MOST = 5_000
+MAX_ARROWS = 5_000
 
 #: Maximum number of arrows with a rim; the rims of more arrows would cover everything else.
 _MAX_RIMMED = 1_000
@@ -120,8 +120,8 @@ class ArrowLayer:
         if not moved:
             self.hide()
             return
-        if moved > MOST:
-            chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MOST)[moved - MOST :]])
+        if moved > MAX_ARROWS:
+            chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MAX_ARROWS)[moved - MAX_ARROWS :]])
         start = movement.before.points[chosen]
         vertices = arrows(start, factor * (movement.points[chosen] - start), _MAX_HEAD * movement.unit)
         if chosen.size == self.drawn:

@@ -18,7 +18,7 @@ _ARM, _BEYOND, _TIP, _HALF, _FREE = 2.2, 0.65, 0.75, 0.27, 0.6
 _HALO, _DISC, _HALO_OPACITY = 4.0, 0.55, 0.7
 
 #: Maximum size of the axes, as a fraction of the shorter side of a panel.
-_MOST = 0.3
+_MAX_SIZE = 0.3
 
 
 def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, page: Page) -> None:
@@ -37,7 +37,7 @@ def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner
     """
     letter = drawing.letters.height
     reach = _ARM + _BEYOND + 0.45
-    if 2 * (reach + _FREE) * letter > 2 * _MOST * min(box.width, box.height) / 0.6:
+    if 2 * (reach + _FREE) * letter > 2 * _MAX_SIZE * min(box.width, box.height) / 0.6:
         return  # the panel is too small
     # Extent of the axes in this orientation, for placing them in the corner.
     flat = axes[:, :2] * (1, -1)

@@ -86,7 +86,7 @@ def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
 
 
 def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
-    monkeypatch.setattr(layer, "MOST", 20)
+    monkeypatch.setattr(layer, "MAX_ARROWS", 20)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
     assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (20, int(MESH.free.sum()))
