@@ -26,7 +26,7 @@ def main(folder: Path) -> None:
         window.show_panel("node")
         node = int(mesh.free.nonzero()[0][2010])
         window.session.selection.choose(int(mesh.topology.node_corners[node][0] // 8), node)
-        wait_until(lambda: window.canvas.viewport.chosen.node_step is not None)
+        wait_until(lambda: window.canvas.viewport.overlay_layers.selection.node_step is not None)
         click(window, "Isolate patch")
         wait_until_drawn(window)
         camera = window.canvas.viewport.camera

@@ -68,9 +68,9 @@ def wait_until_drawn(window: Window) -> None:
     window.refresh()
     process_events(0.5)
     canvas = window.canvas
-    wait_until(lambda: not canvas.travel.active)
+    wait_until(lambda: not canvas.camera_animation.active)
     canvas.draw_still()
-    wait_until(lambda: not canvas.lighting.active)
+    wait_until(lambda: not canvas.shading_task.active)
     process_events(0.5)
 
 

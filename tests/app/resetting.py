@@ -157,7 +157,7 @@ def settle(qtbot, window):
     window.refresh()
     window.canvas.look_along("iso")
     window.canvas.fit()
-    window.canvas.travel.restart()
+    window.canvas.camera_animation.restart()
     QTest.mouseMove(window, QPoint(1, 1))
     window.activateWindow()
     window.windowHandle().requestActivate()

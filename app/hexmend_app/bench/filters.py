@@ -80,7 +80,7 @@ def _changes(window: Window) -> dict[str, dict[str, float]]:
             "mask": 1e3 * median(masks),
             "faces": 1e3 * median(faces),
             "drawing": 1e3 * median(frames),
-            "quads": len(viewport.body.faces.quads),
+            "quads": len(viewport.mesh_layer.faces.quads),
         }
         window.session.view.show_all()
         window.session.view.change(shrink=0.0)

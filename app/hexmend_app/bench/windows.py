@@ -57,7 +57,7 @@ def rotation_frame_ms(window: Window) -> float:
     for _ in range(_FRAMES):
         canvas.panes.turning()
         canvas.viewport.camera.Azimuth(4)
-        canvas.panes.eye.reset_depth()
+        canvas.panes.camera_controller.reset_depth()
         start = perf_counter()
         draw(window)
         times.append(perf_counter() - start)

@@ -22,7 +22,7 @@ _REST = 300
 class CameraAnimation(QObject):
     """Animates the camera, and records the poses in which it came to rest.
 
-    Code that moves the camera must call `leave` before and `arrive` after the movement.
+    Code that moves the camera must call `begin_move` before and `end_move` after the movement.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class CameraAnimation(QObject):
 
     def fly(self, flight: Flight) -> None:
         """Start a flight; a running flight ends at its current pose."""
-        self.leave()
+        self.begin_move()
         self._start_flight(flight)
 
     def _start_flight(self, flight: Flight) -> None:
@@ -84,13 +84,13 @@ class CameraAnimation(QObject):
 
     # Movements by the user
 
-    def leave(self) -> None:
+    def begin_move(self) -> None:
         """Prepare for a movement by the user: record the current pose, and end a running flight."""
         if self.at_rest:
             self._commit()
         self._timer.stop()
 
-    def arrive(self) -> None:
+    def end_move(self) -> None:
         """Note the end of a movement by the user; the pose is recorded when the camera is at rest."""
         if not self.active:
             self._rest_timer.start()
@@ -105,7 +105,7 @@ class CameraAnimation(QObject):
         self.stop()
         self._poses.clear()
         self._remembered = None
-        self.arrive()
+        self.end_move()
         self.changed.emit()
 
     def pose_history(self) -> tuple[list[CameraPose], list[CameraPose], CameraPose | None]:
@@ -160,7 +160,7 @@ class CameraAnimation(QObject):
         if self._remembered is None:
             self._remembered = self._flight.goal if self.active else pose_of(self._camera)
 
-    def come_back(self) -> None:
+    def fly_to_bookmark(self) -> None:
         """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
         pose, self._remembered = self._remembered, None
         if pose is not None:

@@ -48,7 +48,7 @@ class CameraView(QWidget):
         The views.
     viewport : Viewport
         The first view.
-    travel : CameraAnimation
+    camera_animation : CameraAnimation
         Flights and pose history of the camera.
 
     Signals
@@ -71,11 +71,11 @@ class CameraView(QWidget):
         self.viewport = self.panes.first
         self._rest = QTimer(self, interval=_REST, singleShot=True)
         self._rest.timeout.connect(self.draw_still)
-        self.travel = CameraAnimation(self.viewport.camera, self)
-        self.travel.moved.connect(self._on_flight_frame)
-        self.travel.changed.connect(self.views_changed)
+        self.camera_animation = CameraAnimation(self.viewport.camera, self)
+        self.camera_animation.moved.connect(self._on_flight_frame)
+        self.camera_animation.changed.connect(self.views_changed)
         observe = self.interactor.iren.AddObserver
-        observe("StartInteractionEvent", lambda *_: self.travel.leave())
+        observe("StartInteractionEvent", lambda *_: self.camera_animation.begin_move())
         observe("InteractionEvent", lambda *_: self.turning())
         observe("EndInteractionEvent", lambda *_: self._on_interaction_end())
         self._keys = _Keys(self)
@@ -102,11 +102,11 @@ class CameraView(QWidget):
 
     def fit(self) -> None:
         """Fit the shown hexes into the view."""
-        self._move_camera(self.panes.eye.fit)
+        self._move_camera(self.panes.camera_controller.fit)
 
     def look_along(self, direction: str) -> None:
         """Show the mesh from a direction: +x, -x, ..., iso."""
-        self._move_camera(partial(self.panes.eye.look_along, direction))
+        self._move_camera(partial(self.panes.camera_controller.look_along, direction))
 
     @property
     def pose(self) -> CameraPose:
@@ -116,29 +116,29 @@ class CameraView(QWidget):
     @property
     def pose_history(self) -> PoseHistoryData:
         """History of camera poses."""
-        before, after, remembered = self.travel.pose_history()
+        before, after, remembered = self.camera_animation.pose_history()
         poses = (tuple(replace(pose, axis=self.up) for pose in poses) for poses in (before, after))
         return PoseHistoryData(*poses, None if remembered is None else replace(remembered, axis=self.up))
 
     def set_pose(self, pose: CameraPose, pose_history: PoseHistoryData | None = None) -> None:
         """Set the camera pose and, if given, the history of poses."""
-        self.panes.eye.up = pose.axis
+        self.panes.camera_controller.up = pose.axis
         self._move_camera(partial(apply_pose, self.viewport.camera, pose))
         if pose_history is not None:
-            self.travel.resume(pose_history.before, pose_history.after, pose_history.left)
+            self.camera_animation.resume(pose_history.before, pose_history.after, pose_history.left)
 
     @property
     def up(self) -> str:
         """Vertical axis: x, y or z."""
-        return self.panes.eye.up
+        return self.panes.camera_controller.up
 
     def set_up(self, axis: str) -> None:
         """Set the vertical axis: x, y or z."""
-        self._move_camera(partial(self.panes.eye.set_up, axis))
+        self._move_camera(partial(self.panes.camera_controller.set_up, axis))
 
     def roll(self, degrees: float) -> None:
         """Rotate the picture counter-clockwise."""
-        self._move_camera(partial(self.panes.eye.roll, degrees))
+        self._move_camera(partial(self.panes.camera_controller.roll, degrees))
 
     @property
     def parallel(self) -> bool:
@@ -147,64 +147,64 @@ class CameraView(QWidget):
 
     def set_parallel(self, on: bool) -> None:
         """Switch between parallel and perspective projection."""
-        self._move_camera(partial(self.panes.eye.set_parallel, on))
+        self._move_camera(partial(self.panes.camera_controller.set_parallel, on))
 
     def _move_camera(self, move: Callable[[], None]) -> None:
         """Move the camera immediately and record the movement."""
-        self.travel.leave()
+        self.camera_animation.begin_move()
         move()
-        self.travel.arrive()
-        self.panes.eye.reset_depth()
+        self.camera_animation.end_move()
+        self.panes.camera_controller.reset_depth()
         self.changed()
 
     def face(self, plane: ClipPlane) -> None:
         """Fly to a view perpendicular to a plane, from the side that the cut removes."""
-        self.travel.fly(self.panes.eye.flight_along(plane.normal))
+        self.camera_animation.fly(self.panes.camera_controller.flight_along(plane.normal))
 
     def fly_to(self, *hexes: int) -> None:
         """Fly to one or several hexes."""
         if self.viewport.frame is None:
             return
         mesh = self.viewport.frame.mesh
-        self.travel.fly(self.panes.eye.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
+        self.camera_animation.fly(self.panes.camera_controller.flight_to(mesh.points[mesh.hexes[list(hexes)]]))
 
     def fly_around(self, place: np.ndarray) -> None:
         """Fly to a pose in which a point, (3,) float64, is the centre of the view and of rotation."""
-        self.travel.fly(self.panes.eye.flight_around(place))
+        self.camera_animation.fly(self.panes.camera_controller.flight_around(place))
 
     @property
     def can_go_back(self) -> bool:
         """True if there is a previous camera pose."""
-        return self.travel.can_go_back
+        return self.camera_animation.can_go_back
 
     @property
     def can_go_forward(self) -> bool:
         """True if there is a next camera pose."""
-        return self.travel.can_go_forward
+        return self.camera_animation.can_go_forward
 
     def back_view(self) -> None:
         """Fly to the previous camera pose."""
-        self.travel.go_back()
+        self.camera_animation.go_back()
 
     def forward_view(self) -> None:
         """Fly to the next camera pose."""
-        self.travel.go_forward()
+        self.camera_animation.go_forward()
 
     def remember_pose(self) -> None:
         """Bookmark the current pose, unless another pose is bookmarked."""
-        self.travel.remember()
+        self.camera_animation.remember()
 
     def return_to_pose(self) -> None:
         """Fly to the bookmarked pose, if there is one, and clear the bookmark."""
-        self.travel.come_back()
+        self.camera_animation.fly_to_bookmark()
 
     def _on_flight_frame(self) -> None:
-        self.panes.eye.reset_depth()
+        self.panes.camera_controller.reset_depth()
         self.turning()
         self.draw_soon()
 
     def _on_interaction_end(self) -> None:
-        self.travel.arrive()
+        self.camera_animation.end_move()
         self._rest.start()
 
     # Fast and fine frames
@@ -237,17 +237,17 @@ class CameraView(QWidget):
         self.panes.still()
         self.interactor.update()
 
-    def let_go(self) -> None:
+    def release_graphics(self) -> None:
         """Release graphics resources while the window still exists."""
         self._rest.stop()
-        self.travel.stop()
+        self.camera_animation.stop()
         if self._plotter is not None:
             self._plotter.close()
-        self.interactor.let_go()
+        self.interactor.release_graphics()
 
     def on_key(self, event: QKeyEvent) -> None:
         """Move the camera if the key is bound to a movement."""
-        move = move_of(event, self.panes.eye.up)
+        move = move_of(event, self.panes.camera_controller.up)
         if move is not None:
             self._move_camera(partial(move, self.viewport.camera))
 

@@ -15,8 +15,8 @@ from hexmend.node_step import NodeStep
 from hexmend.quality import ElementQuality, NodeDetails
 from hexmend_app.canvas.camera_view import CameraView
 from hexmend_app.canvas.colour_bar import ColourBar
-from hexmend_app.canvas.lighting import Lighting
 from hexmend_app.canvas.pointer import Pointer
+from hexmend_app.canvas.shading_task import ShadingTask
 from hexmend_app.canvas.view_captions import HEIGHT
 from hexmend_app.canvas.view_frame import ViewFrame
 from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
@@ -80,14 +80,14 @@ class Canvas(CameraView):
         self._connect_pointer()
         self.interactor.installEventFilter(self)
         self._ring = False
-        self.lighting = Lighting(self.panes, self)
-        self.lighting.lit.connect(self.interactor.update)
+        self.shading_task = ShadingTask(self.panes, self)
+        self.shading_task.finished.connect(self.interactor.update)
         self._closed = False
         on_theme_change(self, self._apply_theme)
 
     def _connect_pointer(self) -> None:
         pointer = Pointer(self.interactor)
-        pointer.pressed.connect(self.travel.leave)
+        pointer.pressed.connect(self.camera_animation.begin_move)
         pointer.clicked.connect(lambda place: self.clicked.emit(self._at(place)))
         pointer.dug.connect(self._dig)
         pointer.double_clicked.connect(self._rotate_about)
@@ -107,7 +107,7 @@ class Canvas(CameraView):
         self.panes.draw(frame)
         if not frame.is_of(last):
             self._selected = None, False
-            self.travel.restart()
+            self.camera_animation.restart()
             for handles in (self.plane, self.box):
                 handles.set_bounds(self.viewport.bounds)
         self._place_handles()
@@ -139,7 +139,7 @@ class Canvas(CameraView):
         """Place the handles in the first view; they are hidden if it is not visible."""
         handles, at = self._handles
         clip = None if self.viewport.frame is None else self.viewport.frame.look.clip
-        shown = handles and self.viewport in self.panes.seen
+        shown = handles and self.viewport in self.panes.visible
         self.plane.set(clip.planes[at] if isinstance(clip, PlaneClip) and at < len(clip.planes) else None, shown)
         self.box.set(clip if isinstance(clip, BoxClip) else None, shown)
 
@@ -148,19 +148,19 @@ class Canvas(CameraView):
     def select(self, h: int | None, corners: bool, node: NodeDetails | None = None) -> None:
         """Mark a hex, optionally with the quality of its corners, and one of its nodes; None clears the marks."""
         self._selected = h, corners
-        self.viewport.extras.selection.select(h, corners, node)
+        self.viewport.overlay_layers.selection.select(h, corners, node)
         self._select_in_other_views()
         self.changed()
 
     def _select_in_other_views(self) -> None:
         """Mark the same hex in the other views."""
         for view in self.panes.all[1:]:
-            view.extras.selection.select(*self._selected, None)
+            view.overlay_layers.selection.select(*self._selected, None)
 
     def show_node_step(self, step: NodeStep | None) -> None:
         """Draw the step of a node; None removes it."""
         if not self._closed:
-            self.viewport.extras.selection.show_node_step(step)
+            self.viewport.overlay_layers.selection.show_node_step(step)
             self.changed()
 
     def show_side_by_side(self, others: Sequence[tuple[Mesh, ElementQuality]], wipe: Wipe | None = None) -> None:
@@ -253,7 +253,7 @@ class Canvas(CameraView):
 
         return scene_of(self.panes, self.names, page, cameras)
 
-    def sheet(self, scene: Scene) -> PageRenderer:
+    def draw_page(self, scene: Scene) -> PageRenderer:
         """Draw the page of a scene of the current views."""
         from hexmend_app.scene.page.views_page import draw_views
 
@@ -262,10 +262,10 @@ class Canvas(CameraView):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Release graphics resources while the window still exists."""
         self._closed = True
-        self.lighting.shut_down()
+        self.shading_task.shut_down()
         self.plane.close()
         self.box.close()
-        self.let_go()
+        self.release_graphics()
         super().closeEvent(event)
 
     @property
@@ -290,4 +290,4 @@ class Canvas(CameraView):
     def draw_still(self) -> None:
         """Draw a fine frame, and start to compute its shading."""
         super().draw_still()
-        self.lighting.start()
+        self.shading_task.start()

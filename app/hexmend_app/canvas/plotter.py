@@ -106,7 +106,7 @@ class CanvasPlotter(pv.Plotter):
     def render(self) -> None:
         """Schedule drawing; several calls are combined into one frame."""
         if not (self._closed or self._suppress_rendering):
-            self._canvas.panes.eye.reset_depth()
+            self._canvas.panes.camera_controller.reset_depth()
             self._canvas.changed()
 
     def show(self, *_: Any, **__: Any) -> None:

@@ -106,7 +106,7 @@ class RenderWidget(QOpenGLWidget):
     def initializeGL(self) -> None:
         """Initialise VTK with the OpenGL context of Qt."""
         self._gl_context = self.context()
-        self._gl_context.aboutToBeDestroyed.connect(self._release_graphics)
+        self._gl_context.aboutToBeDestroyed.connect(self._on_context_destroyed)
         window = self.render_window
         if sys.platform.startswith("linux"):
             window.SetOpenGLSymbolLoader2(_loader(), 0)
@@ -169,7 +169,7 @@ class RenderWidget(QOpenGLWidget):
             window.GetState().vtkglEnable(_SCISSORS)
             gl.glEnable(_SCISSORS)
 
-    def _release_graphics(self) -> None:
+    def _on_context_destroyed(self) -> None:
         self._make_current()
         self._finalise()
         self.forget_context()
@@ -182,7 +182,7 @@ class RenderWidget(QOpenGLWidget):
         """Forget a destroyed OpenGL context."""
         self._gl_context = None
 
-    def let_go(self) -> None:
+    def release_graphics(self) -> None:
         """Release graphics resources; must be called while the window exists."""
         self._finalise()
         for source, observer in self._observers:

@@ -69,13 +69,13 @@ def _default(field: dataclasses.Field) -> Any:
 
 
 #: Place of a value: names of tables, numbers of entries and the key, outermost first.
-Path = tuple[str | int, ...]
+KeyPath = tuple[str | int, ...]
 
 
 class _Place(NamedTuple):
     """Place of a value and the declaration of its bounds."""
 
-    path: Path
+    path: KeyPath
     option: Option | None = None
 
 
@@ -83,10 +83,10 @@ class OptionError(ParameterError):
     """Invalid entry of a table, with its place."""
 
     @classmethod
-    def of(cls, path: Path, value: Any, problem: str) -> OptionError:
+    def of(cls, path: KeyPath, value: Any, problem: str) -> OptionError:
         """Return the error for a value; a path of one name is a key of a table that is not known yet."""
         place = str(path[0]) if len(path) == 1 else _place(path)
-        return cls(" ".join((place, "=", _shown(value), problem)))
+        return cls(" ".join((place, "=", _repr_of(value), problem)))
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class ConfigTable:
         """Raise `ParameterError` if keys contradict each other."""
 
 
-def decode(kind: type, data: Any, where: Path = ()) -> Any:
+def decode(kind: type, data: Any, where: KeyPath = ()) -> Any:
     """Return a table of a kind from plain data.
 
     Parameters
@@ -218,7 +218,7 @@ def _with_shape(value: Any, kinds: tuple[Any, ...]) -> Any:
     return kinds[-1]
 
 
-def _place(path: Path) -> str:
+def _place(path: KeyPath) -> str:
     """Return a place as text.
 
     >>> _place(()), _place(("bar", "ticks")), _place(("panels", 2, "mesh")), _place(("cut", "planes", 1, "normal"))
@@ -231,7 +231,7 @@ def _place(path: Path) -> str:
     return f"[{table}] {rest}".rstrip()
 
 
-def _text(value: Any, path: Path, longest: int = LONGEST) -> str:
+def _text(value: Any, path: KeyPath, longest: int = LONGEST) -> str:
     if not isinstance(value, str):
         raise OptionError.of(path, value, "is not a text: expected a text in quotes")
     if len(value) > longest or not value.isprintable():
@@ -239,7 +239,7 @@ def _text(value: Any, path: Path, longest: int = LONGEST) -> str:
     return value
 
 
-def _number(value: Any, kind: type, option: Option, path: Path) -> float:
+def _number(value: Any, kind: type, option: Option, path: KeyPath) -> float:
     whole = kind is int
     expected = f"{'a whole number' if whole else 'a number'}{option.bounds}"
     if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
@@ -251,8 +251,8 @@ def _number(value: Any, kind: type, option: Option, path: Path) -> float:
     return kind(value)
 
 
-def _shown(value: Any) -> str:
-    """Return the text of a value in errors."""
+def _repr_of(value: Any) -> str:
+    """Return the text of a value for errors."""
     if isinstance(value, int) and abs(value) > _MAX_NUMBER:
         return "a huge number"
     try:

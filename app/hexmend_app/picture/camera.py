@@ -12,7 +12,7 @@ from hexmend_app.picture.camera_pose import CameraPose, Vector
 DIRECTIONS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
 
 #: Maximum number of meshes and of panels of a scene.
-MOST = 12
+MAX_PANELS = 12
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ class WipeLayout(ConfigTable):
         Caption of the second mesh; by default the name of its file.
     """
 
-    mesh: int = option(2, low=1, high=MOST)
+    mesh: int = option(2, low=1, high=MAX_PANELS)
     at: float = option(0.5, low=0, high=1)
     caption: str = option("")
 
@@ -124,6 +124,6 @@ class PicturePanel(ConfigTable):
     """
 
     camera: str = option("")
-    mesh: int = option(1, low=1, high=MOST)
+    mesh: int = option(1, low=1, high=MAX_PANELS)
     caption: str = option("")
     wipe: WipeLayout | None = option()

@@ -12,7 +12,7 @@ from hexmend_app.codec.config_table import ConfigTable, decode, option
 from hexmend_app.picture.camera import Camera
 
 #: Maximum number of named cameras of a scene or a window.
-MOST = 100
+MAX_CAMERAS = 100
 
 #: Key in session files.
 _KEY = "cameras"
@@ -27,7 +27,7 @@ class NamedCameras(ConfigTable):
     named : dict of Camera
     """
 
-    named: dict[str, Camera] = option(dict, most=MOST)
+    named: dict[str, Camera] = option(dict, most=MAX_CAMERAS)
 
     def check(self) -> None:
         """Raise `ParameterError` for empty names and names with surrounding spaces."""
@@ -39,7 +39,7 @@ class NamedCameras(ConfigTable):
 
 
 def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str, Camera]:
-    """Return cameras with others added, at most `MOST`; a different camera with the same name gets a number.
+    """Return cameras with others added, at most `MAX_CAMERAS`; a different camera with the same name gets a number.
 
     >>> list(merged({"a": Camera("+x")}, {"a": Camera("+y"), "b": Camera("+x")}))
     ['a', 'a (2)', 'b']
@@ -48,9 +48,9 @@ def merged(mine: Mapping[str, Camera], others: Mapping[str, Camera]) -> dict[str
     """
     cameras = dict(mine)
     for name, camera in others.items():
-        candidates = (name, *(f"{name} ({k})" for k in range(2, MOST + 2)))
+        candidates = (name, *(f"{name} ({k})" for k in range(2, MAX_CAMERAS + 2)))
         free = next((candidate for candidate in candidates if cameras.get(candidate, camera) == camera), None)
-        if free is not None and (free in cameras or len(cameras) < MOST):
+        if free is not None and (free in cameras or len(cameras) < MAX_CAMERAS):
             cameras[free] = camera
     return cameras
 

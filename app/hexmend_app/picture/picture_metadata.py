@@ -18,7 +18,7 @@ from hexmend.run.recipe import Recipe
 from hexmend.toml_text import parse_toml
 from hexmend_app.codec.config_table import ConfigTable, decode, option
 from hexmend_app.picture import png_text
-from hexmend_app.picture.camera import MOST, PicturePanel
+from hexmend_app.picture.camera import MAX_PANELS, PicturePanel
 from hexmend_app.picture.scene import Scene
 from hexmend_app.picture.scene_files import from_toml, table_text, to_toml
 
@@ -83,7 +83,7 @@ class _About(ConfigTable):
     """
 
     version: str = option("")
-    meshes: tuple[PicturedMesh, ...] = option((), most=MOST)
+    meshes: tuple[PicturedMesh, ...] = option((), most=MAX_PANELS)
 
 
 @dataclass(frozen=True)

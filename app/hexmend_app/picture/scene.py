@@ -9,10 +9,10 @@ from hexmend.errors import ParameterError
 from hexmend.mesh.mesh import Mesh
 from hexmend_app.codec.config_table import ConfigTable, option
 from hexmend_app.picture.appearance import Look, Structure, Traces
-from hexmend_app.picture.camera import MOST, Camera, PicturePanel
+from hexmend_app.picture.camera import MAX_PANELS, Camera, PicturePanel
 from hexmend_app.picture.camera_pose import CameraPose
 from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.named_cameras import MOST as MOST_CAMERAS
+from hexmend_app.picture.named_cameras import MAX_CAMERAS
 from hexmend_app.picture.page import AxesStyle, ColourBarStyle, LineStyle, Page
 from hexmend_app.picture.visibility import Colours, Show
 
@@ -56,8 +56,8 @@ class Scene(ConfigTable):
 
     format: int = option(FORMAT, low=1)
     camera: Camera = option(Camera)
-    cameras: dict[str, Camera] = option(dict, most=MOST_CAMERAS)
-    panels: tuple[PicturePanel, ...] = option((), most=MOST)
+    cameras: dict[str, Camera] = option(dict, most=MAX_CAMERAS)
+    panels: tuple[PicturePanel, ...] = option((), most=MAX_PANELS)
     cut: Cut = option(Cut)
     show: Show = option(Show)
     structure: Structure = option(Structure)
@@ -141,8 +141,8 @@ class Scene(ConfigTable):
         ParameterError
             If a panel refers to a mesh that does not exist, or there are too many meshes.
         """
-        if not self.panels and meshes > MOST:
-            raise ParameterError(f"there are {meshes} meshes: expected at most {MOST}")
+        if not self.panels and meshes > MAX_PANELS:
+            raise ParameterError(f"there are {meshes} meshes: expected at most {MAX_PANELS}")
         panels = self.panels or tuple(PicturePanel(mesh=number) for number in range(1, meshes + 1))
         for number, panel in enumerate(panels, 1):
             for mesh in (panel.mesh, panel.mesh if panel.wipe is None else panel.wipe.mesh):

@@ -14,7 +14,7 @@ from hexmend.quantity import format_count, format_quality
 from hexmend.report.tables import Table
 
 #: Number of hexes in the table.
-MOST = 12
+MAX_WORST_HEXES = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ def worst_table(name: str, mesh: Mesh, figures: ElementQuality, locked: Locked) 
 
     Inverted hexes come first.
     """
-    order = rank_worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MOST)
+    order = rank_worst(np.where(figures.inverted, figures.q - 1, figures.q), figures, MAX_WORST_HEXES)
     rows = [
         [
             format_count(int(hex)),

@@ -15,7 +15,7 @@ from hexmend_app.feature import Feature, Host
 Declaration = TypeVar("Declaration")
 
 
-def names() -> list[str]:
+def feature_names() -> list[str]:
     """Return the names of all features, which are those of their folders."""
     return [module.name for module in pkgutil.iter_modules(folder.__path__)]
 
@@ -25,7 +25,7 @@ def first_names() -> list[str]:
 
     They are built first, so that the first picture does not wait for the others. No module `feature` is imported.
     """
-    return [name for name in names() if getattr(import_module(f"{folder.__name__}.{name}"), "FIRST", False)]
+    return [name for name in feature_names() if getattr(import_module(f"{folder.__name__}.{name}"), "FIRST", False)]
 
 
 def feature_class(name: str) -> type[Feature]:
@@ -52,7 +52,7 @@ def in_order(kinds: Iterable[type[Feature]]) -> list[type[Feature]]:
     return sorted(kinds, key=lambda kind: (kind.order, kind.__module__))
 
 
-def name_of(kind: type[Feature]) -> str:
+def feature_name(kind: type[Feature]) -> str:
     """Return the name of a feature, which is that of its folder."""
     return kind.__module__.split(".")[-2]
 
@@ -72,7 +72,7 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
         All features by name, in building order; a feature that raises is reported and omitted.
     """
     kinds, features = [], dict(built)
-    for name in names():
+    for name in feature_names():
         try:
             kinds.append(feature_class(name))  # importing takes longer than building
         except Exception:  # build the other features nevertheless
@@ -80,13 +80,13 @@ def build_remaining(host: Host, built: dict[str, Feature]) -> Generator[None, No
         yield
     kinds = in_order(kinds)
     for kind in kinds:
-        if name_of(kind) not in features:
+        if feature_name(kind) not in features:
             try:
-                features[name_of(kind)] = kind(host)
+                features[feature_name(kind)] = kind(host)
             except Exception:
                 sys.excepthook(*sys.exc_info())
             yield
-    return {name_of(kind): features[name_of(kind)] for kind in kinds if name_of(kind) in features}
+    return {feature_name(kind): features[feature_name(kind)] for kind in kinds if feature_name(kind) in features}
 
 
 def declared(

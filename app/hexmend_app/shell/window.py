@@ -12,7 +12,7 @@ from PySide6.QtGui import QAction, QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QMainWindow, QWidget
 
 from hexmend_app.feature import Panel, PanelPlace
-from hexmend_app.shell.features import build_remaining, declared, feature_class, first_names, in_order, name_of
+from hexmend_app.shell.features import build_remaining, declared, feature_class, feature_name, first_names, in_order
 from hexmend_app.shell.palette.type_to_find import TypeToFind
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.shell.panels.hex_counts import HexCounts
@@ -98,7 +98,7 @@ class Window(QMainWindow):
         from hexmend_app.state.session.session import Session
 
         self.session = Session(self)
-        self.features = {name_of(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
+        self.features = {feature_name(kind): kind(self) for kind in in_order(map(feature_class, first_names()))}
         self._add_states(self.features.values())
         self.docks.add([panel for panel in self._panels() if panel.place is PanelPlace.EMPTY])
         for signal in (self.docks.changed, self.messages.filled, self.messages.emptied):

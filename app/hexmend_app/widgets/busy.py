@@ -28,7 +28,7 @@ class Busy(QWidget):
         self._cancel.clicked.connect(lambda: self._end())
         self._escape = QShortcut(QKeySequence(Qt.Key.Key_Escape), self, lambda: self._end(self._escape_owner))
         self._escape_owner = ""
-        self._tasks: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # text, word, help, end by owner
+        self._tasks: dict[str, tuple[str, str, str, Callable[[], object]]] = {}  # by owner
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         for part in (self._text, bar, self._cancel):
@@ -36,10 +36,10 @@ class Busy(QWidget):
         self.hide()
 
     def show_work(
-        self, owner: str, text: str, word: str = "", help: str = "", end: Callable[[], object] | None = None
+        self, owner: str, text: str, button_text: str = "", help: str = "", cancel: Callable[[], object] | None = None
     ) -> None:
-        """Show the task of an owner, with a button `word` that calls `end`; without a button if `word` is ""."""
-        self._tasks[owner] = text, word, help, end or (lambda: self.done(owner))
+        """Show the task of an owner, with a button that calls `cancel`; without a button if its text is ""."""
+        self._tasks[owner] = text, button_text, help, cancel or (lambda: self.done(owner))
         self._show()
 
     def text(self) -> str:
@@ -61,11 +61,11 @@ class Busy(QWidget):
             self._escape.setEnabled(False)
             self.hide()
             return
-        text, word, help, _ = list(self._tasks.values())[-1]
+        text, button_text, help, _ = list(self._tasks.values())[-1]
         self._text.setText(text)
-        self._cancel.setText(word)
-        set_help(self._cancel, word, help)
-        self._cancel.setVisible(bool(word))
+        self._cancel.setText(button_text)
+        set_help(self._cancel, button_text, help)
+        self._cancel.setVisible(bool(button_text))
         self.show()
 
     def take_escape(self, owner: str) -> None:

@@ -51,7 +51,7 @@ def pose(canvas):
 
 def rested(qtbot, canvas):
     """Wait until the camera is at rest, and draw a frame."""
-    qtbot.waitUntil(lambda: canvas.travel.at_rest, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.camera_animation.at_rest, timeout=PATIENCE)
     canvas.interactor.grabFramebuffer()
 
 
@@ -91,7 +91,7 @@ def test_views_can_be_stepped_back_and_forward(canvas, qtbot):
         rested(qtbot, canvas)
         assert pose(canvas).looks_like(expected)
     canvas.forward_view()  # there is none
-    assert not canvas.travel.active
+    assert not canvas.camera_animation.active
     canvas.draw(Frame(grid(2), measure(grid(2).points, grid(2).hexes)))
     assert (canvas.can_go_back, canvas.can_go_forward) == (False, False)
 
@@ -125,9 +125,9 @@ def test_successive_key_strokes_are_one_entry_of_the_history(canvas, qtbot):
 def test_an_unbound_key_does_not_end_a_flight(canvas, qtbot):
     canvas.fly_to(0)
     QTest.keyClick(canvas.interactor, Qt.Key.Key_N)
-    assert canvas.travel.active
+    assert canvas.camera_animation.active
     QTest.keyClick(canvas.interactor, Qt.Key.Key_Left)
-    assert not canvas.travel.active
+    assert not canvas.camera_animation.active
 
 
 @pytest.mark.slow
@@ -138,12 +138,12 @@ def test_the_camera_returns_to_the_bookmarked_pose(canvas, qtbot):
         canvas.fly_to(h)
         rested(qtbot, canvas)
     canvas.return_to_pose()
-    assert canvas.travel.active
+    assert canvas.camera_animation.active
     rested(qtbot, canvas)
     assert pose(canvas).looks_like(home)
     canvas.look_along("+z")
     canvas.return_to_pose()  # there is nothing to return to
-    assert not canvas.travel.active
+    assert not canvas.camera_animation.active
 
 
 @pytest.mark.slow
@@ -164,7 +164,7 @@ def test_a_double_click_sets_the_centre_of_rotation(canvas, qtbot):
     before = pose(canvas)
     place = middle(canvas) + QPoint(60, 20)
     double_click(canvas, place)
-    qtbot.waitUntil(lambda: canvas.travel.active, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: canvas.camera_animation.active, timeout=PATIENCE)
     rested(qtbot, canvas)
     after = pose(canvas)
     assert len(clicks) == 1  # the first click selects
@@ -189,7 +189,7 @@ def test_two_clicks_with_ctrl_dig_twice(canvas):
     for kind in (QEvent.Type.MouseButtonDblClick, QEvent.Type.MouseButtonRelease):
         QApplication.sendEvent(view, QMouseEvent(kind, at, view.mapToGlobal(at), LEFT, LEFT, ctrl))
     assert len(dug) == 2
-    assert not canvas.travel.active
+    assert not canvas.camera_animation.active
 
 
 def test_a_right_click_requests_a_menu_and_a_right_drag_zooms(canvas, qtbot):
@@ -248,7 +248,7 @@ def test_vertical_axis_and_projection_can_be_set(canvas):
 @pytest.mark.slow
 def test_the_camera_flies_to_face_a_plane(canvas, qtbot):
     canvas.face(ClipPlane((0, 1, 0), (2, 2, 2)))
-    assert canvas.travel.active
+    assert canvas.camera_animation.active
     rested(qtbot, canvas)
     np.testing.assert_allclose(canvas.viewport.camera.GetDirectionOfProjection(), (0, -1, 0), atol=1e-9)
 

@@ -37,7 +37,7 @@ def _magenta(pixels):
 
 
 def _saved(canvas):
-    return canvas.sheet(canvas.scene(Page())).image().convert("RGB")
+    return canvas.draw_page(canvas.scene(Page())).image().convert("RGB")
 
 
 def test_its_actors_are_on_the_screen_and_in_pictures(canvas):

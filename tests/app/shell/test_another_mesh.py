@@ -63,7 +63,7 @@ def filter_and_peel(window, qtbot):
 def explain_a_node(window, qtbot):
     window.session.run_setup.choose(Stage(METHODS["local-sd"](), StoppingCriteria()))
     key(window, Qt.Key.Key_D)
-    qtbot.waitUntil(lambda: window.canvas.viewport.extras.selection.node_step is not None, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.canvas.viewport.overlay_layers.selection.node_step is not None, timeout=PATIENCE)
 
 
 def begin_a_sweep(window, qtbot):
@@ -171,7 +171,7 @@ LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "
 
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
-    extras, failures = window.canvas.viewport.extras, []
+    overlay_layers, failures = window.canvas.viewport.overlay_layers, []
     window.session.view.change(structure=Structure(original=True))
     window.refresh()
 
@@ -179,7 +179,7 @@ def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatc
         raise RuntimeError(f"{layer} has failed")
 
     for name in ("draw", "show", "choose", "set_mesh"):
-        kind = type(extras.optional.get(layer) or getattr(extras, layer))
+        kind = type(overlay_layers.optional.get(layer) or getattr(overlay_layers, layer))
         if hasattr(kind, name):
             monkeypatch.setattr(kind, name, fail)
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
@@ -197,7 +197,7 @@ def test_no_mesh_is_shown_if_its_hexes_cannot_be_drawn(window, small_file, mesh_
 
     failures = []
     with monkeypatch.context() as failing:
-        failing.setattr(type(window.canvas.viewport.body), part, fail)
+        failing.setattr(type(window.canvas.viewport.mesh_layer), part, fail)
         failing.setattr(sys, "excepthook", lambda kind, error, trace: failures.append(str(error)))
         open_and_wait(qtbot, window, small_file)
         window.refresh()
@@ -250,7 +250,7 @@ def is_shown(window):
     mesh, drawn = window.session.document.now.mesh, window.canvas.viewport
     assert drawn.frame.mesh is mesh
     assert all(view.frame.mesh.hexes is mesh.hexes for view in window.canvas.panes.all)
-    assert drawn.body.faces.hexes.max() < mesh.n_hexes
+    assert drawn.mesh_layer.faces.hexes.max() < mesh.n_hexes
     low, high = np.min(drawn.places, axis=0), np.max(drawn.places, axis=0)
     assert (low >= mesh.points.min(axis=0) - 1e-6).all()
     assert (high <= mesh.points.max(axis=0) + 1e-6).all()

@@ -56,10 +56,10 @@ class FeatureCounting(Feature):
 @pytest.fixture
 def with_example(qtbot, monkeypatch, tmp_path):
     """A window with the example among its features."""
-    names, feature_class = finding.names(), finding.feature_class
+    names, feature_class = finding.feature_names(), finding.feature_class
     monkeypatch.setitem(sys.modules, "hexmend_app.features.counting", ModuleType("counting"))
     monkeypatch.setattr(FeatureCounting, "__module__", "hexmend_app.features.counting.feature")
-    monkeypatch.setattr(finding, "names", lambda: [*names, "counting"])
+    monkeypatch.setattr(finding, "feature_names", lambda: [*names, "counting"])
     monkeypatch.setattr(
         finding, "feature_class", lambda name: FeatureCounting if name == "counting" else feature_class(name)
     )
@@ -117,7 +117,9 @@ def test_no_two_actions_have_the_same_keys(with_example):
 
 
 def test_every_folder_is_a_feature():
-    names = [finding.name_of(kind) for kind in finding.in_order(map(finding.feature_class, finding.names()))]
+    names = [
+        finding.feature_name(kind) for kind in finding.in_order(map(finding.feature_class, finding.feature_names()))
+    ]
     assert {"open", "smooth", "histogram", "cut", "compare"} <= set(names)
     assert len(names) == len(set(names))
 

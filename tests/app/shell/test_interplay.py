@@ -17,7 +17,7 @@ from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.bench.windows import end_run
 from hexmend_app.picture.cut_planes import BoxClip, ClipPlane, PlaneClip
-from hexmend_app.scene.layers import mesh as body
+from hexmend_app.scene.layers import mesh as mesh_layer
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.run.run_controller import Phase
 from tests.app.driving import LEFT, choose, click, key, move, named, open_and_wait, phase, pixels
@@ -185,7 +185,7 @@ def _found(view, place):
 
 @pytest.mark.slow
 def test_a_click_with_a_small_movement_selects_the_hex_under_it(window, qtbot, monkeypatch):
-    monkeypatch.setattr(body, "MANY", 10)
+    monkeypatch.setattr(mesh_layer, "MANY", 10)
     view = window.canvas.viewport
     window.canvas.draw_still()
     width, height = window.canvas.interactor.render_window.GetSize()

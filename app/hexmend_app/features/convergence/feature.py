@@ -77,7 +77,8 @@ class FeatureConvergence(Feature):
             return
         states = [(record, record.newest, record.result) for record in self._history.records]
         if self._run.phase is not Phase.RUNNING:
-            if self._seen.changed("curves", states, self._timeline.record, self._timeline.moment, self._run.phase):
+            timeline = self._timeline
+            if self._seen.changed("curves", states, timeline.record, timeline.shown_iteration, self._run.phase):
                 self._show()
         elif not self._timeline.live:
             self._mark()
@@ -108,7 +109,7 @@ class FeatureConvergence(Feature):
         )
 
     def _mark(self) -> None:
-        moment = self._timeline.moment
+        moment = self._timeline.shown_iteration
         if moment is None:
             self.panel.set_shown(None)
         else:

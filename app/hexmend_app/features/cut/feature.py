@@ -27,7 +27,7 @@ class FeatureCut(Feature):
     def __init__(self, host: Host):
         super().__init__(host)
         view = self._view = self.session.view
-        self.session.about_to_save.connect(lambda: view.note_cut(self._left()))
+        self.session.about_to_save.connect(lambda: view.store_remaining_hexes(self._left()))
         self._seen = ChangeTracker()
         self.panel = CutPanel()
         self.panel.clip_changed.connect(view.set_clip)
@@ -157,7 +157,7 @@ class FeatureCut(Feature):
         """Return the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
         document, look = self.session.document, self._view.look
         filters = None if self.canvas is None else self.canvas.viewport.filters
-        if filters is None or not document.is_open or not filters.suit(document.now.mesh):
+        if filters is None or not document.is_open or not filters.matches(document.now.mesh):
             return look.left
         return filters.cut_left(Frame(document.now.mesh, document.now.figures, look=look))
 

@@ -66,7 +66,7 @@ def recipes_of(session: Session) -> dict[str, Recipe]:
 def _run_recipe(session: Session) -> Recipe | None:
     """Return the recipe of the last run if it led from the opened mesh to the current mesh, else None."""
     work, document = session.run.work, session.document
-    moment = session.history.moment_of(document.now)
+    moment = session.history.iteration_of(document.now)
     if work is None or moment is None or moment.number != moment.record.result:
         return None
     if moment.record.start.mesh.points is not document.start.mesh.points:
@@ -81,7 +81,7 @@ def _run_recipe(session: Session) -> Recipe | None:
 def _current(session: Session) -> tuple:
     """Return the version of the current mesh, with its run if it is an iteration of one."""
     state = session.document.now
-    moment = session.history.moment_of(state)
+    moment = session.history.iteration_of(state)
     if moment is None or not moment.number:
         return "now", state
     return moment.record.name, moment.record, moment.number, state

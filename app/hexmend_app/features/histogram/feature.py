@@ -123,7 +123,7 @@ class FeatureHistogram(Feature):
 
     def _keep(self) -> None:
         now = self._document.now
-        moment = self.session.history.moment_of(now)
+        moment = self.session.history.iteration_of(now)
         self._snapshots.add("kept" if moment is None else moment.name, now)
 
     def _show_snapshots(self) -> None:

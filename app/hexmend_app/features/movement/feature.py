@@ -58,7 +58,7 @@ class FeatureMovement(Feature):
             name = displacement.before.name
             self.panel.set_counts(displacement.counts, name, self._document.now.summary.free_nodes)
         if self.canvas is not None:
-            layer = self.canvas.viewport.extras.arrows
+            layer = self.canvas.viewport.overlay_layers.arrows
             self.panel.set_arrows(layer.drawn, layer.moved)
 
     @property

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QGridLayout, QHB
 
 from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, DisplacementCounts
 from hexmend_app.picture.appearance import Arrows, Since, Traces
-from hexmend_app.scene.layers.arrows import MOST
+from hexmend_app.scene.layers.arrows import MAX_ARROWS
 from hexmend_app.theme.style import note, set_help, tabular
 from hexmend_app.translation import tr
 from hexmend_app.widgets.inputs.segmented import Segmented
@@ -190,7 +190,7 @@ def arrows_in_words(traces: Traces, drawn: int, moved: int) -> str:
     '1 arrow, true length.'
     """
     if traces.arrows is Arrows.NONE:
-        return f"At most the {MOST:,} longest are drawn."
+        return f"At most the {MAX_ARROWS:,} longest are drawn."
     if not drawn:
         return f"No {'visible' if traces.arrows is Arrows.SIGHT else 'shown'} node has moved."
     number = f"The {drawn:,} longest of {moved:,} arrows" if drawn < moved else counted(drawn, "arrow")

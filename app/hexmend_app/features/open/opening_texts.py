@@ -5,7 +5,7 @@ from __future__ import annotations
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.session.restored_picture import MissingMesh, RestoredMesh, RestoredPicture, RestoreProblem
 from hexmend_app.state.tasks.mesh_opener import LoadProgress, LoadStage
-from hexmend_app.state.view.side_views import MOST
+from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS
 
 
 def stage_text(progress: LoadProgress) -> str:
@@ -60,7 +60,7 @@ def _problem(mesh: RestoredMesh) -> str:
     if mesh.problem is RestoreProblem.PLACES:
         return f"“{mesh.name}” differs from the picture: {mesh.file} has other node positions."
     reason = {
-        RestoreProblem.NO_SPACE: f"the window shows at most {MOST + 1} views",
+        RestoreProblem.NO_SPACE: f"the window shows at most {MAX_SIDE_VIEWS + 1} views",
         RestoreProblem.FILE: f"{mesh.file} was not found" if mesh.file else "the picture does not name its file",
         RestoreProblem.READING: str(mesh.error).rstrip("."),
         RestoreProblem.RUN: f"it is an iteration or a result of a run on {mesh.file}, which is not stored in that file",

@@ -95,7 +95,7 @@ class FeatureOutcome(Feature):
     def _view_note(self) -> str:
         """Describe the mesh in the view if it is not the result of the explained run, else return ""."""
         timeline = self.session.timeline
-        record, moment = timeline.record, timeline.moment
+        record, moment = timeline.record, timeline.shown_iteration
         if self._empty_run is not None or record is None or record.result is None:
             return ""
         if moment is None:
@@ -121,7 +121,8 @@ class FeatureOutcome(Feature):
         record = timeline.record
         if self._empty_run is None:
             number = 0 if suggestion.undo else record.result
-            if timeline.moment is None or (timeline.moment.record, timeline.moment.number) != (record, number):
+            shown = timeline.shown_iteration
+            if shown is None or (shown.record, shown.number) != (record, number):
                 timeline.go(record, number)
         if suggestion.unpin.size:
             self.session.commands.pin(suggestion.unpin, False)

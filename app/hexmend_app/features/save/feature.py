@@ -145,7 +145,7 @@ class FeatureSave(Feature):
             lines = scene.lines if 0 in (scene.lines.edges, last.lines.edges) else last.lines
             scene = replace(scene, lines=lines, bar=last.bar, axes=last.axes)
         names = canvas.names if len(scene.panels) > 1 else ()
-        dialog = PictureDialog(scene, canvas.sheet, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
+        dialog = PictureDialog(scene, canvas.draw_page, size, f"{self.host.stem}.png", names, self.host.dialog_parent)
         dialog.scene_saved.connect(
             lambda *saved: self.session.user_event.emit(FileExported("scene", write_scene, saved))
         )
@@ -170,7 +170,7 @@ class FeatureSave(Feature):
         width, height = scene.page.size
         written = self.host.try_and_report(
             tr("The picture was not saved"),
-            lambda: self.canvas.sheet(scene).write(path, self._metadata(path, scene)),
+            lambda: self.canvas.draw_page(scene).write(path, self._metadata(path, scene)),
             tr("Picture of {width} × {height} pixels saved to {path}", width=width, height=height, path=path),
         )
         if written:

@@ -80,7 +80,7 @@ class Names:
         """Remember the iterations of the snapshots, before the history drops them."""
         session, known = self._session, {id(points): moment for points, moment in self._snapshot_moments}
         now, snapshots = session.document.now, [snapshot.points for snapshot in session.snapshots.all]
-        if now is not None and (moment := session.history.moment_of(now)) is not None:
+        if now is not None and (moment := session.history.iteration_of(now)) is not None:
             known.setdefault(id(now.mesh.points), moment)
         self._snapshot_moments = [(points, known[id(points)]) for points in snapshots if id(points) in known]
 
@@ -112,7 +112,7 @@ class Names:
         """Return the name of a state's mesh; write the lines that create it if it has none."""
         if state in self._states:
             return self._states[state]
-        moment = self._moment_of(state)
+        moment = self._iteration_of(state)
         document = self._session.document
         if (source := self._contents.mesh(state)) is not None:
             self.add_state("From the session", state, source)
@@ -139,12 +139,12 @@ class Names:
         state = State.of(mesh)
         moment = next((moment for points, moment in self._snapshot_moments if points is mesh.points), None)
         if moment is not None:
-            self._session.history.note(state, moment)
+            self._session.history.register_state(state, moment)
         return self.mesh(state)
 
-    def _moment_of(self, state: State) -> RecordedIteration | None:
+    def _iteration_of(self, state: State) -> RecordedIteration | None:
         """Return the iteration that produced a state; for the start of a run, the iteration of the run before it."""
-        moment = self._session.history.moment_of(state)
+        moment = self._session.history.iteration_of(state)
         while moment is not None and state is moment.record.start:
             moment = moment.record.parent
         return moment
@@ -152,7 +152,7 @@ class Names:
     def _can_create(self, state: State) -> bool:
         """Return True if the script can create a state from named objects or files."""
         while not (state in self._states or state in self._paths or self._contents.mesh(state) is not None):
-            moment = self._moment_of(state)
+            moment = self._iteration_of(state)
             if moment is None or not self.repeats(moment.record):
                 return self.comparisons.row_of(state) is not None
             state = moment.record.start

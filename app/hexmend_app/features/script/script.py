@@ -88,7 +88,7 @@ class Script(QObject):
         if not self._document.is_open or (scene := self.scene()) is None:
             return None
         now = self._document.now
-        moment, known = self._session.history.moment_of(now), self._names.name_of(now)
+        moment, known = self._session.history.iteration_of(now), self._names.name_of(now)
         name = self._document.name if moment is None else moment.name
         if (sweep := self._session.node_sweep.sweep) is not None:
             name = f"{sweep.done} of {sweep.nodes.size} nodes of a sweep"

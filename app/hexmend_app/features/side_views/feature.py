@@ -119,7 +119,7 @@ class FeatureSideViews(Feature):
         return self._views.wipe is not None
 
     def _show_in_side_view(self) -> None:
-        moment = self.session.timeline.moment
+        moment = self.session.timeline.shown_iteration
         self._views.show("earlier mesh" if moment is None else moment.name, self.session.document.now)
 
     def _step_wipe(self, direction: int) -> None:

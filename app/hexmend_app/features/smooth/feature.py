@@ -164,7 +164,7 @@ class FeatureSmooth(Feature):
         if phase in (Phase.RUNNING, Phase.PAUSED):
             row = record.rows[-1]
             return row["iteration"], row["seconds"], self._stage(row)
-        moment, reason = self.session.timeline.moment, self.session.run_setup.reason
+        moment, reason = self.session.timeline.shown_iteration, self.session.run_setup.reason
         if moment is None or (not moment.number and moment.record.result != 0):
             return None, None, reason or self._text_without_step()
         row = moment.record.rows[moment.number]

@@ -89,5 +89,5 @@ class FeatureTags(Feature):
         self.session.commands.tag(name, [selected], on=selected not in members)
 
     def _all_shown(self) -> np.ndarray:
-        shown = None if self.canvas is None else self.canvas.viewport.left()
+        shown = None if self.canvas is None else self.canvas.viewport.remaining_after_cut()
         return np.arange(self.session.document.now.mesh.n_hexes) if shown is None else np.flatnonzero(shown)

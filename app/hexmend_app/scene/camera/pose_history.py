@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexmend_app.picture.camera_pose import CameraPose
-from hexmend_app.state.view.camera_request import MOST
+from hexmend_app.state.view.camera_request import MAX_POSES
 
 
 class PoseHistory:
@@ -17,7 +17,7 @@ class PoseHistory:
         Maximum number of poses; the oldest are dropped.
     """
 
-    def __init__(self, most: int = MOST):
+    def __init__(self, most: int = MAX_POSES):
         self._most = most
         self._poses: list[CameraPose] = []
         self._index = -1

@@ -28,7 +28,7 @@ class Filters:
         self._mesh = mesh
         self._known: dict[str, tuple[Hashable, np.ndarray | None]] = {}
 
-    def suit(self, mesh: Mesh) -> bool:
+    def matches(self, mesh: Mesh) -> bool:
         """Return True if the filters apply to a mesh, which is the case if it has the same hexes."""
         return same_hexes(mesh, self._mesh)
 
@@ -46,7 +46,7 @@ class Filters:
             self._mask(
                 "clip",
                 (clip, left) if crinkled else None,
-                lambda: self.uncut(points, clip) if left is None else left.mask(self._mesh.n_hexes),
+                lambda: self.hexes_kept_by_cut(points, clip) if left is None else left.mask(self._mesh.n_hexes),
             ),
             self._mask("peel", look.peel or None, lambda: topology.layers >= look.peel),
             self._mask("isolation", look.isolation, lambda: topology.hexes_around(look.isolation.hexes, 0)),
@@ -64,7 +64,7 @@ class Filters:
         masks = [mask for mask in filters if mask is not None]
         return reduce(np.logical_and, masks) if masks else None
 
-    def uncut(self, points: np.ndarray, clip: Clip) -> np.ndarray:
+    def hexes_kept_by_cut(self, points: np.ndarray, clip: Clip) -> np.ndarray:
         """Return True for hexes that a cut by whole hexes leaves at the given positions, (m,) bool."""
         normals, offsets = zip(*(plane.equation for plane in clip.planes), strict=True)
         return plane_sides.centres_kept(points, self._mesh.hexes, np.array(normals), np.array(offsets), clip.notch)
@@ -76,7 +76,7 @@ class Filters:
             return None
         self.kept(frame)
         left = self._known["clip"][1]
-        return None if np.array_equal(left, self.uncut(frame.mesh.points, clip)) else CutLeft.of(clip, left)
+        return None if np.array_equal(left, self.hexes_kept_by_cut(frame.mesh.points, clip)) else CutLeft.of(clip, left)
 
     def copied(self) -> Filters:
         """Return a copy for a view with another look."""
@@ -102,7 +102,7 @@ class Filters:
             masks.append(cut.remaining_hexes(frame.mesh.points, frame.mesh.hexes, clip))
         return reduce(np.logical_and, masks)
 
-    def left(self, frame: Frame) -> np.ndarray | None:
+    def remaining_after_cut(self, frame: Frame) -> np.ndarray | None:
         """Return True for shown hexes that a smooth cut leaves at least in part, (m,) bool; None for all."""
         keep, clip, mesh = self.kept(frame), frame.look.clip, frame.mesh
         if clip is None or clip.crinkle:

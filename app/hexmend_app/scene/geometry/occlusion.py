@@ -38,7 +38,7 @@ def directions(count: int = DIRECTIONS) -> np.ndarray:
     return vectors
 
 
-def light(polygons: Polygons, wanted: Callable[[], bool] = lambda: True) -> np.ndarray | None:
+def ambient_light(polygons: Polygons, wanted: Callable[[], bool] = lambda: True) -> np.ndarray | None:
     """Compute the share of ambient light that reaches each corner of polygons.
 
     Parameters

@@ -9,14 +9,14 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 from hexmend.boundary.displacement import ROUNDING, Displacement
 from hexmend_app.picture.appearance import Arrows
 from hexmend_app.scene.layers.mesh import MeshLayer
-from hexmend_app.scene.layers.optional.structure import uncut
+from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.theme.palette import rgb
 
 #: Maximum number of arrows; the longest are drawn. They take 20 ms of a fast frame in software rendering.
-MOST = 5_000
+MAX_ARROWS = 5_000
 
 #: Maximum number of arrows with a rim; the rims of more arrows would cover everything else.
 _MAX_RIMMED = 1_000
@@ -92,7 +92,7 @@ class ArrowLayer:
             nodes[mesh.hexes if keep is None else mesh.hexes[keep]] = True
         else:
             nodes = mesh_layer.visible_nodes(mesh)
-        self.show(frame.movement, nodes & uncut(frame.look, mesh.points), traces.factor, through)
+        self.show(frame.movement, nodes & points_kept_by_cut(frame.look, mesh.points), traces.factor, through)
 
     def hide(self) -> None:
         """Hide all arrows."""
@@ -120,8 +120,8 @@ class ArrowLayer:
         if not moved:
             self.hide()
             return
-        if moved > MOST:
-            chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MOST)[moved - MOST :]])
+        if moved > MAX_ARROWS:
+            chosen = np.sort(chosen[np.argpartition(distances[chosen], moved - MAX_ARROWS)[moved - MAX_ARROWS :]])
         start = movement.before.points[chosen]
         vertices = arrows(start, factor * (movement.points[chosen] - start), _MAX_HEAD * movement.unit)
         if chosen.size == self.drawn:

@@ -11,7 +11,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import sharp_edges
 from hexmend_app.picture.appearance import Look
 from hexmend_app.scene.layers.flat_actor import flat_actor
-from hexmend_app.scene.layers.optional.structure import uncut
+from hexmend_app.scene.layers.optional.structure import points_kept_by_cut
 from hexmend_app.scene.layers.surface import set_points
 from hexmend_app.theme.palette import SHADE, SHARP, SILHOUETTE, rgb
 
@@ -107,7 +107,7 @@ class Silhouette:
         if keep is not None:
             rows = self._mesh.topology.node_corners
             skin.edges_kept(self._mesh.hexes, rows.start, rows.items, self._edges, keep, mask)
-        return mask & uncut(look, points[self._edges].mean(axis=1))
+        return mask & points_kept_by_cut(look, points[self._edges].mean(axis=1))
 
     def move(self, points: np.ndarray) -> None:
         """Move to the positions of the nodes, (n, 3) float64; a fixed boundary is not uploaded again."""

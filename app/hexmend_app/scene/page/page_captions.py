@@ -28,7 +28,7 @@ class _Caption(NamedTuple):
     figures: str
 
 
-def draw_captions(ink: Drawing, layout: Layout) -> None:
+def draw_captions(drawing: Drawing, layout: Layout) -> None:
     """Draw a caption above each panel, and two above a wipe, on either side of its edge.
 
     All captions have the largest size at which they fit; captions that do not fit at any size have the smallest size.
@@ -36,15 +36,15 @@ def draw_captions(ink: Drawing, layout: Layout) -> None:
     if not layout.captions:
         return
     captions = list(_captions(layout))
-    shares = [_largest_share(ink, caption) for caption in captions]
+    shares = [_largest_share(drawing, caption) for caption in captions]
     common = min((share for share in shares if share), default=0.0)
     for caption, share in zip(captions, shares, strict=True):
-        _draw(ink, caption, common if share else _SHARES[-1])
+        _draw(drawing, caption, common if share else _SHARES[-1])
     for number, panel in enumerate(layout.panels):
         if panel.wipe is not None:
             box = layout.place(number)
             edge = box.left + round(panel.wipe.at * box.width)
-            ink.lines((edge, box.top - layout.caption, edge, box.top + box.height))
+            drawing.lines((edge, box.top - layout.caption, edge, box.top + box.height))
 
 
 def _captions(layout: Layout) -> Iterator[_Caption]:
@@ -65,27 +65,27 @@ def _captions(layout: Layout) -> Iterator[_Caption]:
             yield _Caption(edge, middle, box.width - width, name, figures)
 
 
-def _largest_share(ink: Drawing, caption: _Caption) -> float:
+def _largest_share(drawing: Drawing, caption: _Caption) -> float:
     """Return the largest fraction of the font size at which a caption fits, 0 if there is none."""
-    return next((share for share in _SHARES if _fits(ink, caption, share)), 0.0)
+    return next((share for share in _SHARES if _fits(drawing, caption, share)), 0.0)
 
 
-def _fits(ink: Drawing, caption: _Caption, share: float) -> bool:
-    letters = ink.letters
+def _fits(drawing: Drawing, caption: _Caption, share: float) -> bool:
+    letters = drawing.letters
     width = share * (letters.width(caption.name, bold=True) + letters.width(caption.figures))
     return width + (3 if caption.figures else 2) * _GAP * letters.height <= caption.width
 
 
-def _draw(ink: Drawing, caption: _Caption, share: float) -> None:
+def _draw(drawing: Drawing, caption: _Caption, share: float) -> None:
     """Draw a caption; if it does not fit, without figures and with a shortened name."""
-    gap, name = _GAP * ink.letters.height, caption.name
-    figures = caption.figures if _fits(ink, caption, share) else ""
-    while name and share * ink.letters.width(name, bold=True) + 2 * gap > caption.width:
+    gap, name = _GAP * drawing.letters.height, caption.name
+    figures = caption.figures if _fits(drawing, caption, share) else ""
+    while name and share * drawing.letters.width(name, bold=True) + 2 * gap > caption.width:
         name = f"{name.rstrip('…')[:-1]}…" if len(name) > 2 else ""
-    ink.text(caption.left + gap, caption.middle, name, bold=True, share=share)
+    drawing.text(caption.left + gap, caption.middle, name, bold=True, share=share)
     if figures:
-        left = caption.left + 2 * gap + share * ink.letters.width(name, bold=True)
-        ink.text(left, caption.middle, figures, share=share)
+        left = caption.left + 2 * gap + share * drawing.letters.width(name, bold=True)
+        drawing.text(left, caption.middle, figures, share=share)
 
 
 def _letter(number: int) -> str:

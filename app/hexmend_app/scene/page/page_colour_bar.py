@@ -15,12 +15,12 @@ _THICK, _TICK, _PAD, _GAP, _SWATCH = 1.0, 0.25, 0.8, 0.6, 0.9
 _DIGIT, _ROW = 0.73, 1.25
 
 
-def draw_bar(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
+def draw_bar(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
     """Draw the colour bar at its position in the layout."""
     if layout.bar is TextPlace.BELOW:
-        _draw_below(ink, layout, drawn)
+        _draw_below(drawing, layout, drawn)
     elif layout.bar is TextPlace.RIGHT:
-        _draw_right(ink, layout, drawn)
+        _draw_right(drawing, layout, drawn)
 
 
 def ticks(layout: Layout, drawn: Rasters, space: float) -> list[float]:
@@ -31,64 +31,64 @@ def ticks(layout: Layout, drawn: Rasters, space: float) -> list[float]:
     return ticks_with_ends(colouring.low, colouring.high, space, option)[: option if option < 2 else None]
 
 
-def _draw_below(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
-    letter, box, colouring = ink.letters.height, layout.bar_place, drawn.colouring
+def _draw_below(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
+    letter, box, colouring = drawing.letters.height, layout.bar_place, drawn.colouring
     swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
-    swatch_width = max(map(ink.letters.width, swatches)) + (_SWATCH + 0.4) * letter
+    swatch_width = max(map(drawing.letters.width, swatches)) + (_SWATCH + 0.4) * letter
     left, right = box.left + _PAD * letter, box.left + box.width - _PAD * letter - swatch_width - 2 * _GAP * letter
     top = box.top + 0.5 * letter
     if layout.long_title:
-        ink.text(left, top + letter / 2, layout.title)
+        drawing.text(left, top + letter / 2, layout.title)
         top += 1.4 * letter
     else:
-        ink.text(left, top + _THICK * letter / 2, layout.title)
-        left += ink.letters.width(layout.title) + _GAP * letter
-    ends = ink.letters.width(colouring.label(colouring.low)), ink.letters.width(colouring.label(colouring.high))
+        drawing.text(left, top + _THICK * letter / 2, layout.title)
+        left += drawing.letters.width(layout.title) + _GAP * letter
+    ends = drawing.letters.width(colouring.label(colouring.low)), drawing.letters.width(colouring.label(colouring.high))
     left, right = left + ends[0] / 2, right - ends[1] / 2
     bar = Rectangle(round(left), round(top), max(round(right - left), 1), round(_THICK * letter))
-    ink.gradient(bar, colouring.table / 255, upright=False)
+    drawing.gradient(bar, colouring.table / 255, upright=False)
     below = bar.top + bar.height
     space = (max(ends) + letter) / bar.width
     for value in ticks(layout, drawn, space):
         x = bar.left + bar.width * (value - colouring.low) / (colouring.high - colouring.low)
-        ink.lines((x, below, x, below + _TICK * letter))
-        ink.text(x, below + (_TICK + 0.25 + _DIGIT / 2) * letter, colouring.label(value), anchor="mm")
+        drawing.lines((x, below, x, below + _TICK * letter))
+        drawing.text(x, below + (_TICK + 0.25 + _DIGIT / 2) * letter, colouring.label(value), anchor="mm")
     side = box.left + box.width - _PAD * letter - swatch_width
     first = top + _THICK * letter / 2
     if len(swatches) > 1:
         first = box.top + (box.height - _ROW * letter * (len(swatches) - 1)) / 2
-    _swatches(ink, drawn, side, first, swatches)
+    _swatches(drawing, drawn, side, first, swatches)
 
 
-def _draw_right(ink: Drawing, layout: Layout, drawn: Rasters) -> None:
-    letter, box, colouring = ink.letters.height, layout.bar_place, drawn.colouring
+def _draw_right(drawing: Drawing, layout: Layout, drawn: Rasters) -> None:
+    letter, box, colouring = drawing.letters.height, layout.bar_place, drawn.colouring
     swatches = [_text(name, count) for name, count, _ in drawn.special_colours]
     left = box.left + _PAD * letter
     low = box.top + box.height - (len(swatches) * _ROW + 1.2) * letter
     bar = Rectangle(round(left), round(box.top + letter), round(_THICK * letter), max(round(low - box.top - letter), 1))
-    ink.gradient(bar, colouring.table / 255, upright=True)
+    drawing.gradient(bar, colouring.table / 255, upright=True)
     x = bar.left + bar.width
     widest = 0.0
     for value in ticks(layout, drawn, 2 * letter / bar.height):
         y = bar.top + bar.height * (1 - (value - colouring.low) / (colouring.high - colouring.low))
-        ink.lines((x, y, x + _TICK * letter, y))
-        ink.text(x + (_TICK + 0.25) * letter, y, colouring.label(value))
-        widest = max(widest, ink.letters.width(colouring.label(value)))
+        drawing.lines((x, y, x + _TICK * letter, y))
+        drawing.text(x + (_TICK + 0.25) * letter, y, colouring.label(value))
+        widest = max(widest, drawing.letters.width(colouring.label(value)))
     title_x = x + (_TICK + 0.25 + 0.9) * letter + widest
-    share = min(1.0, bar.height / max(ink.letters.width(layout.title), 1.0))
-    ink.text(title_x, bar.top + bar.height / 2, layout.title, anchor="mm", turned=True, share=share)
-    _swatches(ink, drawn, left, low + 1.2 * letter, swatches)
+    share = min(1.0, bar.height / max(drawing.letters.width(layout.title), 1.0))
+    drawing.text(title_x, bar.top + bar.height / 2, layout.title, anchor="mm", turned=True, share=share)
+    _swatches(drawing, drawn, left, low + 1.2 * letter, swatches)
 
 
-def _swatches(ink: Drawing, drawn: Rasters, left: float, first: float, texts: list[str]) -> None:
+def _swatches(drawing: Drawing, drawn: Rasters, left: float, first: float, texts: list[str]) -> None:
     """Draw one row for each special colour; `first` is the middle of the first row."""
-    letter = ink.letters.height
+    letter = drawing.letters.height
     for row, ((_, _, colour), text) in enumerate(zip(drawn.special_colours, texts, strict=True)):
         middle, half = first + row * _ROW * letter, _SWATCH * letter / 2
         right, top, bottom = left + 2 * half, middle - half, middle + half
         rgb = [part / 255 for part in colour]
-        ink.fill([(left, top), (right, top), (right, bottom), (left, bottom)], rgb)
-        ink.text(right + 0.4 * letter, middle, text)
+        drawing.fill([(left, top), (right, top), (right, bottom), (left, bottom)], rgb)
+        drawing.text(right + 0.4 * letter, middle, text)
 
 
 def _text(name: str, count: int | None) -> str:

@@ -124,16 +124,16 @@ class PageRenderer:
         figure = Figure(figsize=inches, dpi=page.resolution, facecolor="none")
         axes = figure.add_axes((0, 0, 1, 1), xlim=(0, layout.size[0]), ylim=(layout.size[1], 0), autoscale_on=False)
         axes.axis("off")
-        ink = Drawing(axes, layout)
+        drawing = Drawing(axes, layout)
         cameras = set()
         for number, (panel, image) in enumerate(zip(layout.panels, self._drawn.images, strict=True)):
             if pictures:
-                ink.image(image, layout.place(number))
+                drawing.image(image, layout.place(number))
             if layout.scene.axes.show and panel.camera not in cameras:
                 cameras.add(panel.camera)
-                draw_axes(ink, layout.place(number), self._drawn.axes[number], layout.scene.axes.place, page)
-        draw_captions(ink, layout)
-        draw_bar(ink, layout, self._drawn)
+                draw_axes(drawing, layout.place(number), self._drawn.axes[number], layout.scene.axes.place, page)
+        draw_captions(drawing, layout)
+        draw_bar(drawing, layout, self._drawn)
         return figure
 
 

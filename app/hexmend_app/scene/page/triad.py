@@ -18,15 +18,15 @@ _ARM, _BEYOND, _TIP, _HALF, _FREE = 2.2, 0.65, 0.75, 0.27, 0.6
 _HALO, _DISC, _HALO_OPACITY = 4.0, 0.55, 0.7
 
 #: Maximum size of the axes, as a fraction of the shorter side of a panel.
-_MOST = 0.3
+_MAX_SIZE = 0.3
 
 
-def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, page: Page) -> None:
+def draw_axes(drawing: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, page: Page) -> None:
     """Draw the X, Y and Z axes in the orientation of the camera.
 
     Parameters
     ----------
-    ink : Drawing
+    drawing : Drawing
     box : Rectangle
         Rectangle of the panel.
     axes : (3, 3) float64
@@ -35,9 +35,9 @@ def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, pa
     page : Page
         Page whose background colour is used for a halo, which makes the axes visible in front of the mesh.
     """
-    letter = ink.letters.height
+    letter = drawing.letters.height
     reach = _ARM + _BEYOND + 0.45
-    if 2 * (reach + _FREE) * letter > 2 * _MOST * min(box.width, box.height) / 0.6:
+    if 2 * (reach + _FREE) * letter > 2 * _MAX_SIZE * min(box.width, box.height) / 0.6:
         return  # the panel is too small
     # Extent of the axes in this orientation, for placing them in the corner.
     flat = axes[:, :2] * (1, -1)
@@ -59,16 +59,16 @@ def draw_axes(ink: Drawing, box: Rectangle, axes: np.ndarray, corner: Corner, pa
             base = end - tip * unit
             place = end + _BEYOND * letter * unit
             if page.ground is not None:
-                ink.lines((x, y, *end), colour=page.ground, width=_HALO)
-                ink.fill(_circle(*place, _DISC * letter), page.ground, alpha=_HALO_OPACITY)
-            ink.lines((x, y, *base), colour=colour, width=1.6)
-            ink.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colour)
+                drawing.lines((x, y, *end), colour=page.ground, width=_HALO)
+                drawing.fill(_circle(*place, _DISC * letter), page.ground, alpha=_HALO_OPACITY)
+            drawing.lines((x, y, *base), colour=colour, width=1.6)
+            drawing.fill([tuple(end), tuple(base + sideways), tuple(base - sideways)], colour)
         else:
-            ink.fill(_circle(x, y, 0.16 * letter), colour)
+            drawing.fill(_circle(x, y, 0.16 * letter), colour)
             if axes[axis, 2] < 0:
                 continue  # its end points away from the viewer
             place = np.array([x - 0.55 * letter, y + 0.6 * letter])
-        ink.text(*place, "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
+        drawing.text(*place, "XYZ"[axis], anchor="mm", bold=True, colour=colour, share=0.9)
 
 
 def _circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:

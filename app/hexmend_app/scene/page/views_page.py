@@ -28,7 +28,7 @@ def scene_of(
     cameras : mapping, optional
         Additional cameras of the scene, by name.
     """
-    pose = pose_of(panes.first.camera, panes.eye.up)
+    pose = pose_of(panes.first.camera, panes.camera_controller.up)
     tables = {"page": page or Page(), "panels": _panels(panes, names), "cameras": dict(cameras or {})}
     frame = panes.first.frame
     return Scene.of(replace(frame.look, left=panes.first.filters.cut_left(frame)), pose, **tables)
@@ -44,7 +44,7 @@ def draw_views(
     scene: Scene, panes: Panes, names: Sequence[str] = (), props: Callable[[float], list[vtkProp]] | None = None
 ) -> PageRenderer:
     """Draw a scene of views, with the result of their cut by whole hexes and their node step; see `draw_page`."""
-    step = panes.first.extras.selection.node_step
+    step = panes.first.overlay_layers.selection.node_step
     filters = panes.first.filters.copied()
     return draw_page(scene, page_meshes(panes, names), filters=filters, node_step=step, props=props)
 

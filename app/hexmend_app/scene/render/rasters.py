@@ -81,7 +81,7 @@ def rasters(
     tiles = Tiles.of(layout.panel, supersampling, pixel_ratio, at_once)
     with Stage(tiles.drawn) as stage:
         views = _Views(stage, layout, look, pixel_ratio, filters)
-        views.all[1].extras.selection.show_node_step(node_step)
+        views.all[1].overlay_layers.selection.show_node_step(node_step)
         for prop in () if props is None else props(pixel_ratio):
             views.all[1].layers[0].AddViewProp(prop)
         images, axes = [], []

@@ -11,7 +11,7 @@ from hexmend.quality import ElementQuality
 from hexmend_app.scene.camera.camera_controller import CameraController
 from hexmend_app.scene.colour.colouring import declared_ends
 from hexmend_app.scene.geometry.filters import Filters
-from hexmend_app.scene.layers.extra_layers import raise_error
+from hexmend_app.scene.layers.overlay_layers import raise_error
 from hexmend_app.scene.views.arrangement import Arrangement
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
@@ -30,7 +30,7 @@ class Panes:
         Pane of the first view.
     wipe : Wipe or None
         None if the views are side by side.
-    eye : CameraController
+    camera_controller : CameraController
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Panes:
         self._others: list[tuple[Mesh, Viewport]] = []
         self.wipe: Wipe | None = None
         self._arrangement = Arrangement(self._window, pixel_ratio)
-        self.eye = CameraController(lambda: self.seen, lambda: self._arrangement.aspect)
+        self.camera_controller = CameraController(lambda: self.visible, lambda: self._arrangement.aspect)
         self.arrange()
         self._observe(self.first)
         # Widgets that are dragged are in the first view.
@@ -72,7 +72,7 @@ class Panes:
         return [self.first, *(view for _, view in self._others)]
 
     @property
-    def seen(self) -> list[Viewport]:
+    def visible(self) -> list[Viewport]:
         """The visible views; both views of a wipe."""
         return self.all if self.wipe is None else [self.all[self.wipe.left], self.all[self.wipe.right]]
 
@@ -89,7 +89,7 @@ class Panes:
             view.draw(view.frame.matching(frame))
         self.share_colour_range()
         if new_mesh:
-            self.eye.look_along("iso")
+            self.camera_controller.look_along("iso")
 
     def clear(self) -> None:
         """Draw no mesh."""
@@ -106,7 +106,7 @@ class Panes:
         wipe : Wipe, optional
             None shows all views side by side.
         """
-        aspect, fitted = self._arrangement.aspect, self.eye.fitted
+        aspect, fitted = self._arrangement.aspect, self.camera_controller.fitted
         previous = self._others
         known = {id(mesh): view for mesh, view in previous}
         self._others = [(mesh, known.pop(id(mesh), None) or self._open(mesh, figures)) for mesh, figures in others]
@@ -117,7 +117,7 @@ class Panes:
         self.arrange()
         self.share_colour_range()
         if fitted and abs(self._arrangement.aspect - aspect) > 1e-6:
-            self.eye.fit()
+            self.camera_controller.fit()
 
     def _open(self, mesh: Mesh, figures: ElementQuality) -> Viewport:
         pane = Pane(self._window, self.first.camera)
@@ -158,7 +158,7 @@ class Panes:
 
     def arrange(self) -> None:
         """Place all views in the window at its current size."""
-        self._arrangement.arrange(self.all, self.seen, self.wipe)
+        self._arrangement.arrange(self.all, self.visible, self.wipe)
 
     def at(self, x: float, y: float) -> Viewport:
         """Return the view at a position in pixels of the window, from its lower left corner."""
@@ -179,12 +179,12 @@ class Panes:
 
     def _begin(self, view: Viewport) -> None:
         if self._arrangement.outdated:
-            fitted = self.eye.fitted
+            fitted = self.camera_controller.fitted
             self.arrange()
             if fitted:
-                self.eye.fit()
-        if self._others and view is self.seen[0]:
-            self.eye.reset_depth()
+                self.camera_controller.fit()
+        if self._others and view is self.visible[0]:
+            self.camera_controller.reset_depth()
         self._aim(view)
 
     def _aim(self, view: Viewport) -> None:
@@ -195,20 +195,20 @@ class Panes:
 
     def moving(self) -> None:
         """Prepare for fast frames."""
-        for view in self.seen:
+        for view in self.visible:
             view.moving()
 
     def turning(self) -> None:
         """Prepare for fast frames in which only the camera moves."""
-        for view in self.seen:
-            view.turning(len(self.seen))
+        for view in self.visible:
+            view.turning(len(self.visible))
 
     def still(self) -> None:
         """Prepare for a fine frame."""
-        for view in self.seen:
+        for view in self.visible:
             view.still()
 
     def shade(self) -> None:
         """Compute the shading of a fine frame in this thread."""
-        for view in self.seen:
+        for view in self.visible:
             view.shade()

@@ -14,8 +14,8 @@ from hexmend_app.scene.colour.hex_colours import HexColours
 from hexmend_app.scene.geometry import occlusion
 from hexmend_app.scene.geometry.filters import Filters, same_mask
 from hexmend_app.scene.layers.axes import AxesLayer
-from hexmend_app.scene.layers.extra_layers import ExtraLayers, raise_error
 from hexmend_app.scene.layers.mesh import MeshLayer
+from hexmend_app.scene.layers.overlay_layers import OverlayLayers, raise_error
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.picking import Hit, Picker
@@ -34,8 +34,8 @@ class Viewport:
     filters : Filters
         Filters that select the shown hexes.
     colours : HexColours
-    body : MeshLayer
-    extras : ExtraLayers
+    mesh_layer : MeshLayer
+    overlay_layers : OverlayLayers
         Layers besides the hexes.
 
     Parameters
@@ -65,9 +65,9 @@ class Viewport:
         self._fast = False
         pane.window.SetMultiSamples(0)
         self.colours = HexColours()
-        self.body = MeshLayer(pane, pixel_ratio)
-        self.extras = ExtraLayers(pane, pixel_ratio, on_failure)
-        self._picker = Picker(pane, (self.body.skin, self.body.section))
+        self.mesh_layer = MeshLayer(pane, pixel_ratio)
+        self.overlay_layers = OverlayLayers(pane, pixel_ratio, on_failure)
+        self._picker = Picker(pane, (self.mesh_layer.skin, self.mesh_layer.section))
         self.axes = AxesLayer(pane, pixel_ratio) if axes else None
         self.set_dark(False)
 
@@ -76,7 +76,7 @@ class Viewport:
         self._pane.set_background(BACKGROUND.of(dark))
         if self.axes is not None:
             self.axes.set_dark(dark)
-        self.extras.set_dark(dark)
+        self.overlay_layers.set_dark(dark)
 
     def set_background(self, colour: str) -> None:
         """Set the background colour, #rrggbb, instead of that of the theme."""
@@ -100,8 +100,8 @@ class Viewport:
     def clear(self) -> None:
         """Draw no mesh."""
         self.frame = self.filters = self.colours.colouring = None
-        self.body.hide()
-        self.extras.hide()
+        self.mesh_layer.hide()
+        self.overlay_layers.hide()
 
     def _draw(self, frame: Frame, new_mesh: bool) -> None:
         last, self.frame = self.frame, frame
@@ -112,11 +112,11 @@ class Viewport:
         recoloured = moved or frame.movement is not last.movement or not frame.look.coloured_as(last.look)
         if new_mesh:
             self._set_mesh()
-        self.extras.update(frame, moved and not new_mesh, pinned, classed)
+        self.overlay_layers.update(frame, moved and not new_mesh, pinned, classed)
         if recoloured:
             self.colours.measure(frame)
         keep = self.kept()
-        self.extras.draw_optional(frame, keep)
+        self.overlay_layers.draw_optional(frame, keep)
         if restyled or not same_mask(keep, self._keep):
             self._keep = keep
             self._rebuild()
@@ -124,21 +124,21 @@ class Viewport:
             self._move()
 
     def _set_mesh(self) -> None:
-        self.extras.set_mesh(self.frame)
+        self.overlay_layers.set_mesh(self.frame)
         mesh = self.frame.mesh
-        if self.filters is None or not self.filters.suit(mesh):
+        if self.filters is None or not self.filters.matches(mesh):
             self.filters = Filters(mesh)
-        self.body.set_mesh(mesh)
+        self.mesh_layer.set_mesh(mesh)
 
     def _rebuild(self) -> None:
         """Find the visible faces again."""
-        self.body.rebuild(self.frame, self._keep, self.colours)
-        self.extras.rebuild(self.frame, self._keep, self.body, self.filters.ghosts)
+        self.mesh_layer.rebuild(self.frame, self._keep, self.colours)
+        self.overlay_layers.rebuild(self.frame, self._keep, self.mesh_layer, self.filters.ghosts)
 
     def _move(self) -> None:
         """Update positions and colours of the same faces."""
-        self.body.move(self.frame, self._keep, self.colours)
-        self.extras.move(self.frame, self._keep, self.body)
+        self.mesh_layer.move(self.frame, self._keep, self.colours)
+        self.overlay_layers.move(self.frame, self._keep, self.mesh_layer)
 
     def extend_range(self, ends: tuple[float, float] | None) -> None:
         """Extend a fitted colour range to these ends, the range of all views; None fits it to this view alone."""
@@ -151,9 +151,9 @@ class Viewport:
         """Return True for hexes shown whole or in part, (m,) bool; None for all."""
         return None if self.frame is None else self.filters.kept(self.frame)
 
-    def left(self) -> np.ndarray | None:
+    def remaining_after_cut(self) -> np.ndarray | None:
         """Return True for shown hexes that a smooth cut leaves at least in part, (m,) bool; None for all."""
-        return None if self.frame is None else self.filters.left(self.frame)
+        return None if self.frame is None else self.filters.remaining_after_cut(self.frame)
 
     @property
     def shown(self) -> int:
@@ -175,7 +175,7 @@ class Viewport:
         if self.frame is None:
             return None
         self._set_fast(False)  # fast frames omit faces
-        self.body.show_fine()
+        self.mesh_layer.show_fine()
         return self._picker.pick(x, y, self.frame.mesh)
 
     # Camera
@@ -193,7 +193,7 @@ class Viewport:
     @property
     def places(self) -> np.ndarray:
         """Points that a fitted camera includes, (k, 3): of everything shown, or of the mesh if nothing is shown."""
-        places = np.concatenate([self.body.places, self.extras.places])
+        places = np.concatenate([self.mesh_layer.places, self.overlay_layers.places])
         mesh = self.frame.mesh
         return places if len(places) else mesh.points[mesh.topology.used]
 
@@ -212,36 +212,36 @@ class Viewport:
         """Prepare for fast frames in which only the camera moves; the window shows `views` views."""
         self.moving()
         if self.frame is not None:
-            self.body.turn(views)
+            self.mesh_layer.turn(views)
 
     def still(self) -> None:
         """Prepare for a fine frame, with antialiasing."""
         self._pane.window.SetMultiSamples(4)
         self._set_fast(False)
-        self.body.come_to_rest()
+        self.mesh_layer.come_to_rest()
 
     def shade(self) -> None:
         """Compute the shading of a fine frame in this thread, if necessary."""
-        scene = self.body.needs_shading
-        if scene is not None:
-            self.body.apply_shading(scene, occlusion.light(scene))
+        polygons = self.mesh_layer.needs_shading
+        if polygons is not None:
+            self.mesh_layer.apply_shading(polygons, occlusion.ambient_light(polygons))
 
     def _set_fast(self, fast: bool) -> None:
         if fast == self._fast:
             return
-        self._fast = self.body.fast = fast
-        self.extras.set_fast(fast)
+        self._fast = self.mesh_layer.fast = fast
+        self.overlay_layers.set_fast(fast)
         if self.frame is None:
             return
-        if self.body.faces.many:
+        if self.mesh_layer.faces.many:
             self._rebuild()
         else:
-            self.body.outline_inverted()
+            self.mesh_layer.outline_inverted()
 
     @property
     def layers(self) -> tuple[vtkRenderer, ...]:
         """Renderers of this view, from back to front."""
-        return self._pane.renderer, *self.extras.renderers
+        return self._pane.renderer, *self.overlay_layers.renderers
 
     def close(self) -> None:
         """Remove the view from the window."""

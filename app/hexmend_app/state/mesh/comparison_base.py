@@ -27,7 +27,7 @@ class ComparisonBases:
     def displacement(self, since: Since) -> Displacement:
         """Return the displacement from an earlier state to the one shown."""
         now = self._document.now
-        shown = self._history.moment_of(now)
+        shown = self._history.iteration_of(now)
         key = (now, since, shown)
         if self._last is None or self._last[0] != key:
             reference = self._reference_state(*self._find(since, shown))

@@ -76,7 +76,7 @@ class History:
         count = 1
         while (name := f"{title} ({count})" if count > 1 else title) in names:
             count += 1
-        record = RunRecord(name, title, start, self.moment_of(start), self._free_slot())
+        record = RunRecord(name, title, start, self.iteration_of(start), self._free_slot())
         self.records.append(record)
         self._moments[start] = RecordedIteration(record, 0)
         return record
@@ -132,7 +132,7 @@ class History:
             started = [record for record in self.records if record.rows]
             at = {record: number for number, record in enumerate(started)}
             records = tuple(to_data(record, at, record._offsets) for record in started)
-        moments = ((state, self.moment_of(state)) for state in dict.fromkeys(states))
+        moments = ((state, self.iteration_of(state)) for state in dict.fromkeys(states))
         shown = [
             (state, at[moment.record], moment.number) for state, moment in moments if moment and moment.record in at
         ]
@@ -163,11 +163,11 @@ class History:
         with self._lock:
             self._thin()
 
-    def note(self, state: State, moment: RecordedIteration) -> None:
+    def register_state(self, state: State, moment: RecordedIteration) -> None:
         """Remember which iteration a state shows."""
         self._moments[state] = moment
 
-    def moment_of(self, state: State | None) -> RecordedIteration | None:
+    def iteration_of(self, state: State | None) -> RecordedIteration | None:
         """Find the iteration that a state shows, even after nodes were fixed or hexes tagged; None if there is none."""
         if state is None:
             return None
@@ -185,7 +185,7 @@ class History:
             return record.numbers()
 
     def state(self, moment: RecordedIteration, mesh: Mesh) -> State:
-        """Return the state at an iteration, or at the nearest recorded one; `moment_of` tells which.
+        """Return the state at an iteration, or at the nearest recorded one; `iteration_of` tells which.
 
         Parameters
         ----------

@@ -9,7 +9,7 @@ import numpy as np
 from hexmend.quality import METRICS, ElementQuality
 
 #: Maximum number of cached metrics of one state.
-_MOST = 3
+_MAX_CACHED_METRICS = 3
 
 #: Values by metric, for the quality of each state.
 CACHE: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
@@ -33,7 +33,7 @@ def metric_values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: E
     values = cached.get(metric)
     if values is None:
         values = METRICS[metric].of(points, hexes, figures)
-        while len(cached) >= _MOST:
+        while len(cached) >= _MAX_CACHED_METRICS:
             cached.pop(next(iter(cached)), None)
         cached[metric] = values
     return values

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend_app.state.mesh.document import Document, State
 
 #: Maximum number of snapshots: as many as there are colours that all kinds of colour vision distinguish.
-MOST = 6
+MAX_SNAPSHOTS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +24,7 @@ class Snapshot:
     Parameters
     ----------
     slot : int
-        Number of its colour, from 0 to `MOST` - 1, which does not change when other snapshots are removed.
+        Number of its colour, from 0 to `MAX_SNAPSHOTS` - 1, which does not change when other snapshots are removed.
     name : str
     points : (n, 3) float64
     inverted : (m,) bool
@@ -38,7 +38,8 @@ class Snapshot:
     def check(self, hexes: int, nodes: int) -> None:
         """Raise `ValueError` if this is no snapshot of a mesh with these numbers of hexes and nodes."""
         fits = self.points.shape == (nodes, 3) and self.points.dtype == np.float64
-        if not fits or self.inverted.shape != (hexes,) or self.inverted.dtype != bool or not 0 <= self.slot < MOST:
+        fits = fits and self.inverted.shape == (hexes,) and self.inverted.dtype == bool
+        if not (fits and 0 <= self.slot < MAX_SNAPSHOTS):
             raise ValueError(f"the snapshot {self.name!r} is of another mesh")
 
 
@@ -64,18 +65,19 @@ class Snapshots(QObject):
     @property
     def full(self) -> bool:
         """True if no further snapshot can be taken."""
-        return len(self.all) == MOST
+        return len(self.all) == MAX_SNAPSHOTS
 
     def of(self, state: State) -> Snapshot | None:
         """Return the snapshot of a state; None if there is none."""
         return next((snapshot for snapshot in self.all if snapshot.points is state.mesh.points), None)
 
     def add(self, name: str, state: State) -> None:
-        """Add a snapshot, unless there are `MOST`; a number is appended to a name that is in use."""
+        """Add a snapshot, unless there are `MAX_SNAPSHOTS`; a number is appended to a name that is in use."""
         if not self.full:
-            slot = min(set(range(MOST)) - {snapshot.slot for snapshot in self.all})
+            slot = min(set(range(MAX_SNAPSHOTS)) - {snapshot.slot for snapshot in self.all})
             names = {snapshot.name for snapshot in self.all}
-            name = next(free for k in range(1, MOST + 1) if (free := f"{name} ({k})" if k > 1 else name) not in names)
+            candidates = (name, *(f"{name} ({k})" for k in range(2, MAX_SNAPSHOTS + 1)))
+            name = next(candidate for candidate in candidates if candidate not in names)
             self._set(*self.all, Snapshot(slot, name, state.mesh.points, state.figures.inverted))
 
     def remove(self, slot: int) -> None:

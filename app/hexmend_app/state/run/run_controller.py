@@ -236,7 +236,7 @@ class RunController(QObject):
             self.hit.emit(frame)
 
     def _preview(self, frame: IterationFrame) -> None:
-        self._history.note(frame.state, RecordedIteration(self.record, frame.iteration.number))
+        self._history.register_state(frame.state, RecordedIteration(self.record, frame.iteration.number))
         self._document.preview(frame.state)
 
     def _finish(self, worker: Worker) -> None:

@@ -70,7 +70,7 @@ class Timeline(QObject):
         smoothing.phase_changed.connect(self._on_phase)
 
     @property
-    def moment(self) -> RecordedIteration | None:
+    def shown_iteration(self) -> RecordedIteration | None:
         """The iteration that is shown; None if the document shows another state."""
         return self._shown
 
@@ -191,7 +191,7 @@ class Timeline(QObject):
         self._target = None
 
     def _on_moved(self) -> None:
-        shown = self.history.moment_of(self._document.now)
+        shown = self.history.iteration_of(self._document.now)
         if shown != self._shown:
             self._shown = shown
             if shown is not None and shown.number and shown.record is not self.record:

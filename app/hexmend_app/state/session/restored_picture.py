@@ -15,7 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend_app.picture.appearance import Look
 from hexmend_app.picture.picture_metadata import PicturedMesh, PictureMetadata, digest
 from hexmend_app.state.mesh.document import State
-from hexmend_app.state.view.side_views import MOST, NOW
+from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, NOW
 
 
 class RestoreProblem(Enum):
@@ -142,7 +142,7 @@ def restore_picture(
     others = []
     for number in rest:
         pictured, name = metadata.meshes[number - 1], names[number]
-        if len(others) == MOST:
+        if len(others) == MAX_SIDE_VIEWS:
             others.append(RestoredMesh(name, PurePosixPath(pictured.file).name, problem=RestoreProblem.NO_SPACE))
         elif pictured.file and pictured.file == metadata.meshes[first - 1].file:
             others.append(_restore_mesh(name, pictured, path, states_by_digest.get(pictured.shown, state), state))

@@ -87,7 +87,7 @@ class SessionParts(QObject):
         self._parts.append(StatePart(name="history", to_data=self._history_data, restore=self.history.restore))
         self.run = RunController(document, self.history, self)
         self.timeline = self._add_part("timeline", Timeline(document, self.run, self.history, self), "runs_changed")
-        self.view = self._add_part("view", ViewModel(document, self), "look_changed")
+        self.view = self._add_part("view", ViewModel(document, self), "changed")
         self.selection = self._add_part("selection", Selection(document, self))
         self.snapshots = self._add_part("snapshots", Snapshots(document, self), "changed")
         self.side_views = self._add_part("side_views", SideViews(document, self.snapshots, self), "changed")

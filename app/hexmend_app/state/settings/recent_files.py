@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from hexmend_app.state.settings.settings import RECENT
 
 #: Maximum number of files.
-MOST = 10
+MAX_RECENT_FILES = 10
 
 
 class RecentFiles(QObject):
@@ -29,7 +29,7 @@ class RecentFiles(QObject):
     def add(self, path: Path) -> None:
         """Add a file that was opened."""
         path = path.resolve()
-        self._store([path, *(other for other in self.files() if other != path)][:MOST])
+        self._store([path, *(other for other in self.files() if other != path)][:MAX_RECENT_FILES])
 
     def clear(self) -> None:
         """Clear the list."""

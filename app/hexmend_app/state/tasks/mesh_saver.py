@@ -115,7 +115,7 @@ class MeshSaver(QObject):
         session.node_sweep.leave()
         if path.suffix.lower() == SUFFIX:
             return SaveTask(path, document.now, document.recorded, session.to_data())
-        moment = session.timeline.moment
+        moment = session.timeline.shown_iteration
         if document.previews and session.editable:
             document.commit("go back" if moment is None else f"go to {moment.name}", document.now)
         return SaveTask(path, document.now, document.now, None)

@@ -10,7 +10,7 @@ from hexmend_app.picture import Camera
 from hexmend_app.picture.camera_pose import CameraPose
 
 #: Maximum number of poses in the history, including the current one.
-MOST = 50
+MAX_POSES = 50
 
 
 @dataclass(frozen=True)
@@ -30,8 +30,8 @@ class PoseHistoryData:
     left: CameraPose | None = None
 
     def __post_init__(self) -> None:
-        if len(self.before) + len(self.after) >= MOST:
-            raise ValueError(f"the camera has a history of more than {MOST} poses")
+        if len(self.before) + len(self.after) >= MAX_POSES:
+            raise ValueError(f"the camera has a history of more than {MAX_POSES} poses")
 
 
 @dataclass(frozen=True)

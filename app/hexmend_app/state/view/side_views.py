@@ -10,7 +10,7 @@ from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.snapshots import Snapshots
 
 #: Maximum number of side views.
-MOST = 3
+MAX_SIDE_VIEWS = 3
 
 #: Name of the main view, of the current mesh.
 NOW = "now"
@@ -60,8 +60,8 @@ class SideViewsData:
 
     def __post_init__(self) -> None:
         wipe, count = self.wipe, len(self.shown)
-        if count > MOST:
-            raise ValueError(f"there are {count} views: expected {MOST} at most")
+        if count > MAX_SIDE_VIEWS:
+            raise ValueError(f"there are {count} views: expected {MAX_SIDE_VIEWS} at most")
         if wipe is not None and not (
             0 <= wipe.left <= count and 0 <= wipe.right <= count and wipe.left != wipe.right and 0 <= wipe.at <= 1
         ):
@@ -103,7 +103,7 @@ class SideViews(QObject):
     @property
     def full(self) -> bool:
         """True if no further view can be shown."""
-        return len(self.all) == MOST
+        return len(self.all) == MAX_SIDE_VIEWS
 
     def shows(self, state: State) -> bool:
         """Return True if a side view shows this state."""

@@ -63,7 +63,7 @@ class ViewModel(QObject):
 
     Signals
     -------
-    look_changed
+    changed
     metric_wanted(name)
         Request to colour by a metric in its default range.
 
@@ -82,7 +82,7 @@ class ViewModel(QObject):
         Metric of the histogram; None if it is that of the colours.
     """
 
-    look_changed = Signal()
+    changed = Signal()
     metric_wanted = Signal(str)
 
     def __init__(self, document: Document, parent: QObject | None = None):
@@ -98,7 +98,7 @@ class ViewModel(QObject):
         document.mesh_replaced.connect(self.show_all)
 
     def change(self, **fields: object) -> None:
-        """Change fields of the look, and emit `look_changed` if it differs."""
+        """Change fields of the look, and emit `changed` if it differs."""
         if fields.get("clip", self) is not self:
             fields = {"left": None, **fields}  # for the old cut
         look = dataclasses.replace(self.look, **fields)
@@ -106,7 +106,7 @@ class ViewModel(QObject):
             self.look = look
             if not look.dug:
                 self._dug.clear()
-            self.look_changed.emit()
+            self.changed.emit()
 
     def to_data(self) -> ViewData:
         """Return the data for a session file."""
@@ -117,7 +117,7 @@ class ViewModel(QObject):
         self.look, self._dug = data.look, list(data.dug)
         self.handles, self.plane_at, self.snap, self.rings = data.handles, data.plane_at, data.snap, data.rings
         self.counted = data.counted
-        self.look_changed.emit()
+        self.changed.emit()
 
     def show_as(self, look: Look) -> None:
         """Show the look of a picture; its dug hexes are restored by undo in the order of their numbers."""
@@ -127,7 +127,7 @@ class ViewModel(QObject):
         """Request to colour by a metric or a displacement in its default range."""
         self.metric_wanted.emit(metric)
 
-    def note_cut(self, left: CutLeft | None) -> None:
+    def store_remaining_hexes(self, left: CutLeft | None) -> None:
         """Store the hexes kept by a cut by whole hexes, so that they stay the same while nodes move."""
         self.look = dataclasses.replace(self.look, left=left)
 
@@ -145,7 +145,7 @@ class ViewModel(QObject):
         """Select the plane that is moved."""
         if at != self.plane_at:
             self.plane_at = at
-            self.look_changed.emit()
+            self.changed.emit()
 
     def drag_plane(self, plane: ClipPlane) -> None:
         """Move the selected plane to where it is dragged, snapping to an axis if `snap` is set."""
@@ -161,7 +161,7 @@ class ViewModel(QObject):
         """Show or hide the handles of the cut."""
         if shown != self.handles:
             self.handles = shown
-            self.look_changed.emit()
+            self.changed.emit()
 
     def set_snap(self, on: bool) -> None:
         """Set whether dragged planes snap to the axes."""

@@ -57,15 +57,17 @@ def test_the_colours_by_metric_map_and_range(window, qtbot, panel):
 def test_faces_within_a_range_are_rebuilt_only_if_they_change(window, monkeypatch):
     viewport, now = window.canvas.viewport, window.session.document.now
     rebuilt = []
-    rebuild = viewport.body.rebuild
-    monkeypatch.setattr(viewport.body, "rebuild", lambda *arguments: (rebuilt.append(1), rebuild(*arguments)))
+    rebuild = viewport.mesh_layer.rebuild
+    monkeypatch.setattr(viewport.mesh_layer, "rebuild", lambda *arguments: (rebuilt.append(1), rebuild(*arguments)))
     window.session.view.change(quality_range=ValueRange("q", 0.4, 1))
     window.refresh()
     moved = State.of(now.mesh.with_points(now.mesh.points * 1.01))  # of the same shape
     window.session.document.preview(moved)
     window.refresh()
     assert len(rebuilt) == 1
-    np.testing.assert_allclose(viewport.body.whole.points, viewport.body.faces.places(moved.mesh.points), rtol=1e-6)
+    np.testing.assert_allclose(
+        viewport.mesh_layer.whole.points, viewport.mesh_layer.faces.places(moved.mesh.points), rtol=1e-6
+    )
     shaken = now.mesh.points + 0.3 * now.mesh.mean_edge_length * np.random.default_rng(0).random(now.mesh.points.shape)
     window.session.document.preview(State.of(now.mesh.with_points(shaken)))
     window.refresh()

@@ -101,12 +101,14 @@ def test_a_drag_rotates_all_views_and_a_click_selects_a_hex_in_all(compared, qtb
     chosen = compared.session.selection.hex
     assert chosen is not None
     for one in canvas.panes.all:
-        assert one.extras.selection.hex == chosen
+        assert one.overlay_layers.selection.hex == chosen
         np.testing.assert_allclose(
-            one.extras.selection.highlight.box.points, one.frame.mesh.points[one.frame.mesh.hexes[chosen]], rtol=1e-6
+            one.overlay_layers.selection.highlight.box.points,
+            one.frame.mesh.points[one.frame.mesh.hexes[chosen]],
+            rtol=1e-6,
         )
     tick(compared, "laplacian", VIEW)
-    assert canvas.panes.all[2].extras.selection.hex == chosen
+    assert canvas.panes.all[2].overlay_layers.selection.hex == chosen
 
 
 def test_all_views_have_the_same_cut_and_colours(compared):

@@ -59,7 +59,7 @@ def test_both_sides_of_the_wipe_are_selected_by_name(compared):
         QTest.keyClick(left, Qt.Key.Key_Down)  # selects the right mesh: the two change places
         compared.refresh()
     assert (left.currentText(), right.currentText()) == (title_of("laplacian"), title_of("getme"))
-    seen = compared.canvas.panes.seen
+    seen = compared.canvas.panes.visible
     np.testing.assert_array_equal(
         seen[0].frame.mesh.points, compared.session.comparison.of("laplacian").state.mesh.points
     )

@@ -43,7 +43,7 @@ def test_a_click_in_a_chart_selects_the_iteration_and_moves_the_marker(window, q
     record = run(window, qtbot)
     assert len(panel.curves[0].columns) == 9
     click_at(panel, "inverted", 3)
-    qtbot.waitUntil(lambda: window.session.timeline.moment.number == 3, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.session.timeline.shown_iteration.number == 3, timeout=PATIENCE)
     window.refresh()
     assert window.session.document.previews
     assert panel.plots["inverted"].marker.value() == 3

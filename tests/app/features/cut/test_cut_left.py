@@ -75,7 +75,7 @@ def test_pictures_and_sessions_restore_the_cut_hexes(window, moved, qtbot, tmp_p
 
 def test_a_preview_of_another_cut_does_not_change_the_view(window, moved):
     scene = window.canvas.scene(Page(pixels=(100, 80)))
-    window.canvas.sheet(replace(scene, cut=Cut.from_clip(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
+    window.canvas.draw_page(replace(scene, cut=Cut.from_clip(PlaneClip.at((0, 0, 1), (2.0, 2.0, 2.0)))))
     window.session.view.change(shrink=0.1)
     window.refresh()
     np.testing.assert_array_equal(window.canvas.viewport.kept(), moved)

@@ -48,7 +48,7 @@ def window(window, qtbot, tmp_path):
 def faces(window):
     """Return the hexes of the drawn faces."""
     window.refresh()
-    return window.canvas.viewport.body.faces.hexes
+    return window.canvas.viewport.mesh_layer.faces.hexes
 
 
 def shown(window):
@@ -212,17 +212,17 @@ def test_shrunk_hexes_follow_moving_nodes(window, qtbot):
     window.session.view.change(peel=3)
     window.refresh()
     chosen = np.flatnonzero(window.session.document.now.mesh.topology.layers >= 3)
-    before = window.canvas.viewport.body.faces
+    before = window.canvas.viewport.mesh_layer.faces
     choose(window, "laplacian")
     click(window, "Step")
     qtbot.waitUntil(lambda: window.session.run.phase is Phase.PAUSED, timeout=PATIENCE)
     window.refresh()
     drawn = window.canvas.viewport
-    assert drawn.body.faces is before  # nothing depends on quality, so the faces are reused
+    assert drawn.mesh_layer.faces is before  # nothing depends on quality, so the faces are reused
     corners = drawn.frame.mesh.points[drawn.frame.mesh.hexes[chosen]]
     assert not np.array_equal(drawn.frame.mesh.points, window.session.document.start.mesh.points)
     expected = corners + 0.3 * (corners.mean(axis=1, keepdims=True) - corners)
-    np.testing.assert_allclose(drawn.body.whole.points, expected.reshape(-1, 3), atol=1e-12)
+    np.testing.assert_allclose(drawn.mesh_layer.whole.points, expected.reshape(-1, 3), atol=1e-12)
 
 
 def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatch):
@@ -240,12 +240,12 @@ def test_in_large_meshes_only_visible_hexes_are_shrunk(window, qtbot, monkeypatc
 def test_a_smooth_cut_is_not_shrunk(window):
     window.session.view.change(clip=PlaneClip.at((1, 0, 0), (0.1, 0.1, 0.1), crinkle=False), shrink=0.3)
     window.refresh()
-    assert window.canvas.viewport.body.faces.shrink == 0
+    assert window.canvas.viewport.mesh_layer.faces.shrink == 0
     assert shown(window) == "1,000 of 1,000 hexes shown (before the cut)"
 
 
 def test_the_outline_is_drawn_if_it_is_on_and_hexes_are_hidden(window):
-    actor = window.canvas.viewport.extras.outline.actor
+    actor = window.canvas.viewport.overlay_layers.outline.actor
     box = named(window.features["cut"].inside, QCheckBox, "Sharp edges and outline")
     assert not actor.GetVisibility()
     window.session.view.change(peel=1)

@@ -45,7 +45,7 @@ def test_a_film_shows_the_run_as_in_the_view(window, qtbot, tmp_path, monkeypatc
     window.canvas.look_along("+x")
     path = tmp_path / f"run{suffix}"
     monkeypatch.setattr("hexmend_app.features.film.feature.ask_film", lambda parent, stem: str(path))
-    shown = window.session.timeline.moment
+    shown = window.session.timeline.shown_iteration
     window.window_actions["film"].trigger()
     texts = [window.busy.text()]
     show = window.busy.show_work
@@ -63,7 +63,7 @@ def test_a_film_shows_the_run_as_in_the_view(window, qtbot, tmp_path, monkeypatc
             frames.append(np.asarray(film.convert("RGB")).astype(int))
     middle = slice(frames[0].shape[0] // 4, -frames[0].shape[0] // 4)
     assert all((a[middle] != b[middle]).any() for a, b in pairwise(frames))
-    assert window.session.timeline.moment == shown
+    assert window.session.timeline.shown_iteration == shown
     assert window.busy.isHidden()
 
 

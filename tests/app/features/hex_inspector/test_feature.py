@@ -81,7 +81,7 @@ def test_keys_step_through_the_worst_hexes_and_the_camera_follows(window, qtbot)
 def test_the_worst_hex_is_isolated_and_its_neighbours_are_ghosts(window):
     key(window, Qt.Key.Key_N)
     drawn, worst = window.canvas.viewport, window.session.selection.hex
-    assert set(drawn.body.faces.hexes) == {worst}
+    assert set(drawn.mesh_layer.faces.hexes) == {worst}
     around = window.session.document.now.mesh.topology.hexes_around([worst], 1)
     assert drawn.filters.ghosts(drawn.frame).sum() == around.sum() - 1
 

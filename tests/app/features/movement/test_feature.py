@@ -62,7 +62,7 @@ def test_colours_follow_the_iteration_and_the_reference_state(window, record, pa
     )
     go(window, record, 3)
     press(panel.since, "iteration")
-    then = window.session.history.state(type(timeline.moment)(record, 2), window.session.document.now.mesh)
+    then = window.session.history.state(type(timeline.shown_iteration)(record, 2), window.session.document.now.mesh)
     np.testing.assert_allclose(viewport.colours.values, window.session.document.now.figures.q - then.figures.q)
     assert window.canvas.colour_bar.accessibleDescription().endswith(viewport.colouring.label(viewport.colouring.high))
     timeline.step(1)
@@ -112,7 +112,7 @@ def test_displacements_are_among_the_metrics_of_the_colours(window, record, qtbo
 def test_arrows_are_drawn_counted_and_scaled(window, record, panel):
     free = window.session.document.now.summary.free_nodes
     press(panel.arrows, "all")
-    layer = window.canvas.viewport.extras.arrows
+    layer = window.canvas.viewport.overlay_layers.arrows
     assert (layer.drawn, layer.moved) == (free, free)
     assert text_of(panel, "Number of arrows") == f"{free:,} arrows, true length."
     press(panel.arrows, "sight")
@@ -188,7 +188,7 @@ def test_another_mesh_is_opened_while_a_displacement_is_shown(window, record, pa
     io.write(tmp_path / "other.vtu", gallery.make("cube", size=64, scramble=0.3))
     open_and_wait(qtbot, window, tmp_path / "other.vtu")
     window.refresh()
-    layer = window.canvas.viewport.extras.arrows
+    layer = window.canvas.viewport.overlay_layers.arrows
     assert (layer.drawn, layer.moved) == (0, 0)
     assert not window.canvas.viewport.colours.values.any()
     assert text_of(panel, "Nodes").startswith("0 of ")

@@ -14,7 +14,7 @@ from tests.patience import PATIENCE
 
 
 def shown_step(window):
-    return window.canvas.viewport.extras.selection.node_step
+    return window.canvas.viewport.overlay_layers.selection.node_step
 
 
 def drawn_trials(plot):

@@ -181,7 +181,7 @@ def test_the_patch_is_isolated_and_its_marks_are_visible_with_any_cut_and_in_pic
     step = shown_step(window)
     assert window.session.view.look.isolation == Isolation(tuple(step.hexes.tolist()), 0)
     assert window.canvas.viewport.shown == step.hexes.size
-    qtbot.waitUntil(lambda: not window.canvas.travel.active, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: not window.canvas.camera_animation.active, timeout=PATIENCE)
 
     assert min(count_pixels(pixels(window), role) for role in (UPHILL, SEARCH)) > 20
     window.session.view.set_clip(PlaneClip.at((1, 0, 0), tuple(step.before - 100.0)))

@@ -16,7 +16,7 @@ from hexmend.run import StoppingCriteria
 from hexmend_app.features.open.recent_menu import RecentMenu
 from hexmend_app.resources import demo_mesh
 from hexmend_app.state.run.run_controller import Phase
-from hexmend_app.state.settings.recent_files import MOST
+from hexmend_app.state.settings.recent_files import MAX_RECENT_FILES
 from hexmend_app.state.tasks import mesh_opener
 from hexmend_app.state.tasks.task import running
 from tests.app.driving import LEFT, choose, click, key, named, open_and_wait, phase, press
@@ -60,9 +60,9 @@ def test_recent_files_are_listed_once_each_newest_first(window, qtbot, recent, m
 
 
 def test_a_missing_file_is_disabled_and_the_list_can_be_cleared(recent, menu, tmp_path):
-    for k in range(MOST + 2):
+    for k in range(MAX_RECENT_FILES + 2):
         recent.add(tmp_path / f"mesh{k}.vtu")
-    assert len(recent.files()) == MOST
+    assert len(recent.files()) == MAX_RECENT_FILES
     menu.popup(QPoint(50, 50))
     missing = menu.actions()[0]
     assert "not found" in missing.text()

@@ -111,7 +111,7 @@ def test_the_run_of_the_timeline_is_explained(window, qtbot):
     window.session.timeline.choose(first)
     assert "Why Laplacian stopped" in texts(window)
     press(window, "Select: Mend")  # starts at the end of that run
-    assert window.session.timeline.moment.record is first
+    assert window.session.timeline.shown_iteration.record is first
 
 
 @pytest.mark.parametrize("back", ["undo", "reset"])
@@ -146,7 +146,7 @@ def test_the_kept_iteration_is_shown_and_reported(window, qtbot, tmp_path):
     open_and_wait(qtbot, window, tmp_path / "sound.vtu")
     run(window, qtbot, "laplacian")
     assert window.session.document.now.summary.inverted == 0
-    assert window.session.timeline.moment.number == 3
+    assert window.session.timeline.shown_iteration.number == 3
     kept = "Iteration 3 was kept: later ones were worse."
     assert kept in texts(window)
     assert "Worse than" not in texts(window)

@@ -138,7 +138,7 @@ def rest(window, qtbot):
     qtbot.waitUntil(
         lambda: (
             not (
-                window.canvas.travel.active
+                window.canvas.camera_animation.active
                 or session.opener.busy
                 or session.timeline.playing
                 or session.run.phase in (Phase.PREPARING, Phase.RUNNING, Phase.STOPPING)

@@ -248,7 +248,7 @@ def test_runs_and_snapshots_are_read_from_the_session(window, qtbot, script, tmp
     (record,) = session.history.records
     session.timeline.go(record, 3)
     window.refresh()
-    assert session.history.moment_of(session.document.now) == RecordedIteration(record, 3)
+    assert session.history.iteration_of(session.document.now) == RecordedIteration(record, 3)
     save_and_wait(session, tmp_path / "third.vtu")
     paths = [tmp_path / name for name in ("third.vtu", "quality.csv", "runs.csv", "table.csv", "run.gif")]
     assert window.features["histogram"].save(paths[1])

@@ -40,7 +40,7 @@ def other_window(qtbot, mesh_file, fresh_window):
 
 def at_rest(window, qtbot):
     window.refresh()
-    qtbot.waitUntil(lambda: window.canvas.travel.at_rest, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: window.canvas.camera_animation.at_rest, timeout=PATIENCE)
     window.messages.clear()
     window.refresh()
 

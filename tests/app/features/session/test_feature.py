@@ -76,8 +76,8 @@ def seen(window, qtbot):
     window.refresh()
     window.canvas.draw_still()
     pixels(window)
-    body, lighting = window.canvas.viewport.body, window.canvas.lighting
-    qtbot.waitUntil(lambda: body.light is not None and not lighting.active, timeout=PATIENCE)
+    mesh_layer, shading_task = window.canvas.viewport.mesh_layer, window.canvas.shading_task
+    qtbot.waitUntil(lambda: mesh_layer.light is not None and not shading_task.active, timeout=PATIENCE)
     return pixels(window)
 
 
@@ -85,7 +85,7 @@ def tables(window):
     """Return the data of tables and charts."""
     session = window.session
     history = session.history
-    moment = session.timeline.moment
+    moment = session.timeline.shown_iteration
     return {
         "summary": session.document.now.summary,
         "start": session.document.start.summary,
@@ -154,7 +154,7 @@ def test_a_restored_session_can_be_continued(window, qtbot, tmp_path):
         session.commands.redo()
     first = session.history.records[0]
     session.timeline.choose(first)
-    assert (session.timeline.moment.record, session.timeline.moment.number) == (first, first.result)
+    assert (session.timeline.shown_iteration.record, session.timeline.shown_iteration.number) == (first, first.result)
     session.view.change(peel=0)
     session.run.break_at(Breakpoints())
     run(window, qtbot, "laplacian", 2)
@@ -187,7 +187,7 @@ def test_a_displayed_iteration_is_not_a_change(window, qtbot, tmp_path):
     assert not session.document.modified
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     assert session.document.previews
-    assert session.timeline.moment.number == 1
+    assert session.timeline.shown_iteration.number == 1
     session.timeline.go_to_newest()
     assert session.document.now.summary == session.history.records[0].end.summary
 
@@ -218,7 +218,7 @@ def test_a_paused_run_is_saved(window, qtbot, tmp_path):
     end_run(window.session)
     open_and_wait(qtbot, window, tmp_path / "work.hexmend")
     np.testing.assert_array_equal(window.session.document.now.mesh.points, points)
-    assert window.session.timeline.moment.number == 1
+    assert window.session.timeline.shown_iteration.number == 1
     window.refresh()
 
 

@@ -87,15 +87,15 @@ def test_the_original_surface_is_that_of_the_opened_mesh(five):
     press_key(five, "original")
     window, opened = five, five.session.document.start.mesh.points
     five.refresh()
-    assert window.canvas.viewport.extras.optional["original"].shown
+    assert window.canvas.viewport.overlay_layers.optional["original"].shown
     mesh = window.session.document.now.mesh
     moved = mesh.with_points(mesh.points * 1.2)
     window.session.commands.adopt_positions("grow", State.of(moved))
     five.refresh()
-    places = window.canvas.viewport.extras.optional["original"].places
+    places = window.canvas.viewport.overlay_layers.optional["original"].places
     np.testing.assert_allclose(np.ptp(places, axis=0), np.ptp(opened, axis=0), rtol=1e-6)
     press_key(five, "original")
-    assert not window.canvas.viewport.extras.optional["original"].shown
+    assert not window.canvas.viewport.overlay_layers.optional["original"].shown
 
 
 def test_empty_layers_are_disabled(five):
@@ -118,7 +118,7 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
     io.write(tmp_path / "five.vtu", gallery.make("five-side", size=500, scramble=0.4, seed=2))
     open_and_know(qtbot, window, tmp_path / "five.vtu")
     tick(window.features["structure"].panel.layers["irregular"].box)
-    marks = window.canvas.viewport.extras.structure.irregular_inside
+    marks = window.canvas.viewport.overlay_layers.structure.irregular_inside
     before = np.array(marks.poly.points)
     start = window.session.document.now
     choose(window, "laplacian")
@@ -136,12 +136,12 @@ def test_a_pinned_node_changes_its_colour(five, qtbot):
     five.session.view.change(peel=1)
     five.refresh()
     assert count(pixels(five), PINNED) == 0
-    visible = five.canvas.viewport.body.faces.nodes
+    visible = five.canvas.viewport.mesh_layer.faces.nodes
     inside = int(visible[five.session.document.now.mesh.free[visible]][0])
     five.session.commands.pin(inside, True)
     five.refresh()
     assert texts(five.features["structure"].panel, "fixed")[1] == "1 pinned"
-    nodes = five.canvas.viewport.extras.structure.nodes.poly
+    nodes = five.canvas.viewport.overlay_layers.structure.nodes.poly
     assert (nodes.cell_data["colours"] == tuple(bytes.fromhex(PINNED[1:]))).all(axis=1).sum() == 1
     five.session.commands.undo()
     five.refresh()
@@ -204,18 +204,18 @@ def test_other_cells_are_shown_and_reported(window, qtbot, tmp_path):
     open_and_know(qtbot, window, tmp_path / "mixed.exo")
     (message,) = window.messages.messages()
     assert "1 pyramid cell next to the hexes" in message[1]
-    assert window.canvas.viewport.extras.optional["others"].shown
+    assert window.canvas.viewport.overlay_layers.optional["others"].shown
     layer = window.features["structure"].panel.layers["others"]
     assert layer.box.isVisibleTo(window.features["structure"].panel)
     assert texts(window.features["structure"].panel, "others") == ["1 pyramid"]
     press_key(window, "others")
     window.refresh()
-    assert not window.canvas.viewport.extras.optional["others"].shown
+    assert not window.canvas.viewport.overlay_layers.optional["others"].shown
     press_key(window, "others")
     window.refresh()
-    assert window.canvas.viewport.extras.optional["others"].shown
+    assert window.canvas.viewport.overlay_layers.optional["others"].shown
     io.write(tmp_path / "plain.exo", bare)
     open_and_know(qtbot, window, tmp_path / "plain.exo")
     assert window.messages.messages() == []
-    assert not window.canvas.viewport.extras.optional["others"].shown
+    assert not window.canvas.viewport.overlay_layers.optional["others"].shown
     assert not layer.box.isVisibleTo(window.features["structure"].panel)

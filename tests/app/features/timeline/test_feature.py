@@ -66,7 +66,9 @@ def said(window):
 
 
 def at(window, number):
-    return lambda: window.session.timeline.moment is not None and window.session.timeline.moment.number == number
+    return lambda: (
+        window.session.timeline.shown_iteration is not None and window.session.timeline.shown_iteration.number == number
+    )
 
 
 def check(window, text):

@@ -36,7 +36,9 @@ def panes():
 
 def seen(panes, places, aspect=1.5):
     """Return the positions of points in the picture, from -1 to 1, (k, 2)."""
-    matrix = pv.array_from_vtkmatrix(panes.eye.camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1))
+    matrix = pv.array_from_vtkmatrix(
+        panes.camera_controller.camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1)
+    )
     projected = np.column_stack([places, np.ones(len(places))]) @ matrix.T
     return projected[:, :2] / projected[:, 3:]
 
@@ -44,9 +46,9 @@ def seen(panes, places, aspect=1.5):
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("look", LOOKS)
 def test_fit_fills_the_picture_with_the_shown_hexes(panes, look, parallel):
-    panes.eye.set_parallel(parallel)
+    panes.camera_controller.set_parallel(parallel)
     panes.draw(Frame(MESH, FIGURES, look=look))
-    panes.eye.fit()
+    panes.camera_controller.fit()
     places = seen(panes, panes.first.places)
     ends = np.array([places.min(axis=0), places.max(axis=0)])
     assert np.abs(ends).max() == pytest.approx(0.96, abs=1e-3)
@@ -58,29 +60,29 @@ def test_the_first_view_of_a_mesh_is_fitted(panes):
     small = grid(2)
     panes.draw(Frame(small, measure(small.points, small.hexes)))
     assert np.abs(seen(panes, small.points)).max() == pytest.approx(0.96, abs=1e-3)
-    assert panes.eye.fitted
+    assert panes.camera_controller.fitted
 
 
 def test_a_look_or_moved_nodes_leave_the_camera(panes):
-    before = pose_of(panes.eye.camera)
+    before = pose_of(panes.camera_controller.camera)
     panes.draw(Frame(MESH, FIGURES, look=CORNER))
     moved = MESH.with_points(MESH.points * 1.1)
     panes.draw(Frame(moved, measure(moved.points, moved.hexes), look=CORNER))
-    assert pose_of(panes.eye.camera) == before
+    assert pose_of(panes.camera_controller.camera) == before
 
 
 def test_fit_uses_the_whole_mesh_if_nothing_is_shown(panes):
-    whole = pose_of(panes.eye.camera)
+    whole = pose_of(panes.camera_controller.camera)
     panes.draw(Frame(MESH, FIGURES, look=Look(dug=frozenset(range(MESH.n_hexes)))))
-    panes.eye.fit()
-    assert pose_of(panes.eye.camera).looks_like(whole)
+    panes.camera_controller.fit()
+    assert pose_of(panes.camera_controller.camera).looks_like(whole)
 
 
 @pytest.mark.parametrize("wipe", [None, Wipe(0, 1, 0.4)])
 def test_fit_includes_the_hexes_of_all_views(panes, wipe):
     wide = MESH.with_points(MESH.points * (2, 1, 1))
     panes.show([(wide, measure(wide.points, wide.hexes))], wipe)
-    panes.eye.fit()
+    panes.camera_controller.fit()
     aspect = 1.5 if wipe else 0.75
     assert np.abs(seen(panes, wide.points, aspect)).max() == pytest.approx(0.96, abs=1e-3)
     assert np.abs(seen(panes, MESH.points, aspect)).max() < 0.96
@@ -89,51 +91,51 @@ def test_fit_includes_the_hexes_of_all_views(panes, wipe):
 def test_a_fitted_view_is_fitted_again_when_the_window_is_resized(panes):
     window = panes.first.layers[0].GetRenderWindow()
     window.Render()
-    far = panes.eye.camera.GetDistance()
+    far = panes.camera_controller.camera.GetDistance()
     window.SetSize(150, 200)
     window.Render()
-    assert panes.eye.camera.GetDistance() > 1.2 * far
-    panes.eye.camera.Dolly(1.5)
-    far = panes.eye.camera.GetDistance()
+    assert panes.camera_controller.camera.GetDistance() > 1.2 * far
+    panes.camera_controller.camera.Dolly(1.5)
+    far = panes.camera_controller.camera.GetDistance()
     window.SetSize(300, 200)
     window.Render()
-    assert panes.eye.camera.GetDistance() == far  # the user has come nearer
+    assert panes.camera_controller.camera.GetDistance() == far  # the user has come nearer
 
 
 def test_directions_depend_on_the_vertical_axis(panes):
-    eye = panes.eye
+    controller = panes.camera_controller
     for axis, up in (("y", (0, 1, 0)), ("x", (1, 0, 0)), ("z", (0, 0, 1))):
-        eye.set_up(axis)
-        assert eye.up == axis
-        np.testing.assert_allclose(eye.camera.GetViewUp(), up)
-        assert np.dot(eye.camera.GetDirectionOfProjection(), up) < -0.3  # from above
-        assert eye.fitted
-    eye.set_up("y")
-    eye.look_along("-z")
-    np.testing.assert_allclose(eye.camera.GetViewUp(), (0, 1, 0))
+        controller.set_up(axis)
+        assert controller.up == axis
+        np.testing.assert_allclose(controller.camera.GetViewUp(), up)
+        assert np.dot(controller.camera.GetDirectionOfProjection(), up) < -0.3  # from above
+        assert controller.fitted
+    controller.set_up("y")
+    controller.look_along("-z")
+    np.testing.assert_allclose(controller.camera.GetViewUp(), (0, 1, 0))
     small = grid(3)
     panes.draw(Frame(small, measure(small.points, small.hexes)))
-    np.testing.assert_allclose(eye.camera.GetViewUp(), (0, 1, 0))  # of the next mesh too
+    np.testing.assert_allclose(controller.camera.GetViewUp(), (0, 1, 0))  # of the next mesh too
 
 
 def test_the_picture_rolls_counter_clockwise(panes):
-    eye = panes.eye
-    eye.look_along("+z")
-    eye.roll(90)
-    np.testing.assert_allclose(eye.camera.GetViewUp(), (1, 0, 0), atol=1e-9)  # what was right is up
+    controller = panes.camera_controller
+    controller.look_along("+z")
+    controller.roll(90)
+    np.testing.assert_allclose(controller.camera.GetViewUp(), (1, 0, 0), atol=1e-9)  # what was right is up
 
 
 def test_objects_keep_their_size_in_the_other_projection(panes):
-    eye = panes.eye
-    eye.flight_to(MESH.points[MESH.hexes[[0]]]).at(1.0)
-    focal, up = np.array(eye.camera.GetFocalPoint()), np.array(eye.camera.GetViewUp())
+    controller = panes.camera_controller
+    controller.flight_to(MESH.points[MESH.hexes[[0]]]).at(1.0)
+    focal, up = np.array(controller.camera.GetFocalPoint()), np.array(controller.camera.GetViewUp())
     places = np.array([focal, focal + 0.2 * up])
     before = seen(panes, places)
-    eye.set_parallel(True)
+    controller.set_parallel(True)
     np.testing.assert_allclose(seen(panes, places), before, atol=0.01)
-    eye.camera.SetParallelScale(2 * eye.camera.GetParallelScale())
+    controller.camera.SetParallelScale(2 * controller.camera.GetParallelScale())
     half = seen(panes, places)
-    eye.set_parallel(False)
+    controller.set_parallel(False)
     np.testing.assert_allclose(seen(panes, places), half, atol=0.01)
 
 
@@ -141,19 +143,19 @@ def test_objects_keep_their_size_in_the_other_projection(panes):
 def test_a_plane_is_viewed_from_the_removed_side(panes, normal):
     clip = PlaneClip.at(normal, (3, 3, 3), False)
     panes.draw(Frame(MESH, FIGURES, look=Look(clip=clip)))
-    panes.eye.flight_along(clip.planes[0].normal).at(1.0)
-    ahead = np.array(panes.eye.camera.GetDirectionOfProjection())
+    panes.camera_controller.flight_along(clip.planes[0].normal).at(1.0)
+    ahead = np.array(panes.camera_controller.camera.GetDirectionOfProjection())
     np.testing.assert_allclose(ahead, -np.array(clip.planes[0].normal), atol=1e-9)
     assert np.abs(seen(panes, panes.first.places)).max() == pytest.approx(0.96, abs=1e-3)
 
 
 @pytest.mark.parametrize("parallel", [False, True])
 def test_a_flight_around_a_point_preserves_the_distance(panes, parallel):
-    eye = panes.eye
-    eye.set_parallel(parallel)
-    before, place = pose_of(eye.camera), np.array([6.0, 0.0, 6.0])
-    eye.flight_around(place).at(1.0)
-    after = pose_of(eye.camera)
+    controller = panes.camera_controller
+    controller.set_parallel(parallel)
+    before, place = pose_of(controller.camera), np.array([6.0, 0.0, 6.0])
+    controller.flight_around(place).at(1.0)
+    after = pose_of(controller.camera)
     assert after.focal == tuple(place)
     assert after.distance == pytest.approx(before.distance)
     assert (after.scale, after.up, after.parallel) == (before.scale, before.up, parallel)
@@ -164,15 +166,17 @@ def test_a_flight_around_a_point_preserves_the_distance(panes, parallel):
 
 @pytest.mark.parametrize("parallel", [False, True])
 def test_a_flight_to_a_hex_shows_its_neighbours(panes, parallel):
-    panes.eye.set_parallel(parallel)
+    panes.camera_controller.set_parallel(parallel)
     corners = MESH.points[MESH.hexes[[100]]]
-    panes.eye.flight_to(corners).at(1.0)
+    panes.camera_controller.flight_to(corners).at(1.0)
     places = seen(panes, corners.reshape(-1, 3))
     assert 0.2 < np.abs(places).max() < 0.6
 
 
 def test_the_clipping_range_includes_the_outline(panes):
     panes.draw(Frame(MESH, FIGURES, look=Look(clip=PlaneClip.at((1, 0, 0), (1.2, 3, 3)))))
-    panes.eye.fit()  # of the outline of the whole too, which is larger
-    depth = (MESH.points - panes.eye.camera.GetPosition()) @ panes.eye.camera.GetDirectionOfProjection()
-    assert panes.eye.camera.GetClippingRange()[1] >= depth.max()
+    panes.camera_controller.fit()  # of the outline of the whole too, which is larger
+    depth = (
+        MESH.points - panes.camera_controller.camera.GetPosition()
+    ) @ panes.camera_controller.camera.GetDirectionOfProjection()
+    assert panes.camera_controller.camera.GetClippingRange()[1] >= depth.max()

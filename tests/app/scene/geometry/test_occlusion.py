@@ -5,7 +5,7 @@ import pytest
 
 from hexmend.kernels import set_threads, threads
 from hexmend_app.scene.cutting.polygons import Polygons
-from hexmend_app.scene.geometry.occlusion import DARKEST, brightness, directions, light, normals
+from hexmend_app.scene.geometry.occlusion import DARKEST, ambient_light, brightness, directions, normals
 from hexmend_app.scene.geometry.skin import Skin
 from tests.core.grids import grid, scrambled
 
@@ -37,7 +37,7 @@ def test_directions_are_distributed_evenly():
 
 
 def test_a_convex_body_is_fully_exposed():
-    np.testing.assert_array_equal(light(faces(grid(4, 3, 2))[0]), 1)
+    np.testing.assert_array_equal(ambient_light(faces(grid(4, 3, 2))[0]), 1)
 
 
 def test_a_floor_has_less_light_near_a_wall():
@@ -50,7 +50,7 @@ def test_a_floor_has_less_light_near_a_wall():
     floor = (at[:, 2] == 1) & (at[:, 0] > 1) & (np.abs(at[:, 1] - 30) < 8)
     away = at[floor, 0] - 1
     expected = 1 - (1 - away / np.hypot(away, 6)) / 2
-    got = of_faces(light(polygons))[floor]
+    got = of_faces(ambient_light(polygons))[floor]
     np.testing.assert_allclose(got, expected, atol=0.05)
     nearest, furthest = got[away == away.min()].mean(), got[away == away.max()].mean()
     assert nearest < 0.6 < 0.8 < furthest
@@ -63,7 +63,7 @@ def test_an_enclosed_cavity_has_no_light():
     polygons, _ = faces(mesh, keep)
     inside = (np.abs(centres(polygons) - 1.5) <= 0.5).all(axis=1)
     assert inside.sum() == 6
-    answer = of_faces(light(polygons))
+    answer = of_faces(ambient_light(polygons))
     assert (answer[inside] == 0).all()
     assert (answer[~inside] == 1).all()
 
@@ -74,7 +74,7 @@ def test_light_is_invariant_under_scaling_and_translation(size, far):
     keep = np.random.default_rng(0).random(mesh.n_hexes) < 0.6
     here, there = faces(mesh, keep)[0], faces(mesh.with_points(size * mesh.points + far), keep)[0]
     # Not to the bit: a pixel at the edge of a face may go to either side.
-    difference = light(here) - light(there)
+    difference = ambient_light(here) - ambient_light(there)
     assert np.abs(difference).mean() < 0.01
 
 
@@ -85,7 +85,7 @@ def test_the_result_does_not_depend_on_the_number_of_threads():
     try:
         for count in (1, 2, 5):
             set_threads(count)
-            answers.append(light(polygons))
+            answers.append(ambient_light(polygons))
     finally:
         set_threads(before)
     assert all((answer == answers[0]).all() for answer in answers)
@@ -94,13 +94,13 @@ def test_the_result_does_not_depend_on_the_number_of_threads():
 def test_the_computation_can_be_cancelled():
     asked = []
     polygons, _ = faces(grid(2, 2, 2))
-    assert light(polygons, lambda: asked.append(1) or len(asked) < 3) is None
+    assert ambient_light(polygons, lambda: asked.append(1) or len(asked) < 3) is None
     assert len(asked) == 3
 
 
 def test_no_polygons_give_empty_results():
     nothing = Polygons(np.zeros((0, 3)), np.zeros(1, np.int64), np.zeros(0, np.int64), np.zeros(0, np.int64))
-    assert light(nothing).shape == (0,)
+    assert ambient_light(nothing).shape == (0,)
     assert normals(nothing).shape == (0, 3)
 
 
@@ -114,7 +114,7 @@ def test_a_warped_quad_has_the_normal_across_its_diagonals():
 def test_a_polygon_without_an_area_has_no_normal():
     one = Polygons(np.zeros((4, 3)), np.array([0, 4]), np.arange(4), np.zeros(1, np.int64))
     np.testing.assert_array_equal(normals(one), 0)
-    np.testing.assert_array_equal(light(one), 1)
+    np.testing.assert_array_equal(ambient_light(one), 1)
 
 
 def test_dark_colours_remain_distinguishable():

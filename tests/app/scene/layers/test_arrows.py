@@ -66,28 +66,31 @@ def test_an_arrow_ends_at_the_end_of_its_path_and_the_length_of_its_head_is_limi
 
 def test_visible_or_all_nodes_that_have_moved_have_arrows(viewport):
     move(viewport)
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     every = int(MESH.free.sum())
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (every, every)
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (every, every)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.SIGHT)))
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)  # nodes of the boundary stay
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (
+        0,
+        0,
+    )  # nodes of the boundary stay
     look_at(viewport, Look(clip=CUT, traces=Traces(arrows=Arrows.SIGHT)))
-    assert 0 < viewport.extras.arrows.drawn < every
+    assert 0 < viewport.overlay_layers.arrows.drawn < every
     look_at(
         viewport, Look(clip=PlaneClip.at((1, 0, 0), (3.3, 3.0, 3.0), crinkle=False), traces=Traces(arrows=Arrows.SIGHT))
     )
-    assert 0 < viewport.extras.arrows.drawn < every
+    assert 0 < viewport.overlay_layers.arrows.drawn < every
     move(viewport, MESH.points, THEN.quality)
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)
 
 
 def test_the_longest_of_many_arrows_are_drawn(viewport, monkeypatch):
-    monkeypatch.setattr(layer, "MOST", 20)
+    monkeypatch.setattr(layer, "MAX_ARROWS", 20)
     look_at(viewport, Look(traces=Traces(arrows=Arrows.ALL)))
     move(viewport)
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (20, int(MESH.free.sum()))
-    starts = np.asarray(viewport.extras.arrows.lines.points)[::7]
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (20, int(MESH.free.sum()))
+    starts = np.asarray(viewport.overlay_layers.arrows.lines.points)[::7]
     longest = np.argsort(np.linalg.norm(NOW - MESH.points, axis=1))[-20:]
     np.testing.assert_allclose(starts, MESH.points[np.sort(longest)])
 
@@ -126,4 +129,4 @@ def test_colours_of_a_change_distinguish_newly_inverted_and_mended_hexes(viewpor
 def test_without_a_movement_nothing_has_moved(viewport):
     look_at(viewport, Look(scale=ColourScale("moved-most"), traces=Traces(arrows=Arrows.ALL)))
     assert (viewport.colouring.low, viewport.colouring.high) == (0.0, 1.0)
-    assert (viewport.extras.arrows.drawn, viewport.extras.arrows.moved) == (0, 0)
+    assert (viewport.overlay_layers.arrows.drawn, viewport.overlay_layers.arrows.moved) == (0, 0)

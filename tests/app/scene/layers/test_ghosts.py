@@ -42,7 +42,7 @@ def viewport(stage):
 def test_rings_around_isolated_hexes_are_ghosts(viewport, rings):
     viewport.draw(frame(isolation=Isolation((MIDDLE,), rings)))
     assert viewport.shown == 1
-    assert set(viewport.body.faces.hexes) == {MIDDLE}
+    assert set(viewport.mesh_layer.faces.hexes) == {MIDDLE}
     ghosts = viewport.filters.ghosts(viewport.frame)
     if not rings:
         assert ghosts is None

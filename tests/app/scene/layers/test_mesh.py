@@ -34,7 +34,7 @@ def draw(viewport, look=STEP, mesh=MESH):
 
 def drawn(viewport):
     """Return the polygons of the skin that are drawn."""
-    return pv.wrap(viewport.body.skin.actor.GetMapper().GetInput())
+    return pv.wrap(viewport.mesh_layer.skin.actor.GetMapper().GetInput())
 
 
 def shades(viewport):
@@ -54,13 +54,13 @@ def test_the_inner_edge_of_a_step_is_darker_after_shading(viewport):
 
 
 def test_shading_that_is_known_or_switched_off_is_not_computed(viewport):
-    assert viewport.body.needs_shading is None  # nothing is drawn
+    assert viewport.mesh_layer.needs_shading is None  # nothing is drawn
     draw(viewport)
-    assert viewport.body.needs_shading is not None
+    assert viewport.mesh_layer.needs_shading is not None
     viewport.shade()
-    assert viewport.body.needs_shading is None
+    assert viewport.mesh_layer.needs_shading is None
     draw(viewport, Look(dug=STEP.dug, shading=False))
-    assert viewport.body.needs_shading is None
+    assert viewport.mesh_layer.needs_shading is None
     np.testing.assert_allclose(shades(viewport), 1)
 
 
@@ -69,7 +69,7 @@ def test_other_colours_have_the_same_shading(viewport):
     viewport.shade()
     before = shades(viewport)
     draw(viewport, Look(dug=STEP.dug, scale=ColourScale(map="plasma", reverse=True)))
-    assert viewport.body.needs_shading is None
+    assert viewport.mesh_layer.needs_shading is None
     np.testing.assert_allclose(shades(viewport), before, atol=0.05)  # but for rounding
 
 
@@ -78,16 +78,16 @@ def test_shading_is_dropped_when_nodes_move(viewport):
     viewport.shade()
     moved = MESH.with_points(MESH.points + 0.1 * MESH.free[:, None])
     draw(viewport, mesh=moved)
-    assert viewport.body.needs_shading is not None
+    assert viewport.mesh_layer.needs_shading is not None
     np.testing.assert_allclose(shades(viewport), 1)
 
 
 def test_shading_of_an_outdated_scene_is_rejected(viewport):
     draw(viewport)
-    scene = viewport.body.needs_shading
-    light = occlusion.light(scene)
+    polygons = viewport.mesh_layer.needs_shading
+    light = occlusion.ambient_light(polygons)
     draw(viewport, Look())
-    assert not viewport.body.apply_shading(scene, light)
+    assert not viewport.mesh_layer.apply_shading(polygons, light)
     np.testing.assert_allclose(shades(viewport), 1)
 
 
@@ -119,20 +119,20 @@ def test_a_fine_quad_has_one_normal_and_its_own_corners(viewport):
 
 def test_sections_of_a_smooth_cut_face_the_removed_side(viewport):
     draw(viewport, Look(clip=PlaneClip.at((0, 0, 1), (0, 0, 2.5), False)))
-    section = pv.wrap(viewport.body.section.actor.GetMapper().GetInput())
+    section = pv.wrap(viewport.mesh_layer.section.actor.GetMapper().GetInput())
     np.testing.assert_allclose(section.point_normals, np.tile([0, 0, 1], (section.n_points, 1)), atol=1e-6)
     viewport.shade()
-    assert viewport.body.needs_shading is None
+    assert viewport.mesh_layer.needs_shading is None
 
 
 def test_a_neutral_look_can_be_switched_on_and_off(viewport):
     draw(viewport)
-    coloured = colours_of(viewport.body.whole).copy()
+    coloured = colours_of(viewport.mesh_layer.whole).copy()
     draw(viewport, Look(dug=STEP.dug, neutral=True))
-    inside = (np.abs(viewport.body.whole.cell_centers().points - 2) < 1e-9).any(axis=1)
-    seen = colours_of(viewport.body.whole)
+    inside = (np.abs(viewport.mesh_layer.whole.cell_centers().points - 2) < 1e-9).any(axis=1)
+    seen = colours_of(viewport.mesh_layer.whole)
     assert inside.any()
     assert (seen[inside] == OPENED).all()
     assert (seen[~inside] == OUTSIDE).all()
     draw(viewport)
-    np.testing.assert_array_equal(colours_of(viewport.body.whole), coloured)
+    np.testing.assert_array_equal(colours_of(viewport.mesh_layer.whole), coloured)

@@ -54,29 +54,29 @@ def test_it_is_visible_around_a_shrunk_mesh(drawn):
     drawn(frame(MESH.points))
     without, seen = drawn(frame(shrunk, OFF)), drawn(frame(shrunk))
     assert differ(without, seen) > 2000
-    assert drawn.viewport.extras.optional["original"].shown
-    np.testing.assert_array_equal(np.ptp(drawn.viewport.extras.optional["original"].places, axis=0), 4)
+    assert drawn.viewport.overlay_layers.optional["original"].shown
+    np.testing.assert_array_equal(np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0), 4)
 
 
 def test_it_stays_while_the_nodes_move(drawn):
     drawn(frame(MESH.points))
-    poly = drawn.viewport.extras.optional["original"].poly
+    poly = drawn.viewport.overlay_layers.optional["original"].poly
     drawn(frame(MESH.points * 1.1))
-    assert drawn.viewport.extras.optional["original"].poly is poly
+    assert drawn.viewport.overlay_layers.optional["original"].poly is poly
     drawn(Frame(MESH, measure(MESH.points, MESH.hexes), look=ON))  # nothing is known of the opened mesh
-    assert not drawn.viewport.extras.optional["original"].shown
+    assert not drawn.viewport.overlay_layers.optional["original"].shown
 
 
 def test_faces_of_hidden_hexes_are_not_drawn(drawn):
     half = Look(clip=PlaneClip.at((0, 0, 1), (2, 2, 1.9)), structure=Structure(original=True))
     drawn(frame(MESH.points))
-    assert len(drawn.viewport.extras.optional["original"].places) == MESH.topology.boundary.sum()
+    assert len(drawn.viewport.overlay_layers.optional["original"].places) == MESH.topology.boundary.sum()
     drawn(frame(MESH.points, half))
-    assert 0 < np.ptp(drawn.viewport.extras.optional["original"].places, axis=0)[2] < 3
+    assert 0 < np.ptp(drawn.viewport.overlay_layers.optional["original"].places, axis=0)[2] < 3
     drawn(frame(MESH.points, Look(peel=1, structure=Structure(original=True))))
-    assert not drawn.viewport.extras.optional["original"].shown
+    assert not drawn.viewport.overlay_layers.optional["original"].shown
     drawn(frame(MESH.points))
-    assert drawn.viewport.extras.optional["original"].shown
+    assert drawn.viewport.overlay_layers.optional["original"].shown
 
 
 def test_other_views_show_it_if_their_hexes_are_equal():

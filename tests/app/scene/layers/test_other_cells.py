@@ -74,13 +74,13 @@ def test_a_cut_removes_cells_by_their_centres():
 def test_they_are_drawn_unless_switched_off(drawn):
     mesh = hybrid()
     seen = drawn(frame(mesh))
-    assert drawn.viewport.extras.optional["others"].shown
+    assert drawn.viewport.overlay_layers.optional["others"].shown
     assert drawn.viewport.places[:, 2].max() == 2
-    poly = drawn.viewport.extras.optional["others"].poly
+    poly = drawn.viewport.overlay_layers.optional["others"].poly
     drawn(frame(mesh))
-    assert drawn.viewport.extras.optional["others"].poly is poly
+    assert drawn.viewport.overlay_layers.optional["others"].poly is poly
     without = drawn(frame(mesh, OFF))
-    assert not drawn.viewport.extras.optional["others"].shown
+    assert not drawn.viewport.overlay_layers.optional["others"].shown
     assert np.abs(seen - without).sum(axis=2).astype(bool).sum() > 500
 
 
@@ -88,10 +88,10 @@ def test_they_move_with_their_nodes(drawn):
     mesh = hybrid()
     drawn(frame(mesh))
     drawn(frame(mesh.with_points(mesh.points + [0, 0, 3])))
-    assert drawn.viewport.extras.optional["others"].places[:, 2].max() == 5
+    assert drawn.viewport.overlay_layers.optional["others"].places[:, 2].max() == 5
 
 
 def test_nothing_is_drawn_for_a_mesh_of_hexes_only(drawn):
     drawn(frame(hybrid()))
     drawn(frame(grid(2)))
-    assert not drawn.viewport.extras.optional["others"].shown
+    assert not drawn.viewport.overlay_layers.optional["others"].shown

@@ -84,7 +84,7 @@ def test_irregular_edges_are_visible_through_the_mesh_in_the_colour_of_their_val
 
 def test_visible_edges_are_thicker_than_hidden_ones(draw):
     through = count(draw(FIVE, Structure(irregular=True)), VALENCES[5])
-    draw.viewport.body.skin.actor.SetVisibility(False)
+    draw.viewport.mesh_layer.skin.actor.SetVisibility(False)
     assert count(draw.pixels(), VALENCES[5]) > 1.4 * through
 
 
@@ -138,7 +138,7 @@ def test_nodes_of_locked_hexes_are_marked(draw):
 def test_only_shown_hexes_have_marks(draw, clip):
     wanted = Structure(irregular=True, sharp=True, fixed=True)
     draw(FIVE, wanted, clip=clip)
-    layers = draw.viewport.extras.structure
+    layers = draw.viewport.overlay_layers.structure
     assert layers.irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers.irregular, layers.sharp, layers.nodes):
         assert marks.poly.points[:, 2].max() <= 0.75
@@ -153,7 +153,7 @@ def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
     draw(FIVE, Structure(irregular=True, fixed=True), shrink=0.3)
     moved = FIVE.points * [1, 1, 0.5]
     draw.viewport.draw(Frame(FIVE.with_points(moved), measure(moved, FIVE.hexes), look=draw.viewport.frame.look))
-    layers = draw.viewport.extras.structure
+    layers = draw.viewport.overlay_layers.structure
     axis = layers.irregular.poly.points
     assert axis[:, 2].max() == pytest.approx(0.75)
     corners = moved[FIVE.hexes]
@@ -165,7 +165,7 @@ def test_marks_move_with_the_nodes_and_with_shrunk_hexes(draw):
 def test_many_marks_are_drawn_in_full_only_in_fine_frames(draw, monkeypatch):
     monkeypatch.setattr("hexmend_app.scene.layers.optional.structure._MANY", 5)
     draw(FIVE, Structure(irregular=True))
-    layers = draw.viewport.extras.structure
+    layers = draw.viewport.overlay_layers.structure
     assert not layers.layer.GetDraw()
     draw.viewport.still()
     assert layers.layer.GetDraw()

@@ -33,11 +33,11 @@ def watched(monkeypatch):
         monkeypatch.setattr(part, name, lambda *what: (done.append(name), act(*what)))
 
     for part, name in (
-        (viewport.body, "set_mesh"),
-        (viewport.body, "rebuild"),
-        (viewport.body, "move"),
+        (viewport.mesh_layer, "set_mesh"),
+        (viewport.mesh_layer, "rebuild"),
+        (viewport.mesh_layer, "move"),
         (viewport.colours, "measure"),
-        (viewport.extras.selection, "set_mesh"),
+        (viewport.overlay_layers.selection, "set_mesh"),
     ):
         watch(part, name)
 
@@ -69,10 +69,10 @@ def test_the_same_frame_costs_nothing(watched):
 def test_moved_nodes_update_positions_only(watched):
     draw, viewport = watched
     draw(Frame(MESH, FIGURES))
-    faces = viewport.body.faces
+    faces = viewport.mesh_layer.faces
     assert draw(Frame(MESH.with_points(MOVED.points), MOVED_FIGURES)) == {"move", "measure"}
-    assert viewport.body.faces is faces
-    np.testing.assert_allclose(viewport.body.whole.points, faces.places(MOVED.points), rtol=1e-6)
+    assert viewport.mesh_layer.faces is faces
+    np.testing.assert_allclose(viewport.mesh_layer.whole.points, faces.places(MOVED.points), rtol=1e-6)
 
 
 def test_another_movement_is_measured(watched):

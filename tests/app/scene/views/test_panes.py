@@ -94,7 +94,7 @@ def test_all_views_share_a_camera(panes, pixels):
     assert all(view.camera is panes.first.camera for view in panes.all)
     before = pixels()
     panes.first.camera.Azimuth(40)
-    panes.eye.reset_depth()
+    panes.camera_controller.reset_depth()
     after = pixels()
     for left, low, right, high in grid(4):
         part = np.s_[round((1 - high) * 160) : round((1 - low) * 160), round(left * 240) : round(right * 240)]
@@ -104,8 +104,8 @@ def test_all_views_share_a_camera(panes, pixels):
 @pytest.mark.parametrize("parallel", [False, True])
 @pytest.mark.parametrize("at", [0.25, 0.5, 0.8])
 def test_both_halves_of_a_wipe_are_parts_of_one_picture(panes, at, parallel, pixels):
-    panes.eye.set_parallel(parallel)
-    panes.eye.fit()
+    panes.camera_controller.set_parallel(parallel)
+    panes.camera_controller.fit()
     panes.first.axes.widget.EnabledOff()
     whole = pixels()
     panes.show([shown(MESH)], Wipe(0, 1, at))
@@ -223,8 +223,8 @@ def test_all_views_have_the_same_reference_state(panes):
     panes.show([(OTHERS[2], measure(OTHERS[2].points, MESH.hexes))])
     other = panes.all[1]
     far = np.linalg.norm(OTHERS[2].points - MESH.points, axis=1).max() / MESH.mean_edge_length
-    assert panes.first.extras.arrows.drawn == panes.first.extras.arrows.moved == 0
-    assert other.extras.arrows.drawn == MESH.free.sum()
+    assert panes.first.overlay_layers.arrows.drawn == panes.first.overlay_layers.arrows.moved == 0
+    assert other.overlay_layers.arrows.drawn == MESH.free.sum()
     assert other.colouring.high == panes.first.colouring.high == pytest.approx(far)
     look_at(panes, look, Displacement(MESH, ReferenceState(OTHERS[0].points, second, "later"), MESH.points, first))
     assert other.colouring.title.endswith("since later")

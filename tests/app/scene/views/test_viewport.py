@@ -235,19 +235,19 @@ def test_a_marked_hex_is_visible_through_the_mesh_and_its_values_if_it_is_large(
     viewport, pixels = seen
     plain = pixels()
     inner = 21
-    viewport.extras.selection.select(inner, False, None)
+    viewport.overlay_layers.selection.select(inner, False, None)
     marked = pixels()
     assert 0 < (np.abs(marked - plain).max(axis=2) > 40).sum() < 0.2 * plain[:, :, 0].size
-    viewport.extras.selection.select(inner, True, None)
+    viewport.overlay_layers.selection.select(inner, True, None)
     np.testing.assert_array_equal(pixels(), marked)  # too small for figures
-    eye = CameraController.of(viewport)
-    eye.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
-    eye.reset_depth()
+    controller = CameraController.of(viewport)
+    controller.flight_to(MESH.points[MESH.hexes[[inner]]]).at(1.0)
+    controller.reset_depth()
     centre = MESH.points[MESH.hexes[inner]].mean(axis=0)
     np.testing.assert_allclose(pane.camera.GetFocalPoint(), centre)
     pane.camera.Dolly(2.0)
     near = pixels()
-    viewport.extras.selection.select(inner, False, None)
+    viewport.overlay_layers.selection.select(inner, False, None)
     assert (near != pixels()).any()
 
 
@@ -257,9 +257,9 @@ def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_res
     viewport.still()
     fine = pixels()
     viewport.turning()
-    mapper = viewport.body.skin.actor.GetMapper()
+    mapper = viewport.mesh_layer.skin.actor.GetMapper()
     rough = mapper.GetInput()
-    assert 0 < rough.GetNumberOfCells() != viewport.body.whole.GetNumberOfCells()
+    assert 0 < rough.GetNumberOfCells() != viewport.mesh_layer.whole.GetNumberOfCells()
     turned = pixels()
     body = (fine != fine[0, 0]).any(axis=2)
     assert ((turned != turned[0, 0]).any(axis=2) == body).mean() > 0.98  # the same shape
@@ -269,6 +269,6 @@ def test_a_large_skin_is_drawn_coarsely_while_the_camera_turns_and_finely_at_res
     assert (MESH.topology.face_neighbours[h] < 0).any()
     show(viewport, MESH)
     viewport.turning()
-    assert mapper.GetInput() is viewport.body.whole  # nodes that move are seen as they are
+    assert mapper.GetInput() is viewport.mesh_layer.whole  # nodes that move are seen as they are
     viewport.still()
     np.testing.assert_array_equal(pixels(), fine)

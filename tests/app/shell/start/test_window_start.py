@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hexmend_app.shell.features import first_names, names
+from hexmend_app.shell.features import feature_names, first_names
 from hexmend_app.shell.start.window_start import WindowStart
 from tests.patience import PATIENCE
 
@@ -23,7 +23,7 @@ def test_the_mesh_is_drawn_before_the_other_features_are_built(bare_window, qtbo
         pass
     assert drawn_by[0] == ("open", "appearance", "camera")
     assert set(first_names()) == set(drawn_by[0])
-    assert set(window.features) == set(names())
+    assert set(window.features) == set(feature_names())
     assert window.session.document.path == mesh_file
 
 

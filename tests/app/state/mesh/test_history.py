@@ -42,7 +42,7 @@ def test_every_iteration_is_recorded():
         largest = np.abs(iteration.points - MESH.points).max()
         np.testing.assert_allclose(state.mesh.points, iteration.points, rtol=0, atol=largest * 1.2e-7)
         np.testing.assert_array_equal(state.mesh.points[~MESH.free], MESH.points[~MESH.free])
-        assert history.moment_of(state) == RecordedIteration(record, iteration.number)
+        assert history.iteration_of(state) == RecordedIteration(record, iteration.number)
 
 
 def test_a_sliding_boundary_is_recorded_at_every_iteration():
@@ -105,7 +105,7 @@ def test_a_lower_limit_drops_positions_at_once_and_the_nearest_is_shown():
     numbers = history.recorded_numbers(record)
     assert len(numbers) == 5
     dropped = next(n for n in range(20) if n not in numbers)
-    moment = history.moment_of(history.state(RecordedIteration(record, dropped), MESH))
+    moment = history.iteration_of(history.state(RecordedIteration(record, dropped), MESH))
     assert moment.number in numbers
     assert abs(moment.number - dropped) == np.abs(numbers - dropped).min()
 
@@ -152,7 +152,7 @@ def test_tagging_and_pinning_do_not_change_the_iteration_of_a_state(number):
     shown = history.state(RecordedIteration(record, number), MESH)
     for change in ({"hex_sets": {"tagged": np.array([3])}}, {"pinned": MESH.topology.boundary.copy()}):
         changed = State.of(shown.mesh.replace(**change))
-        assert history.moment_of(changed) == RecordedIteration(record, number)
+        assert history.iteration_of(changed) == RecordedIteration(record, number)
         shown = changed  # the state before is deleted
     assert history.begin("Mend", shown).parent == RecordedIteration(record, number)
-    assert history.moment_of(State.of(scrambled(grid(5), 0.3))) is None
+    assert history.iteration_of(State.of(scrambled(grid(5), 0.3))) is None

@@ -3,7 +3,7 @@
 import numpy as np
 
 from hexmend_app.state.mesh.document import Document, State
-from hexmend_app.state.mesh.snapshots import MOST, Snapshots
+from hexmend_app.state.mesh.snapshots import MAX_SNAPSHOTS, Snapshots
 from tests.core.grids import grid, scrambled
 
 STATE = State.of(scrambled(grid(3), 0.6))
@@ -11,11 +11,11 @@ STATE = State.of(scrambled(grid(3), 0.6))
 
 def test_snapshots_have_unique_slots_and_names(qtbot):
     snapshots = Snapshots(Document())
-    for _ in range(MOST + 2):
+    for _ in range(MAX_SNAPSHOTS + 2):
         snapshots.add("mend 3", STATE)
     assert snapshots.full
-    assert [one.slot for one in snapshots.all] == list(range(MOST))
-    assert [one.name for one in snapshots.all] == ["mend 3", *(f"mend 3 ({k})" for k in range(2, MOST + 1))]
+    assert [one.slot for one in snapshots.all] == list(range(MAX_SNAPSHOTS))
+    assert [one.name for one in snapshots.all] == ["mend 3", *(f"mend 3 ({k})" for k in range(2, MAX_SNAPSHOTS + 1))]
 
 
 def test_a_free_slot_is_reused_and_the_others_do_not_change(qtbot):

@@ -41,7 +41,7 @@ def test_a_run_pauses_exactly_at_the_iteration_of_a_breakpoint(session, run, qtb
         smoothing.start(Laplacian(), StoppingCriteria(max_iterations=15, tolerance=0))
     assert hit.args[0].iteration.number == pauses[0]
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
-    assert smoothing.record.newest == pauses[0] == session.timeline.moment.number
+    assert smoothing.record.newest == pauses[0] == session.timeline.shown_iteration.number
     for number in pauses[1:3]:
         with qtbot.waitSignal(smoothing.hit, timeout=5000) as hit:
             smoothing.resume()

@@ -37,7 +37,7 @@ def test_no_iteration_is_lost_and_all_are_shown_in_order(session, qtbot):
     record = run(qtbot, session, iterations=40)
     assert [row["iteration"] for row in record.rows] == list(range(41))
     shown = []
-    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment))
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.shown_iteration))
     session.timeline.go(record, 0)
     for _ in range(40):
         session.timeline.step(1)
@@ -55,10 +55,10 @@ def test_a_run_is_one_undo_step_at_any_iteration(session, qtbot):
     assert session.document.undo_title == "Local steepest descent"
     session.document.undo()
     assert session.document.now is session.document.start
-    assert session.timeline.moment.number == 0
+    assert session.timeline.shown_iteration.number == 0
     session.document.redo()
     assert session.document.now is end
-    assert session.timeline.moment.number == 12
+    assert session.timeline.shown_iteration.number == 12
 
 
 def test_a_branch_starts_from_the_iteration_shown_and_is_one_undo_step(session, qtbot):
@@ -84,14 +84,14 @@ def test_earlier_iterations_can_be_shown_during_a_run(session, qtbot):
     assert not timeline.live
     newest = smoothing.record.newest
     qtbot.waitUntil(lambda: smoothing.record.newest > newest + 5, timeout=5000)
-    assert timeline.moment.number == 3
+    assert timeline.shown_iteration.number == 3
     timeline.go(smoothing.record, smoothing.record.newest)
     assert timeline.live
-    qtbot.waitUntil(lambda: timeline.moment.number > newest, timeout=5000)
+    qtbot.waitUntil(lambda: timeline.shown_iteration.number > newest, timeout=5000)
     timeline.go(smoothing.record, 3)
     with qtbot.waitSignal(smoothing.ended, timeout=5000):
         smoothing.stop()
-    assert timeline.moment.number == 3  # the result is recorded but not shown, as the user views an iteration
+    assert timeline.shown_iteration.number == 3  # the result is recorded but not shown, as the user views an iteration
     assert session.document.undo_title == "Local steepest descent"
 
 
@@ -101,14 +101,14 @@ def test_a_paused_run_resumes_from_its_newest_iteration(session, qtbot):
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=PATIENCE)
     timeline.go(smoothing.record, 2)
     smoothing.step(4)
-    qtbot.waitUntil(lambda: timeline.moment.number == 12, timeout=5000)
+    qtbot.waitUntil(lambda: timeline.shown_iteration.number == 12, timeout=5000)
     qtbot.waitUntil(lambda: smoothing.phase is Phase.PAUSED, timeout=5000)
 
 
 def test_playing_pauses_at_the_end(session, qtbot):
     record = run(qtbot, session)
     shown = []
-    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.shown_iteration.number))
     session.timeline.speed = 100
     session.timeline.play()
     assert session.timeline.playing
@@ -124,7 +124,7 @@ def test_playing_pauses_at_the_end(session, qtbot):
 def test_of_several_requests_the_last_counts(session, qtbot):
     record = run(qtbot, session)
     shown = []
-    session.timeline.moved.connect(lambda: shown.append(session.timeline.moment.number))
+    session.timeline.moved.connect(lambda: shown.append(session.timeline.shown_iteration.number))
     for number in (3, 9, 5):
         session.timeline.go_soon(record, number)
     qtbot.waitUntil(lambda: shown == [5], timeout=2000)
@@ -136,16 +136,16 @@ def test_another_mesh_has_no_history_yet(session, qtbot):
     assert session.history.records == []
     assert session.history.bytes == 0
     assert session.timeline.record is None
-    assert session.timeline.moment is None
+    assert session.timeline.shown_iteration is None
 
 
 def test_tagging_does_not_change_the_iteration_shown(session, qtbot):
     record = run(qtbot, session)
     commands = session.commands
     commands.tag("bad", [1, 2])
-    assert (session.timeline.record, session.timeline.moment) == (record, RecordedIteration(record, 12))
+    assert (session.timeline.record, session.timeline.shown_iteration) == (record, RecordedIteration(record, 12))
     session.timeline.go(record, 5)
     commands.tag("worse", [3])
-    assert session.timeline.moment == RecordedIteration(record, 5)
+    assert session.timeline.shown_iteration == RecordedIteration(record, 5)
     session.document.undo()
-    assert session.timeline.moment == RecordedIteration(record, 12)
+    assert session.timeline.shown_iteration == RecordedIteration(record, 12)

@@ -9,7 +9,7 @@ from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.bench.windows import save_and_wait
 from hexmend_app.picture import Camera
-from hexmend_app.picture.named_cameras import MOST, NamedCameras, cameras_of, merged
+from hexmend_app.picture.named_cameras import MAX_CAMERAS, NamedCameras, cameras_of, merged
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
 from hexmend_app.state.session.session import Session
@@ -49,12 +49,12 @@ def test_an_invalid_name_is_an_error(cameras, name):
 
 
 def test_the_number_of_cameras_is_limited(cameras):
-    for number in range(MOST):
+    for number in range(MAX_CAMERAS):
         cameras.add(str(number), X)
     with pytest.raises(ParameterError, match="101 entries: expected 100"):
         cameras.add("one more", X)
     cameras.add_all({"another": Y, "3": X})
-    assert len(cameras.all) == MOST
+    assert len(cameras.all) == MAX_CAMERAS
 
 
 def test_cameras_of_a_scene_are_added_under_free_names(cameras):

@@ -5,7 +5,7 @@ import pytest
 from hexmend import gallery
 from hexmend_app.state.mesh.document import Document, State
 from hexmend_app.state.mesh.snapshots import Snapshots
-from hexmend_app.state.view.side_views import MOST, SideViews, Wipe
+from hexmend_app.state.view.side_views import MAX_SIDE_VIEWS, SideViews, Wipe
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def test_there_are_at_most_three_side_views(views, states):
     assert [views.show(str(k), state) for k, state in enumerate(states)] == [True, True, True, False]
     assert counts == [1, 2, 3]
     assert views.full
-    assert MOST == 3
+    assert MAX_SIDE_VIEWS == 3
     assert [views.shows(state) for state in states] == [True, True, True, False]
 
 

@@ -174,7 +174,7 @@ class StructureLayers:
         mask = np.ones(len(edges), bool)
         if self._keep is not None:
             skin.edges_kept(self._mesh.hexes, rows.start, rows.items, edges, self._keep, mask)
-        return mask & uncut(self._look, points[edges].mean(axis=1))
+        return mask & points_kept_by_cut(self._look, points[edges].mean(axis=1))
 
     def _draw_nodes(self, points: np.ndarray, figures: ElementQuality) -> None:
         switches = self._look.structure
@@ -186,7 +186,7 @@ class StructureLayers:
         if switches.kinds and self._kinds is None:
             self._kinds = node_classes(self._mesh, FEATURE_ANGLE)
         kinds = node_marks(self._mesh, points, figures, switches, self._kinds)[self._faces.nodes]
-        marked = (kinds > 0) & uncut(self._look, places)
+        marked = (kinds > 0) & points_kept_by_cut(self._look, places)
         for marks, nodes in ((self.nodes, marked & (kinds != _LOCKED)), (self._locked, marked & (kinds == _LOCKED))):
             marks.show(np.flatnonzero(nodes)[:, None], _COLOURS[kinds[nodes]], places)
 
@@ -240,7 +240,7 @@ def node_marks(
     return marks
 
 
-def uncut(look: Look, points: np.ndarray) -> np.ndarray | bool:
+def points_kept_by_cut(look: Look, points: np.ndarray) -> np.ndarray | bool:
     """Return True for points, (k, 3), that a smooth cut leaves; True if there is no smooth cut."""
     clip = look.clip
     if clip is None or clip.crinkle:

@@ -24,7 +24,7 @@ def raise_error(error: Exception) -> None:
     raise error
 
 
-class ExtraLayers:
+class OverlayLayers:
     """Draws ghosts, the outline, the structure, arrows, the selection and the optional layers.
 
     A layer that raises is reported and hidden until another mesh is drawn; the other layers are not affected.

@@ -12,16 +12,16 @@ from hexmend_app.scene.views.panes import Panes
 from hexmend_app.state.tasks.task import Task, drop
 
 
-class Lighting(QObject):
+class ShadingTask(QObject):
     """Computes the shading of the visible views in the background, one view at a time.
 
     Signals
     -------
-    lit
+    finished
         The shading of a view has been computed; the view must be drawn again.
     """
 
-    lit = Signal()
+    finished = Signal()
 
     def __init__(self, panes: Panes, parent: QObject | None = None):
         super().__init__(parent)
@@ -37,28 +37,28 @@ class Lighting(QObject):
         """Compute the missing shading of fine frames."""
         if self._task is not None:
             return
-        for view in self._panes.seen:
-            scene = view.body.needs_shading
-            if scene is not None:
-                self._begin(view.body, scene)
+        for view in self._panes.visible:
+            polygons = view.mesh_layer.needs_shading
+            if polygons is not None:
+                self._begin(view.mesh_layer, polygons)
                 return
 
-    def _begin(self, mesh_layer: MeshLayer, scene: Polygons) -> None:
+    def _begin(self, mesh_layer: MeshLayer, polygons: Polygons) -> None:
         def work(task: Task) -> np.ndarray | None:
-            return occlusion.light(scene, lambda: mesh_layer.draws(scene) and not task.cancelled.is_set())
+            return occlusion.ambient_light(polygons, lambda: mesh_layer.draws(polygons) and not task.cancelled.is_set())
 
-        self._target = mesh_layer, scene
+        self._target = mesh_layer, polygons
         self._task = Task("shading of the mesh", work, yields=True)
         self._task.ended.connect(self._finish)
         self._task.start()
 
     def _finish(self) -> None:
         task, self._task = self._task, None
-        mesh_layer, scene = self._target
+        mesh_layer, polygons = self._target
         if task.error is not None:
             raise task.error
-        if task.result is not None and mesh_layer.apply_shading(scene, task.result):
-            self.lit.emit()
+        if task.result is not None and mesh_layer.apply_shading(polygons, task.result):
+            self.finished.emit()
         self.start()
 
     def shut_down(self) -> None:
