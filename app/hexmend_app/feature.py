@@ -201,6 +201,9 @@ class Feature(QObject):
         """Return the parts of the state of this feature that session files store."""
         return ()
 
+    def actions_ready(self) -> None:
+        """Show actions on buttons: the actions of all features have just been built; see `Host.action`."""
+
     def canvas_ready(self, canvas: Canvas) -> None:
         """Use the 3D view, which has just been built."""
 

@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 
 from hexmend_app.feature import MENUS, Action, ActionFace
-from hexmend_app.shell.mnemonics import letter_of, letters, with_mnemonic
+from hexmend_app.shell.mnemonics import letter_of, letters, with_mnemonic, without_mnemonic
 from hexmend_app.theme.style import icon
 from hexmend_app.translation import tr
 
@@ -77,7 +77,7 @@ class Menus:
             raise ValueError(f"two features declare an action {declared.id!r}")
         action = QAction(declared.text, self._window)
         action.setShortcut(QKeySequence(declared.keys))
-        action.setProperty("name", declared.text.replace("&", "").rstrip("…"))
+        action.setProperty("name", without_mnemonic(declared.text).rstrip("…"))
         _show_face(action, ActionFace(declared.tool, declared.icon, declared.help))
         action.setProperty("within", tr(declared.menu.rpartition("/")[2]) if "/" in declared.menu else "")
         action.setCheckable(declared.checked is not None)
@@ -109,7 +109,7 @@ class Menus:
                 _show_face(action, face)
             if declared.title is not None:
                 action.setText(with_mnemonic(declared.title(), letter_of(action.text())))
-                action.setIconText(declared.tool or declared.text.replace("&", ""))
+                action.setIconText(declared.tool or without_mnemonic(declared.text))
 
     def declared(self) -> Iterable[Action]:
         """Return the declarations of all actions."""

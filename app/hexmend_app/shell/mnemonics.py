@@ -14,6 +14,11 @@ def letter_of(text: str) -> str:
     return text.partition("&")[2][:1].lower()
 
 
+def without_mnemonic(text: str) -> str:
+    """Return a text without the ampersand of its mnemonic."""
+    return text.replace("&", "")
+
+
 def letters(texts: Sequence[str]) -> list[str]:
     """Return distinct mnemonics for the texts of a menu in lower case; "" if no letter is left.
 
@@ -45,7 +50,7 @@ def with_mnemonic(text: str, letter: str) -> str:
     """
     if letter_of(text) == letter:
         return text
-    text = text.replace("&", "")
+    text = without_mnemonic(text)
     places = [at for at, character in enumerate(text) if character.lower() == letter]
     at = min(places, key=lambda at: (not _begins_word(text, at), at), default=None)
     return text if at is None else f"{text[:at]}&{text[at:]}"
@@ -56,7 +61,7 @@ def _assign(at: int, texts: Sequence[str], owners: dict[str, int], closed: set[s
 
     Letters in `closed` are not tried; those that are tried are added to it.
     """
-    text = texts[at].replace("&", "")
+    text = without_mnemonic(texts[at])
     initials = [character for place, character in enumerate(text) if _begins_word(text, place)]
     candidates = [character.lower() for character in (*initials, *text) if character.isalnum()]
     free = next((letter for letter in candidates if letter not in owners), "")

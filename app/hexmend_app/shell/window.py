@@ -121,6 +121,8 @@ class Window(QMainWindow):
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
         actions = declared(in_menu_order, lambda feature: feature.actions())
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
+        for feature in self.features.values():
+            feature.actions_ready()
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready(self.canvas)

@@ -154,6 +154,10 @@ class FeatureHexInspector(Feature):
             ),
         )
 
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.worst_list.show_actions(self.host.action("previous_worst"), self.host.action("next_worst"))
+
     def panels(self) -> Sequence[Panel]:
         """Return the list of the worst hexes and the panel of the selected hex."""
         return (
@@ -182,8 +186,6 @@ class FeatureHexInspector(Feature):
 
     def refresh(self) -> None:
         """Update the selection and the list of the worst hexes."""
-        if self._seen.changed("actions", True):
-            self.worst_list.show_actions(self.host.action("previous_worst"), self.host.action("next_worst"))
         if not self._document.is_open:
             return
         now, selection = self._document.now, self._selection

@@ -10,7 +10,7 @@ from PySide6.QtCore import QTimer
 
 from hexmend.node_step import NodeStep
 from hexmend.smoothers import METHODS
-from hexmend_app.feature import Action, ActionFace, ChangeTracker, Feature, Host, Panel, PanelPlace, StatePart
+from hexmend_app.feature import Action, ActionFace, Feature, Host, Panel, PanelPlace, StatePart
 from hexmend_app.features.node_step.panel import SWEEP, NodePanel
 from hexmend_app.features.node_step.reasons import reason_for_no_step, reason_for_no_sweep, worst_free_node
 from hexmend_app.picture.appearance import Isolation
@@ -44,7 +44,6 @@ class FeatureNodeStep(Feature):
         self._request: tuple | None = None
         self._shown: NodeStep | None = None
         self._isolation: Isolation | None = None
-        self._seen = ChangeTracker()
         panel = self.panel = NodePanel()
         self._computing_timer = QTimer(panel, singleShot=True, interval=_COMPUTING_DELAY)
         self._computing_timer.timeout.connect(
@@ -88,6 +87,10 @@ class FeatureNodeStep(Feature):
         """Return the isolation of the patch of the node."""
         return (StatePart(name="patch", data=bool, to_data=lambda: self.panel.patch_alone, restore=self._take_patch),)
 
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
+
     def panels(self) -> Sequence[Panel]:
         """Return the panel of the node's step."""
         return (
@@ -106,8 +109,6 @@ class FeatureNodeStep(Feature):
     def refresh(self) -> None:
         """Show the step of the selected node, or the reason why it has none."""
         sweep = self._node_sweep.sweep
-        if self._seen.changed("actions", True):
-            self.panel.show_actions({id: self.host.action(id) for id in SWEEP})
         self.panel.set_sweep(*((sweep.done, sweep.nodes.size) if sweep else ()))
         if self._view.look.isolation != self._isolation:
             self._isolation = None

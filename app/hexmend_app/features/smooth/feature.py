@@ -103,6 +103,10 @@ class FeatureSmooth(Feature):
         )
         return (steps,)
 
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.panel.buttons.show_actions({id: self.host.action(id) for id in _BUTTONS})
+
     def panels(self) -> Sequence[Panel]:
         """Return the panel with the method and its parameters."""
         return (
@@ -120,8 +124,6 @@ class FeatureSmooth(Feature):
     def refresh(self) -> None:
         """Show the progress of the run, or the run that produced the displayed mesh."""
         session, phase = self.session, self._smoothing.phase
-        if self._seen.changed("actions", True):
-            self.panel.buttons.show_actions({id: self.host.action(id) for id in _BUTTONS})
         self.panel.setEnabled(self._ready())
         selection, form = session.selection, self.panel.breakpoint_form
         if self._seen.changed("selection", selection.hex, selection.node):

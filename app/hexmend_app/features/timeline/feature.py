@@ -60,6 +60,10 @@ class FeatureTimeline(Feature):
             for (name, text, keys, icon, help), handle in zip(_STEPS, self._handles(), strict=True)
         ]
 
+    def actions_ready(self) -> None:
+        """Show actions on the buttons of the panel."""
+        self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
+
     def panels(self) -> Sequence[Panel]:
         """Return the bar below the view."""
         return (
@@ -75,8 +79,6 @@ class FeatureTimeline(Feature):
     def refresh(self) -> None:
         """Show the runs, and the run and iteration displayed."""
         timeline, history = self._timeline, self.session.history
-        if self._seen.changed("actions", True):
-            self.panel.show_actions({name: self.host.action(f"iteration_{name}") for name, *_ in _STEPS})
         self.panel.setVisible(self.session.document.is_open)
         if self._seen.changed("runs", tuple(history.records)):
             self.panel.set_runs([_text(record) for record in history.records])

@@ -16,6 +16,7 @@ from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import METHODS
 from hexmend_app.feature import Panel
+from hexmend_app.shell.mnemonics import without_mnemonic
 from hexmend_app.shell.palette.ranking import PaletteEntry
 from hexmend_app.shell.panels.docks import Docks
 from hexmend_app.widgets.section import Section
@@ -38,7 +39,7 @@ def command_entries(actions: Mapping[str, QAction]) -> Iterator[PaletteEntry]:
     for id, action in actions.items():
         if not action.isEnabled() or id.startswith("panel_"):
             continue
-        name = action.text().replace("&", "")
+        name = without_mnemonic(action.text())
         if action.isCheckable():
             name = f"{name}: {'on' if action.isChecked() else 'off'}"
         yield PaletteEntry(
