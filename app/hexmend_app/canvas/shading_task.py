@@ -54,6 +54,8 @@ class ShadingTask(QObject):
 
     def _finish(self) -> None:
         task, self._task = self._task, None
+        if task is None:  # it ended while the view was closed
+            return
         mesh_layer, polygons = self._target
         if task.error is not None:
             raise task.error
