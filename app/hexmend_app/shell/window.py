@@ -121,8 +121,7 @@ class Window(QMainWindow):
         in_menu_order = sorted(self.features.values(), key=lambda feature: feature.menu_order)
         actions = declared(in_menu_order, lambda feature: feature.actions())
         self._menus = Menus(self, [*actions, *declare_actions(self, panels)])
-        for feature in self.features.values():
-            feature.actions_ready()
+        self._call_features(lambda feature: feature.actions_ready())
         if self.canvas is not None:
             for feature in added:
                 feature.canvas_ready(self.canvas)
@@ -241,7 +240,7 @@ class Window(QMainWindow):
         self._timer.stop()
         if self.session is None:
             return
-        self._refresh_features(lambda feature: feature.refresh())
+        self._call_features(lambda feature: feature.refresh())
         self._refresh_menus()
         # Esc dismisses messages first, then cancels opening.
         self.busy.take_escape("open" if self.session.opener.busy and self.messages.isHidden() else "")
@@ -253,16 +252,17 @@ class Window(QMainWindow):
 
     def refresh_iteration(self) -> None:
         """Show the newest iteration of a run."""
-        self._refresh_features(lambda feature: feature.refresh_iteration())
+        self._call_features(lambda feature: feature.refresh_iteration())
         if monotonic() - self._menus_shown > _MENUS_PERIOD:
             self._refresh_menus()
         self._counts.refresh(self.session)
 
-    def _refresh_features(self, refresh: Callable[[Feature], object]) -> None:
+    def _call_features(self, call: Callable[[Feature], object]) -> None:
+        """Call each feature, in the order in which they are refreshed; those that raise are reported."""
         for feature in sorted(self.features.values(), key=lambda feature: feature.refresh_order):
             try:
-                refresh(feature)
-            except Exception:  # refresh the other features nevertheless
+                call(feature)
+            except Exception:  # call the other features nevertheless
                 sys.excepthook(*sys.exc_info())
 
     def _refresh_menus(self) -> None:

@@ -200,6 +200,8 @@ def test_a_window_without_the_feature_keeps_its_data_and_one_with_it_refuses_oth
 
 def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_path, monkeypatch):
     _add_folder(tmp_path, monkeypatch, "not_importable", "raise RuntimeError('at import')")
+    _add_folder(tmp_path, monkeypatch, "broken_package", EXAMPLE)
+    (tmp_path / "broken_package" / "__init__.py").write_text("raise LookupError('in the package')", encoding="utf-8")
     source = EXAMPLE.replace("class FeatureVolume", "class FeatureTwice(Feature):\n    pass\n\n\nclass FeatureVolume")
     _add_folder(tmp_path, monkeypatch, "two_classes", source)
     _add_folder(
@@ -209,7 +211,7 @@ def test_features_that_raise_are_reported_and_the_others_are_built(qtbot, tmp_pa
     monkeypatch.setattr(sys, "excepthook", lambda kind, error, trace: reported.append(kind))
     window = Window()
     window.build_features()
-    assert set(reported) >= {RuntimeError, TypeError, ZeroDivisionError}
+    assert set(reported) >= {RuntimeError, LookupError, TypeError, ZeroDivisionError}
     assert {"smooth", "cut", "histogram", "no_actions"} <= window.features.keys()
     assert "not_importable" not in window.features
     assert window.action("run").text() == "&Run or pause"

@@ -204,6 +204,8 @@ def read(path: Path) -> SessionData:
 
 def _with_features(window: dict[str, Any]) -> dict[str, Any]:
     """Move the camera and the settings of panels, as an earlier version wrote them, to the data of features."""
+    if not isinstance(window, dict) or not isinstance(window.get("choices", {}), dict):
+        raise DecodeError("the window or its choices are not a table")
     window = dict(window)
     history = window.pop("journey", {"before": [], "after": [], "left": None})
     camera = {"pose": window.pop("eye", None), "history": history}

@@ -99,6 +99,7 @@ class SessionParts(QObject):
         )
         self.saved_cameras = self._add_part("cameras", SavedCameras(self), "changed")
         self.feature_states = self._add_part("features", FeatureStates(self), "changed")
+        document.mesh_replaced.connect(self.feature_states.forget_undeclared)
         self.comparison_bases = ComparisonBases(document, self.history)
         self.camera_request = CameraRequest(self)
         self.opener = MeshOpener(document, self)

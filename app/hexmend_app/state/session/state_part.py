@@ -122,6 +122,10 @@ class FeatureStates(QObject):
             if name in data:
                 self._restore(part, data[name])
 
+    def forget_undeclared(self) -> None:
+        """Drop the data of parts that are not declared: they belong to the mesh that was open."""
+        self._unclaimed.clear()
+
     def close(self) -> None:
         """End all work of the parts."""
         for part in self._parts.values():
