@@ -154,8 +154,7 @@ class Mesh:
         """
         fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
         if motion is not None:
-            for nodes in motion.nodes, motion.tied, motion.master:
-                fixed[nodes] = ~self.topology.used[nodes]
+            fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
         fixed = fixed if self.pinned is None else fixed | self.pinned
         return as_immutable(fixed if motion is None else with_ties_fixed(motion, fixed))
 
@@ -283,6 +282,11 @@ class Mesh:
             )
         return self._copy(_motion=motion, _motion_start=self.points)
 
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self.__dict__.get("_motion_start", self.points)
+
     def constrained(self, points: np.ndarray) -> np.ndarray:
         """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
 
@@ -292,7 +296,7 @@ class Mesh:
             Returned themselves if the mesh has no linear motion; not changed.
         """
         motion = self.linear_motion
-        return points if motion is None else constrained_points(motion, self._motion_start, points, self.free)
+        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
@@ -354,7 +358,7 @@ class Mesh:
         if self.target is not None:
             mesh._set(_target=self.target)
         if self.linear_motion is not None and "points" not in changes:
-            mesh._set(_motion=self.linear_motion, _motion_start=self._motion_start)
+            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import as_immutable, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import subspaces
 from hexmend.mesh.linear_motion.ties import resolved
@@ -197,6 +197,10 @@ class LinearMotion:
     def largest_node(self) -> int:
         """The largest node number, -1 if there is none."""
         return int(max(part.max(initial=-1) for part in (self.nodes, self.tied, self.master)))
+
+    def marks(self, n: int) -> np.ndarray:
+        """Mark the nodes, of n, that are restricted, tied, or followed by others, (n,) bool."""
+        return mask(np.concatenate([self.nodes, self.tied, self.master]), n)
 
     def __bool__(self) -> bool:
         return self.largest_node >= 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, SlidingEnergy
+from hexmend.energy import POLICIES, DeltaPolicy, MeshEnergy, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.descent import descend
@@ -30,7 +30,7 @@ class GlobalDescent(Optimiser):
 
     def steps(self, mesh: Mesh) -> Steps:
         sliding = self.sliding(mesh)
-        energy = MeshEnergy(mesh, self.norm) if sliding is None else SlidingEnergy(sliding, self.norm)
+        energy = energy_of(mesh, self.norm, sliding)
         find, policy, search = self.direction(), self.policy(energy), self.line_search
         points = energy.mesh.points
         x = energy.to_edge_units(points)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
@@ -80,7 +80,7 @@ class Mend(ObjectiveSmoother):
         if self.slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
             quality = measure(mesh.points, mesh.hexes)
-        shape = yield from self._shape(mesh, MeshEnergy(mesh, norm), quality, intermediate)
+        shape = yield from self._shape(mesh, energy_of(mesh, norm), quality, intermediate)
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
@@ -93,7 +93,7 @@ class Mend(ObjectiveSmoother):
             yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
             freed = mesh.with_points(optimiser.points)
             quality = measure(freed.points, mesh.hexes)
-            shape = yield from self._shape(freed, SlidingEnergy(sliding, norm), quality, intermediate)
+            shape = yield from self._shape(freed, energy_of(mesh, norm, sliding), quality, intermediate)
             candidates += [freed.points, shape.points]
         result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
         points = shape.points if result is None else result.optimiser.points
