@@ -47,12 +47,15 @@ class LinearMotionEnergy(MeshEnergy):
     ----------
     nodes : (j,) int32
         Independent nodes; row i of a gradient belongs to nodes[i] and all that follow it.
+    slides : bool
+        The boundary slides.
     """
 
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
+        self.slides = isinstance(energy, SlidingEnergy)
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> LinearMotionEnergy:
         other = super().with_objective(norm, omitted)

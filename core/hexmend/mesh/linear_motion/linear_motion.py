@@ -173,7 +173,7 @@ class LinearMotion:
             If a node is removed that others follow.
         """
         tied, master, rotations = self.tied, self.master, self.rotations
-        gone = number[master] < 0
+        gone = (number[master] < 0) & (number[tied] >= 0)
         if gone.any():
             raise MeshError(
                 f"node {master[gone][0]} is removed, but node {tied[gone][0]} moves with it: remove both, or end the "

@@ -29,6 +29,7 @@ class GlobalDescent(Optimiser):
         return POLICIES[self.delta_policy](self.delta / (1.0 if self.delta_unit == "edge" else energy.unit**3))
 
     def steps(self, mesh: Mesh) -> Steps:
+        mesh = mesh.with_points(mesh.constrained(mesh.points))
         sliding = self.sliding(mesh)
         energy = energy_of(mesh, self.norm, sliding)
         find, policy, search = self.direction(), self.policy(energy), self.line_search

@@ -73,6 +73,7 @@ class Mend(ObjectiveSmoother):
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
+        mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
         norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.maximises_jacobian
         quality = measure(mesh.points, mesh.hexes)
@@ -80,7 +81,8 @@ class Mend(ObjectiveSmoother):
         if self.slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
             quality = measure(mesh.points, mesh.hexes)
-        shape = yield from self._shape(mesh, energy_of(mesh, norm), quality, intermediate)
+        energy = energy_of(mesh, norm)
+        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
