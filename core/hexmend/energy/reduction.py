@@ -36,9 +36,9 @@ class Reduction:
     def __init__(self, mesh: Mesh):
         motion, n = mesh.linear_motion, mesh.n_nodes
         free = np.flatnonzero(mesh.free)
-        root, turn = np.arange(n), np.tile(np.eye(3), (n, 1, 1))
+        root, turn = motion.roots(n), np.tile(np.eye(3), (n, 1, 1))
         turn[motion.nodes] = motion.projectors
-        root[motion.tied], turn[motion.tied] = motion.master, motion.rotations @ turn[motion.master]
+        turn[motion.tied] = motion.rotations @ turn[motion.master]
         self.mesh, self.root = mesh, root
         self.nodes = free[root[free] == free].astype(np.int32)
         self.row = index_of(self.nodes, n)[root[free]]

@@ -54,8 +54,7 @@ class ConstrainedSweeps:
     """
 
     def __init__(self, mesh: Mesh, chosen: np.ndarray, norm: ObjectiveNorm, omitted: np.ndarray | None = None):
-        motion, root = mesh.linear_motion, np.arange(mesh.n_nodes)
-        root[motion.tied] = motion.master
+        root = mesh.linear_motion.roots(mesh.n_nodes)
         moves = np.zeros(mesh.n_nodes, dtype=bool)
         moves[root[chosen & mesh.free]] = True
         colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)

@@ -198,6 +198,12 @@ class LinearMotion:
         """The largest node number, -1 if there is none."""
         return int(max(part.max(initial=-1) for part in (self.nodes, self.tied, self.master)))
 
+    def roots(self, n: int) -> np.ndarray:
+        """Node that each of n nodes moves with: the master of a tied node, else itself; (n,) int64."""
+        roots = np.arange(n)
+        roots[self.tied] = self.master
+        return roots
+
     def marks(self, n: int) -> np.ndarray:
         """Mark the nodes, of n, that are restricted, tied, or followed by others, (n,) bool."""
         return mask(np.concatenate([self.nodes, self.tied, self.master]), n)

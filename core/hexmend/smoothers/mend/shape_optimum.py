@@ -106,8 +106,6 @@ def _minimise(
         judged = energy.faceted and len(values) > config.window
         if judged and values[-config.window] - values[-1] < min_fall * values[-1]:
             return ShapeOptimum(points, Outcome.NO_IMPROVEMENT)
-        if intermediate and not p_will_rise and -descent.slope <= config.rounding * descent.value:
-            break
         move = largest_norm(descent.x - energy.to_edge_units(points))
         x, points, full_step = descent.x, energy.to_mesh_units(descent.x), descent.backtracks == 0
         diagnostics = descent.diagnostics(0.0) | {"p": energy.norm.p}
