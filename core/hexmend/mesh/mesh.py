@@ -23,7 +23,6 @@ from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
 
-
 #: Attributes of a mesh that are no fields: the surfaces for sliding, and the linear motion with its start.
 _HIDDEN = ("_surface", "_target", "_motion", "_motion_start")
 

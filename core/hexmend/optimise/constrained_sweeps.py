@@ -80,7 +80,9 @@ class ConstrainedSweeps:
 class _Colour:
     """Independent nodes that share no hex, with the hexes at them and at the nodes tied to them."""
 
-    def __init__(self, mesh: Mesh, root: np.ndarray, nodes: np.ndarray, norm: ObjectiveNorm, omitted: np.ndarray | None):
+    def __init__(
+        self, mesh: Mesh, root: np.ndarray, nodes: np.ndarray, norm: ObjectiveNorm, omitted: np.ndarray | None
+    ):
         index = index_of(nodes, mesh.n_nodes)
         hexes = np.flatnonzero((index[root[mesh.hexes]] >= 0).any(axis=1))
         self._nodes = np.union1d(mesh.hexes[hexes], nodes)

@@ -18,7 +18,9 @@ INNER = np.flatnonzero(~BLOCK.topology.boundary)
 PLANES = planes(BLOCK)
 MOTIONS = {
     "planes": PLANES,
-    "skew plane inside": LinearMotion.in_planes(INNER[:1], [1.0, 2, 3]).merge(LinearMotion.along_lines(X1, [1.0, 1, 0])),
+    "skew plane inside": LinearMotion.in_planes(INNER[:1], [1.0, 2, 3]).merge(
+        LinearMotion.along_lines(X1, [1.0, 1, 0])
+    ),
     "translation": LinearMotion.tying(X1, X0),
     "rotation": LinearMotion.tying(X1, X0, turn(25)),
     "within hexes": LinearMotion.tying(BLOCK.hexes[0][1:4], BLOCK.hexes[0][[0, 0, 0]], turn(70, 1)),
@@ -44,9 +46,9 @@ def test_gradient_is_that_of_differences(name, seed, p):
     rise = energy.value(energy.moved(x, step, t), delta) - energy.value(energy.moved(x, step, -t), delta)
     gradient = energy.gradient(x, delta)
     assert rise / (2 * t) == pytest.approx((gradient * step).sum(), rel=1e-5, abs=1e-5 * np.abs(gradient).sum())
-    assert not energy.reduction.inadmissible(gradient).any() or np.abs(energy.reduction.inadmissible(gradient)).max() < (
-        1e-12 * np.abs(gradient).max()
-    )
+    assert not energy.reduction.inadmissible(gradient).any() or np.abs(
+        energy.reduction.inadmissible(gradient)
+    ).max() < (1e-12 * np.abs(gradient).max())
 
 
 @settings(max_examples=40, deadline=None)

@@ -238,7 +238,9 @@ def _as_vectors(values: object, label: str, nodes: np.ndarray) -> np.ndarray:
     wrong = np.flatnonzero(~(np.isfinite(array).all(axis=1) & (array != 0).any(axis=1)))
     if wrong.size:
         row = wrong[0]
-        raise MeshError(f"{label} of node {nodes[row]} are {array[row].tolist()}: expected a finite vector other than 0")
+        raise MeshError(
+            f"{label} of node {nodes[row]} are {array[row].tolist()}: expected a finite vector other than 0"
+        )
     return array
 
 

@@ -66,7 +66,9 @@ def _with_tied(directions: StepDirections, nodes: np.ndarray, row: np.ndarray, m
     first = np.searchsorted(directions.node_index, np.arange(nodes.size + 1))
     count = first[master + 1] - first[master]
     unknown = np.arange(count.sum()) + np.repeat(first[master] - np.cumsum(count) + count, count)
-    turned = np.einsum("kij,kj->ki", np.repeat(motion.rotations[tied], count, axis=0), directions.displacements[unknown])
+    turned = np.einsum(
+        "kij,kj->ki", np.repeat(motion.rotations[tied], count, axis=0), directions.displacements[unknown]
+    )
     return _sorted(
         np.concatenate([directions.node_index, np.repeat(row[motion.tied[tied]], count)]),
         np.concatenate([directions.displacements, turned]),

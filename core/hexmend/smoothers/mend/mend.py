@@ -35,6 +35,7 @@ class Mend(ObjectiveSmoother):
     help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
+    keeps_linear_motion = True
 
     goal: str = parameter(
         "shape",
@@ -73,7 +74,8 @@ class Mend(ObjectiveSmoother):
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
-        mesh = mesh.with_points(mesh.constrained(mesh.points))
+        if mesh.linear_motion is not None:
+            mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
         norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.maximises_jacobian
         quality = measure(mesh.points, mesh.hexes)
