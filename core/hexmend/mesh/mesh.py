@@ -16,6 +16,8 @@ from hexmend.hooks import hook
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.fields import check_field
+from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
+from hexmend.mesh.rules.motion_rules import NodeRules
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
@@ -31,6 +33,11 @@ class TargetSurface(Protocol):
 
     def check_near(self, mesh: Mesh) -> None:
         """Raise `MeshError` unless the boundary of a mesh lies near the surface."""
+
+#: Cached properties that do not depend on the points.
+_SHARED = ("fixed", "free", "held", "materials")
+#: Fields from which the materials follow.
+_OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,10 +148,48 @@ class Mesh:
         return len(self.hexes)
 
     @cached_property
+    def materials(self) -> Materials | None:
+        """The partition of the hexes by material; None for one material. See `hexmend.mesh.materials`."""
+        blocks = self.field_data.get(STRUCTURED_BLOCKS, ())
+        blocks = {str(name) for name in np.ravel(np.asarray(blocks, dtype=object))}
+        return find_materials(self.topology, self.hex_sets, self.hex_data, blocks)
+
+    @property
+    def node_rules(self) -> NodeRules:
+        """Rules of motion of the nodes; see `hexmend.mesh.rules.resolution`."""
+        return self.__dict__.get("_rules", NodeRules())
+
+    @property
+    def interfaces(self) -> Materials | None:
+        """The materials if the nodes on the interfaces between them are kept or slide; None if they move freely."""
+        return None if self.node_rules.interfaces == "free" else self.materials
+
+    @property
+    def slides_by_rule(self) -> bool:
+        """True if nodes slide even where the boundary is fixed: those of interfaces, or of sets that rules name."""
+        rules = self.node_rules
+        return rules.slides is not None or (rules.interfaces == "slide" and self.materials is not None)
+
+    @cached_property
+    def held(self) -> np.ndarray:
+        """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
+        rules = self.node_rules
+        held = np.zeros(self.n_nodes, dtype=bool)
+        for more in (self.pinned, rules.fixed):
+            held = held if more is None else held | more
+        return as_immutable(held if rules.free is None else held & ~rules.free)
+
+    @cached_property
     def fixed(self) -> np.ndarray:
-        """True for nodes that no method moves: of the boundary, pinned, or used by no hex; (n,) bool."""
-        fixed = self.topology.boundary | ~self.topology.used
-        return as_immutable(fixed if self.pinned is None else fixed | self.pinned)
+        """True for nodes that no method moves, unless they slide; (n,) bool.
+
+        They are those of the boundary and of interfaces between materials, the pinned ones, and those of no hex.
+        """
+        fixed = self.topology.boundary | ~self.topology.used | self.held
+        materials, free = self.interfaces, self.node_rules.free
+        if materials is not None:
+            fixed |= materials.interface_nodes if free is None else materials.interface_nodes & ~free
+        return as_immutable(fixed)
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -191,7 +236,7 @@ class Mesh:
         check_finite(points)
         if self.mid_nodes is not None:
             points = move_mid_nodes(self.points, points, self.hexes, self.mid_nodes)
-        return self._copy("fixed", "free", points=as_immutable(points))
+        return self._copy(*_SHARED, points=as_immutable(points))
 
     @property
     def surface_points(self) -> np.ndarray:
@@ -227,11 +272,11 @@ class Mesh:
         """
         if check:
             surface.check_near(self)
-        return self._copy("fixed", "free", _target=surface)
+        return self._copy(*_SHARED, _target=surface)
 
     def keeping_surface(self) -> Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
-        return self._copy("fixed", "free", _surface=self.surface_points)
+        return self._copy(*_SHARED, _surface=self.surface_points)
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
@@ -250,7 +295,14 @@ class Mesh:
             For another length or type.
         """
         fixed = as_immutable(as_bools(fixed, "fixed", self.n_nodes))
-        return self._copy(fixed=fixed, _surface=self.surface_points)
+        return self._copy("materials", "held", fixed=fixed, _surface=self.surface_points)
+
+    def with_node_rules(self, rules: NodeRules) -> Mesh:
+        """Return the mesh with rules of motion of its nodes in place of those it has; all else is shared.
+
+        `hexmend.mesh.rules.resolution.with_rules` makes them of the names of sets.
+        """
+        return self._copy("materials", _rules=rules)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
@@ -276,7 +328,7 @@ class Mesh:
         unknown = changes.keys() - self._values().keys()
         if unknown:
             raise TypeError(f"a mesh has no {', '.join(sorted(unknown))}")
-        copy = self._copy()
+        copy = self._copy(*(() if changes.keys() & _OF_MATERIALS else ("materials",)))
         copy._set_checked(changes)
         return copy
 
@@ -285,11 +337,13 @@ class Mesh:
         mesh = Mesh(**self._values() | changes)
         if self.target is not None:
             mesh._set(_target=self.target)
+        if "_rules" in self.__dict__ and "hexes" not in changes:
+            mesh._set(_rules=self.node_rules)
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:
         """Return a copy with changes; it shares all fields, surfaces for sliding and the named cached properties."""
         copy = object.__new__(Mesh)
-        names = (*(one.name for one in dataclasses.fields(self)), "_surface", "_target", *cached)
+        names = (*(one.name for one in dataclasses.fields(self)), "_surface", "_target", "_rules", *cached)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
         return copy
