@@ -144,34 +144,35 @@ def _by_data(hex_data: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...
 
 def _by_sets(sets: Mapping[str, np.ndarray], m: int) -> tuple[tuple[str, ...], np.ndarray] | None:
     """Materials by sets that hold every hex exactly once."""
-    names, members = tuple(sets), [np.unique(rows) for rows in sets.values()]
-    if sum(map(len, members)) != m or not _covers(members, m):
+    names, members = tuple(sets), list(sets.values())
+    if sum(map(len, members)) < m:
+        return None
+    of_hex = _numbered(members, m)
+    if of_hex is None:
+        return None
+    if sum(map(len, members)) > m:
         chosen = _exact_cover(members, m)
         if chosen is None:
             return None
-        names, members = tuple(names[k] for k in chosen), [members[k] for k in chosen]
-    if len(names) < 2:
-        return None
-    of_hex = np.empty(m, dtype=np.int32)
+        names, of_hex = tuple(names[k] for k in chosen), _numbered([members[k] for k in chosen], m)
+    return (names, of_hex) if len(names) > 1 else None
+
+
+def _numbered(members: Sequence[np.ndarray], m: int) -> np.ndarray | None:
+    """Index of the last set that holds each of m hexes, (m,) int32; None if one is in no set."""
+    number = np.full(m, -1, dtype=np.int32)
     for k, rows in enumerate(members):
-        of_hex[rows] = k
-    return names, of_hex
-
-
-def _covers(members: Sequence[np.ndarray], m: int) -> bool:
-    covered = np.zeros(m, dtype=bool)
-    for rows in members:
-        covered[rows] = True
-    return bool(covered.all())
+        number[rows] = k
+    return None if m and number.min() < 0 else number
 
 
 def _exact_cover(members: Sequence[np.ndarray], m: int) -> list[int] | None:
     """Indices of sets that hold each of m hexes exactly once, ascending, by Knuth's algorithm X; None without any."""
-    if not 2 <= len(members) <= _MAX_SETS or not _covers(members, m):
+    if not 2 <= len(members) <= _MAX_SETS:
         return None
     bits = np.zeros(m, dtype=np.uint64)
     for k, rows in enumerate(members):
-        bits[rows] |= np.uint64(1 << k)
+        bits[rows] |= np.uint64(1 << k)  # a member that is there twice does no harm
     groups = [int(one) for one in np.unique(bits)]  # hexes of the same sets are one item
     items = [[g for g, of in enumerate(groups) if of >> k & 1] for k in range(len(members))]
     steps = 0
