@@ -176,6 +176,12 @@ class Mesh:
         rules = self.node_rules
         return rules.slides is not None or (rules.interfaces == "slide" and self.materials is not None)
 
+    @property
+    def interior(self) -> np.ndarray:
+        """True for nodes neither on the boundary nor on an interface that is kept or slides, (n,) bool."""
+        inner = ~self.topology.boundary
+        return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
+
     @cached_property
     def held(self) -> np.ndarray:
         """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
