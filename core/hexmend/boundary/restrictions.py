@@ -31,9 +31,8 @@ def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
     rules, between = mesh.node_rules, interface_nodes(mesh)
     boundary = mesh.topology.boundary
     stays = np.zeros(mesh.n_nodes, dtype=bool) if outer else boundary.copy()
-    if mesh.target is not None:  # which says nothing about interfaces
-        stays |= between
-    elif not outer and rules.interfaces != "slide":
+    slides = rules.interfaces == "slide" or (outer and rules.interfaces == "keep")
+    if mesh.target is not None or not slides:  # a target says nothing about interfaces
         stays |= between
     if rules.slides is not None:
         stays &= ~rules.slides

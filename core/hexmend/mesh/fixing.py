@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from hexmend.errors import MeshError
 from hexmend.mesh.fields import as_set
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
@@ -96,5 +96,7 @@ def with_region_free(mesh: Mesh, hexes: np.ndarray, rings: int = 0) -> Mesh:
     """
     region = np.zeros(mesh.n_nodes, dtype=bool)
     region[mesh.hexes[mesh.topology.hexes_around(hexes, rings)]] = True
+    rules = mesh.node_rules
+    if rules.free is not None:  # a rule frees no node outside the region
+        mesh = mesh.with_node_rules(replace(rules, free=rules.free & region))
     return mesh.replace(pinned=~region if mesh.pinned is None else mesh.pinned | ~region)
-

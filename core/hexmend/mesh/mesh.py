@@ -19,7 +19,7 @@ from hexmend.mesh.fields import check_field
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
 from hexmend.mesh.materials import STRUCTURED_BLOCKS, Materials, find_materials
-from hexmend.mesh.rules.motion_rules import NodeRules
+from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
@@ -365,6 +365,18 @@ class Mesh:
         if self.linear_motion is not None:
             fixed = with_ties_fixed(self.linear_motion, fixed)
         return self._copy("materials", "held", fixed=as_immutable(fixed), _surface=self.surface_points)
+
+    def with_rules(self, **rules: object) -> Mesh:
+        """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.
+
+        They hold for runs on this mesh; no file keeps them. See `hexmend.mesh.rules.resolution.with_rules`.
+
+        Parameters
+        ----------
+        **rules
+            Such as `interfaces="slide", fix=["inlet"]`.
+        """
+        return hook("with_rules")(self, MotionRules(**rules))
 
     def with_node_rules(self, rules: NodeRules) -> Mesh:
         """Return the mesh with rules of motion of its nodes in place of those it has; all else is shared.

@@ -5,16 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.errors import MeshError
-from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 
 #: Largest distance of nodes from their plane, in mean edge lengths of the mesh.
 FLATNESS_TOLERANCE = 1e-6
+#: Relative rounding error of coordinates in one plane.
+_ROUNDING = 1e-12
 
 
-def plane_of_set(mesh: Mesh, name: str) -> LinearMotion:
-    """Restrict the nodes of a set to the plane in which they lie.
+def normal_of_set(mesh: Mesh, name: str) -> np.ndarray:
+    """Find the normal of the plane in which the nodes of a set lie.
 
     Parameters
     ----------
@@ -24,7 +25,8 @@ def plane_of_set(mesh: Mesh, name: str) -> LinearMotion:
 
     Returns
     -------
-    LinearMotion
+    (3,) float64
+        A unit vector; an axis to the last bit if the coordinates along it are equal but for rounding.
 
     Raises
     ------
@@ -33,17 +35,18 @@ def plane_of_set(mesh: Mesh, name: str) -> LinearMotion:
         `FLATNESS_TOLERANCE`; the message says how far.
     """
     nodes = np.unique(nodes_in_set(mesh, name))
-    x = mesh.points[nodes] - mesh.points[nodes].mean(axis=0)
+    x = mesh.points[nodes]
     unit = mesh.mean_edge_length or 1.0
-    extents, axes = np.linalg.eigh(x.T @ x)  # the first direction is that of least extent
-    if nodes.size < 3 or np.abs(x @ axes[:, :2]).max() <= FLATNESS_TOLERANCE * unit or not extents[1] > 0:
+    x = (x - x.mean(axis=0)) / unit if nodes.size else x
+    axes = np.linalg.eigh(x.T @ x)[1]  # the first direction is that of least extent
+    if nodes.size < 3 or np.abs(x @ axes[:, :2]).max() <= FLATNESS_TOLERANCE:
         raise MeshError(f"the set {name!r} has no plane: its {nodes.size} nodes are on one line")
     distance = np.abs(x @ axes[:, 0])
-    if distance.max() > FLATNESS_TOLERANCE * unit:
-        node = int(nodes[distance.argmax()])
+    if distance.max() > FLATNESS_TOLERANCE:
         raise MeshError(
-            f"the set {name!r} is not flat: node {node} (counted from 0) is {distance.max() / unit:.3g} mean edge "
-            f"lengths from the plane nearest to all its nodes; expected at most {FLATNESS_TOLERANCE:g}. Let it slide "
-            "on the surface instead (--slide)."
+            f"the set {name!r} is not flat: node {nodes[distance.argmax()]} (counted from 0) is {distance.max():.3g} "
+            f"mean edge lengths from the plane nearest to all its nodes; expected at most {FLATNESS_TOLERANCE:g}. Let "
+            "it slide on the surface instead (--slide)."
         )
-    return LinearMotion.in_planes(nodes, axes[:, 0])
+    across = np.ptp(x, axis=0).argmin()
+    return np.eye(3)[across] if np.ptp(x[:, across]) <= _ROUNDING * max(1.0, np.ptp(x)) else axes[:, 0]

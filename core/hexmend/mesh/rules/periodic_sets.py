@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from hexmend.errors import MeshError
 from hexmend.mesh.edge_length import shortest_edges
-from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.named_sets import nodes_in_set
 
@@ -14,8 +15,23 @@ from hexmend.mesh.rules.named_sets import nodes_in_set
 MATCH_TOLERANCE = 1e-3
 
 
-def periodic_motion(mesh: Mesh, one: str, other: str) -> LinearMotion:
-    """Tie the nodes of a set to those of another, of which it is a translated or rotated copy.
+class PeriodicPair(NamedTuple):
+    """Nodes of a set with their partners in another, and the rotation between them.
+
+    Parameters
+    ----------
+    nodes, partners : (k,) int64
+    rotation : (3, 3) float64
+        Takes displacements of the nodes to those of their partners.
+    """
+
+    nodes: np.ndarray
+    partners: np.ndarray
+    rotation: np.ndarray
+
+
+def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
+    """Find the partners of the nodes of a set in another, which is a translated or rotated copy.
 
     Parameters
     ----------
@@ -25,8 +41,7 @@ def periodic_motion(mesh: Mesh, one: str, other: str) -> LinearMotion:
 
     Returns
     -------
-    LinearMotion
-        The nodes of `other` follow those of `one`.
+    PeriodicPair
 
     Raises
     ------
@@ -59,7 +74,7 @@ def periodic_motion(mesh: Mesh, one: str, other: str) -> LinearMotion:
             f"node {others[partner[at]]}, is {distance[at] / (mesh.mean_edge_length or 1.0):.3g} mean edge lengths "
             "from its image under the translation or rotation that fits best"
         )
-    return LinearMotion.tying(others[partner], nodes, rotation)
+    return PeriodicPair(nodes, others[partner], rotation)
 
 
 def _candidates(x: np.ndarray, y: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:

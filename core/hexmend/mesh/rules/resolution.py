@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import mask
 from hexmend.errors import MeshError
+from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.mesh import Mesh
-from hexmend.mesh.rules.flat_sets import plane_of_set
+from hexmend.mesh.rules.flat_sets import normal_of_set
 from hexmend.mesh.rules.motion_rules import MotionRules, NodeRules
 from hexmend.mesh.rules.named_sets import nodes_in_set
-from hexmend.mesh.rules.periodic_sets import periodic_motion
+from hexmend.mesh.rules.periodic_sets import PeriodicPair, match_periodic
 
 
 def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
@@ -43,23 +45,55 @@ def with_rules(mesh: Mesh, rules: MotionRules) -> Mesh:
     >>> int(with_rules(mesh, MotionRules(fix="middle")).free.sum()), int(mesh.free.sum())
     (6, 8)
     """
-    motion = None
-    for name in rules.plane:
-        plane = plane_of_set(mesh, name)
-        motion = plane if motion is None else motion.merge(plane)
-    for pair in rules.periodic:
-        ties = periodic_motion(mesh, *pair)
-        motion = ties if motion is None else motion.merge(ties)
+    for name in rules.free:
+        _check_freed(mesh, name)
     free = _marks(mesh, rules.free)
     if free is not None:
-        for name in rules.free:
-            _check_freed(mesh, name)
         free &= mesh.topology.used
-    resolved = NodeRules(
-        rules, fixed=_marks(mesh, rules.fix), free=_immutable(free), slides=_marks(mesh, rules.slide)
-    )
-    mesh = mesh.with_node_rules(resolved)
-    return mesh if motion is None else mesh.with_linear_motion(motion)
+    mesh = mesh.with_node_rules(NodeRules(rules, _marks(mesh, rules.fix), free, _marks(mesh, rules.slide)))
+    return _with_motion(mesh, rules) if rules.plane or rules.periodic else mesh
+
+
+def _with_motion(mesh: Mesh, rules: MotionRules) -> Mesh:
+    """Let nodes of flat sets move in their planes, and nodes of periodic sets as one.
+
+    Nodes at which other faces of the boundary or of an interface end stay on these: they do not move so. In a pair of
+    periodic sets they are fixed, even if the boundary slides.
+    """
+    planes = [(np.unique(nodes_in_set(mesh, name)), normal_of_set(mesh, name)) for name in rules.plane]
+    pairs = [match_periodic(mesh, *names) for names in rules.periodic]
+    ends = _nodes_of_other_faces(mesh, [nodes for nodes, _ in planes] + [end for pair in pairs for end in pair[:2]])
+    motion = mesh.linear_motion or LinearMotion()
+    for nodes, normal in planes:
+        motion = motion.merge(LinearMotion.in_planes(nodes[~ends[nodes]], normal))
+    for pair in pairs:
+        moves = ~(ends[pair.nodes] | ends[pair.partners])
+        motion = motion.merge(LinearMotion.tying(pair.partners[moves], pair.nodes[moves], pair.rotation))
+    return _with_node_marks(mesh, motion, pairs).with_linear_motion(motion)
+
+
+def _nodes_of_other_faces(mesh: Mesh, sets: list[np.ndarray]) -> np.ndarray:
+    """Mark the nodes of faces of the boundary and of interfaces that are in none of some sets of nodes, (n,) bool."""
+    faces, materials = mesh.topology.boundary_faces, mesh.interfaces
+    if materials is not None:
+        faces = np.concatenate([faces, materials.interface_faces])
+    inside = np.zeros(len(faces), dtype=bool)
+    for nodes in sets:
+        inside |= mask(nodes, mesh.n_nodes)[faces].all(axis=1)
+    return mask(faces[~inside], mesh.n_nodes)
+
+
+def _with_node_marks(mesh: Mesh, motion: LinearMotion, pairs: list[PeriodicPair]) -> Mesh:
+    """Free the interface nodes that have a linear motion, and fix the nodes of periodic sets that have none."""
+    moves = mask(np.concatenate([motion.nodes, motion.tied, motion.master]), mesh.n_nodes)
+    rules, materials = mesh.node_rules, mesh.interfaces
+    if materials is not None:
+        between = moves & materials.interface_nodes & ~mesh.held
+        rules = replace(rules, free=between if rules.free is None else rules.free | between)
+    stays = mask(np.concatenate([np.empty(0, np.int64), *(end for pair in pairs for end in pair[:2])]), mesh.n_nodes)
+    stays &= ~moves
+    rules = replace(rules, fixed=stays if rules.fixed is None else rules.fixed | stays)
+    return mesh.with_node_rules(rules)
 
 
 def _marks(mesh: Mesh, names: Iterable[str]) -> np.ndarray | None:
@@ -69,10 +103,6 @@ def _marks(mesh: Mesh, names: Iterable[str]) -> np.ndarray | None:
         marks = np.zeros(mesh.n_nodes, dtype=bool) if marks is None else marks
         marks[nodes_in_set(mesh, name)] = True
     return marks
-
-
-def _immutable(marks: np.ndarray | None) -> np.ndarray | None:
-    return None if marks is None else as_immutable(marks)
 
 
 def _check_freed(mesh: Mesh, name: str) -> None:

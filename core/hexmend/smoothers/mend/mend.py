@@ -88,9 +88,7 @@ class Mend(ObjectiveSmoother):
         candidates = [mesh.points, fixed_optimum]
         if slides:
             max_deviation = self.absolute_tolerance(mesh)
-            sliding = SlidingBoundary(
-                mesh, self.feature_angle, MAXMIN.surface_share * max_deviation, self.slides
-            )
+            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation, self.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
