@@ -133,6 +133,10 @@ class MeshEnergy:
         """Return True for nodes that may not move from x (n, 3) to `moved` (n, 3), (n,) bool; None if all may."""
         return None
 
+    def with_masters(self, marks: np.ndarray) -> np.ndarray:
+        """Return marks of nodes, (n,) bool, to which the nodes are added that others of them move with."""
+        return marks
+
     @property
     def _corner_buffer(self) -> np.ndarray:
         """Storage for the contributions of hexes at their corners, (m, 8, 3), one for each thread."""

@@ -16,10 +16,15 @@ from hexmend.hooks import hook
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
 from hexmend.mesh.fields import check_field
+from hexmend.mesh.linear_motion import LinearMotion
+from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
+
+#: Attributes of a mesh that are no fields: the surfaces for sliding, and the linear motion with its start.
+_HIDDEN = ("_surface", "_target", "_motion", "_motion_start")
 
 
 class TargetSurface(Protocol):
@@ -142,9 +147,15 @@ class Mesh:
 
     @cached_property
     def fixed(self) -> np.ndarray:
-        """True for nodes that no method moves: of the boundary, pinned, or used by no hex; (n,) bool."""
-        fixed = self.topology.boundary | ~self.topology.used
-        return as_immutable(fixed if self.pinned is None else fixed | self.pinned)
+        """True for nodes that no method moves: of the boundary, pinned, or used by no hex; (n,) bool.
+
+        Nodes of the boundary with a linear motion may move; see `with_linear_motion`.
+        """
+        fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
+        if motion is not None:
+            fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
+        fixed = fixed if self.pinned is None else fixed | self.pinned
+        return as_immutable(fixed if motion is None else with_ties_fixed(motion, fixed))
 
     @cached_property
     def free(self) -> np.ndarray:
@@ -233,8 +244,63 @@ class Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         return self._copy("fixed", "free", _surface=self.surface_points)
 
+    @property
+    def linear_motion(self) -> LinearMotion | None:
+        """Linear constraints on the displacements of nodes, None if there are none; see `with_linear_motion`."""
+        return self.__dict__.get("_motion")
+
+    def with_linear_motion(self, motion: LinearMotion | None) -> Mesh:
+        """Return the mesh with linear constraints on the displacements of its nodes from where they are now.
+
+        Nodes that are restricted to a plane or line, tied nodes and those they follow are free to move, also on the
+        boundary, unless they are pinned. Nodes that are tied to a fixed node are fixed.
+
+        Parameters
+        ----------
+        motion : LinearMotion or None
+            Constraints that replace those of the mesh; none end them.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For a node that does not exist.
+        """
+        if not motion:
+            copy = self._copy()
+            copy.__dict__.pop("_motion", None)
+            copy.__dict__.pop("_motion_start", None)
+            return copy
+        if motion.largest_node >= self.n_nodes:
+            raise MeshError(
+                f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
+                "from 0: correct the number"
+            )
+        return self._copy(_motion=motion, _motion_start=self.points)
+
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self.__dict__.get("_motion_start", self.points)
+
+    def constrained(self, points: np.ndarray) -> np.ndarray:
+        """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            Returned themselves if the mesh has no linear motion; not changed.
+        """
+        motion = self.linear_motion
+        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
+
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
+
+        Nodes that are tied to them by a linear motion are fixed too.
 
         Parameters
         ----------
@@ -249,8 +315,10 @@ class Mesh:
         MeshError
             For another length or type.
         """
-        fixed = as_immutable(as_bools(fixed, "fixed", self.n_nodes))
-        return self._copy(fixed=fixed, _surface=self.surface_points)
+        fixed = as_bools(fixed, "fixed", self.n_nodes)
+        if self.linear_motion is not None:
+            fixed = with_ties_fixed(self.linear_motion, fixed)
+        return self._copy(fixed=as_immutable(fixed), _surface=self.surface_points)
 
     def replace(self, **changes: object) -> Mesh:
         """Return a copy with other values of some fields, but not points or hexes; all else is shared.
@@ -281,15 +349,20 @@ class Mesh:
         return copy
 
     def rebuilt(self, **changes: object) -> Mesh:
-        """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over."""
+        """Return a new mesh with other values of any fields, points and hexes included; the rest is taken over.
+
+        Other points may be other nodes: a linear motion is taken over only without them.
+        """
         mesh = Mesh(**self._values() | changes)
         if self.target is not None:
             mesh._set(_target=self.target)
+        if self.linear_motion is not None and "points" not in changes:
+            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:
         """Return a copy with changes; it shares all fields, surfaces for sliding and the named cached properties."""
         copy = object.__new__(Mesh)
-        names = (*(one.name for one in dataclasses.fields(self)), "_surface", "_target", *cached)
+        names = (*(one.name for one in dataclasses.fields(self)), *_HIDDEN, *cached)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
         return copy

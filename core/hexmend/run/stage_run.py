@@ -15,6 +15,7 @@ from hexmend.mesh.validation import points_like
 from hexmend.quality import measure, objective
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import Smoother
+from hexmend.smoothers.constrained_steps import constrained_steps
 
 log = logging.getLogger(__name__)
 
@@ -81,7 +82,7 @@ class StageRun:
         self._best_rank = self._rank(self._best)
         self._update_best(start)
         began = perf_counter()
-        self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
+        self._steps = constrained_steps(self.smoother, mesh.keeping_surface().with_points(start.points))
         next(self._steps)
         self.setup_seconds = perf_counter() - began
         if not mesh.free.any() and not self.smoother.movable(mesh).any():

@@ -40,6 +40,9 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
+    #: `hexmend.smoothers.constrained_steps`.
+    keeps_linear_motion: ClassVar[bool] = False
     #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
     feature_angle = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
