@@ -23,7 +23,7 @@ CORE = [
     {"quality"},
     {"gallery", "boundary"},
     {"energy"},
-    {"doctor"},
+    {"doctor", "solver_checks"},
     {"iteration"},
     {"optimise"},
     {"smoothers"},

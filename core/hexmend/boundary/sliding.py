@@ -36,8 +36,8 @@ class SlidingBoundary(Band):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
 
     Interfaces between materials are patches of the surface too, and nodes on them slide as the rules of the mesh say.
-    Corners and pinned nodes stay. On a target surface interfaces stay. Nodes with a linear motion do not slide: they move
-    as that says.
+    Corners and pinned nodes stay. On a target surface interfaces stay. Nodes with a linear motion do not slide: they
+    move as that says.
 
     Parameters
     ----------

@@ -32,6 +32,7 @@ _MAX_PLACES = 10
 
 def run(args: argparse.Namespace) -> int:
     """Measure the mesh and print the report, as text or as JSON."""
+    solver = None if args.solver is None else _known_solver(args.solver)  # before a long read
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     quality = measure(mesh.points, mesh.hexes)
@@ -39,7 +40,7 @@ def run(args: argparse.Namespace) -> int:
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order)
+        _print_json(args, mesh, summary, metrics, second_order, quality)
         return 0
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
@@ -50,6 +51,8 @@ def run(args: argparse.Namespace) -> int:
         print(f"Second order: {second_order.phrase}.")
     if args.metrics:
         print_spreads(metrics)
+    if solver is not None:
+        _print_checks(mesh, solver, quality)
     _print_problems(args, mesh)
     return 0
 
@@ -60,6 +63,7 @@ def _print_json(
     summary: Summary,
     metrics: Mapping[str, MetricStatistics],
     second_order: SecondOrder | None,
+    quality: ElementQuality,
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
 
@@ -73,6 +77,8 @@ def _print_json(
         answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
+    if args.solver is not None:
+        answer |= _checks(mesh, args.solver, quality)
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
     print(to_json(answer))
@@ -88,6 +94,29 @@ def _print_materials(mesh: Mesh) -> None:
     more = len(named) - _MAX_PLACES
     listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
     print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
+
+
+def _known_solver(name: str) -> str:
+    """Return the name of a solver; raises `ParameterError`, naming those that are known."""
+    from hexmend.solver_checks import SOLVERS  # loaded only for --for
+
+    return SOLVERS[name.lower()].name
+
+
+def _checks(mesh: Mesh, solver: str, quality: ElementQuality) -> dict[str, object]:
+    """Return the solver's checks for JSON."""
+    from hexmend.solver_checks import check_mesh
+
+    report = check_mesh(mesh, _known_solver(solver), quality)
+    checks = [result.to_dict() for result in report.results]
+    return {"checks": checks, "solver": report.solver.name, "verdict": report.verdict}
+
+
+def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
+    from hexmend.cli.output.check_table import print_checks
+    from hexmend.solver_checks import check_mesh
+
+    print_checks(check_mesh(mesh, solver, quality))
 
 
 def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
