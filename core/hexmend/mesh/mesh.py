@@ -15,11 +15,15 @@ from hexmend.errors import MeshError
 from hexmend.hooks import hook
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_field
 from hexmend.mesh.second_order import move_mid_nodes
 from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
+
+#: Attributes that are no fields, but kept by derived meshes.
+_DERIVED = ("_surface", "_target", "_element_target")
 
 
 class TargetSurface(Protocol):
@@ -229,6 +233,34 @@ class Mesh:
             surface.check_near(self)
         return self._copy("fixed", "free", _target=surface)
 
+    @property
+    def element_target(self) -> Target | None:
+        """Lengths that the hexes are to have; None if they are to be cubes. See `with_element_target`."""
+        return self.__dict__.get("_element_target")
+
+    def with_element_target(self, target: Target | None) -> Mesh:
+        """Return the mesh with a target of its elements, which the energies of optimisers take from it.
+
+        It is kept by meshes that are derived from this one, but not by `rebuilt`, which may have other hexes.
+
+        Parameters
+        ----------
+        target : hexmend.mesh.element_target.Target or None
+            None for cubes.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For a target of another number of hexes.
+        """
+        if target is not None and len(target.lengths) != self.n_hexes:
+            raise MeshError(f"the target is for {len(target.lengths)} hexes: the mesh has {self.n_hexes}")
+        return self._copy("fixed", "free", _element_target=target)
+
     def keeping_surface(self) -> Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         return self._copy("fixed", "free", _surface=self.surface_points)
@@ -288,8 +320,8 @@ class Mesh:
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:
-        """Return a copy with changes; it shares all fields, surfaces for sliding and the named cached properties."""
+        """Return a copy with changes; it shares all fields, surfaces, the target and the named cached properties."""
         copy = object.__new__(Mesh)
-        names = (*(one.name for one in dataclasses.fields(self)), "_surface", "_target", *cached)
+        names = (*(one.name for one in dataclasses.fields(self)), *_DERIVED, *cached)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
         return copy
