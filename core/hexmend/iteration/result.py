@@ -15,6 +15,7 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
+from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
 
@@ -143,6 +144,8 @@ class Result:
         Distance of the boundary from where it was; None where no method let it slide.
     active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
+    layers : tuple of LayerReport
+        Boundary layers before and after, one for each wall.
     """
 
     mesh: Mesh
@@ -160,11 +163,12 @@ class Result:
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
     active: ActiveSet | None = None
+    layers: tuple[LayerReport, ...] = ()
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before."""
-        return regressions(self.before, self.after)
+        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost."""
+        return regressions(self.before, self.after) + ("layers",) * any(wall.lost for wall in self.layers)
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

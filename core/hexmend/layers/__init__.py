@@ -1,7 +1,8 @@
 """Boundary layers: stacks of thin hexes on a wall, found from their heights, kept by targets, and reported."""
 
 from hexmend.layers.detection import find_layers
-from hexmend.layers.report import LayerReport, LayerState, describe_layers, layer_report
+from hexmend.layers.grading import grading_message
+from hexmend.layers.report import LayerReport, LayerState, describe_layers, describe_losses, layer_report
 from hexmend.layers.targets import KEEP_LAYERS, keeps_layers, run_target
 from hexmend.layers.walls import Layers, Wall
 
@@ -12,7 +13,9 @@ __all__ = [
     "Layers",
     "Wall",
     "describe_layers",
+    "describe_losses",
     "find_layers",
+    "grading_message",
     "keeps_layers",
     "layer_report",
     "run_target",

@@ -100,7 +100,7 @@ def _walls(mesh: Mesh, columns: Columns, thin: np.ndarray) -> Layers:
     walls: list[Wall] = []
     for number, which in enumerate(kept, 1):
         rows = columns.rows(component == which)
-        name = _name(mesh, rows) or (f"wall {number}" if len(kept) > 1 else "the wall")
+        name = _name(mesh, rows) or f"wall {number}"
         walls.append(Wall(name, rows.hexes, rows.faces))
     return Layers(tuple(walls))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +15,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality
 from hexmend.target.edge_lengths import given_lengths
 from hexmend.target.sheets import recovered_lengths
+from hexmend.terminal_text import capitalised
 
 #: Factor by which heights of the first layer may change in the mean before the layers count as lost.
 LOST_FACTOR = 1.25
@@ -94,9 +96,7 @@ class LayerReport:
         return dataclasses.asdict(self) | {"lost": self.lost}
 
 
-def layer_report(
-    layers: Layers, before: Mesh, after: Mesh, quality: ElementQuality | None = None
-) -> tuple[LayerReport, ...]:
+def layer_report(layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray) -> tuple[LayerReport, ...]:
     """Compare the layers of a mesh before and after a run.
 
     Parameters
@@ -104,23 +104,26 @@ def layer_report(
     layers : Layers
     before, after : Mesh
         Meshes of the same hexes.
-    quality : ElementQuality, optional
-        Of the mesh before, if it is measured already.
+    lengths : (m, 3) float64
+        Lengths of the hexes before, of `hexmend.target.recovered_lengths`.
 
     Returns
     -------
     tuple of LayerReport
         One for each wall.
     """
-    if not layers:
-        return ()
-    old, new = recovered_lengths(before, quality), given_lengths(after)
+    new = given_lengths(after)
     reports = []
     for wall in layers.walls:
-        was, now = _state(wall, before, old), _state(wall, after, new)
-        change = np.exp(np.abs(np.log(wall.of(new)[:, 0] / wall.of(old)[:, 0])).mean())
+        was, now = _state(wall, before, lengths), _state(wall, after, new)
+        change = np.exp(np.abs(np.log(wall.of(new)[:, 0] / wall.of(lengths)[:, 0])).mean())
         reports.append(LayerReport(wall.name, wall.count, wall.depth, was, now, float(change)))
     return tuple(reports)
+
+
+def describe_losses(reports: Iterable[LayerReport]) -> str:
+    """Tell which layers have lost their grading, in a sentence for each wall; "" if all have kept it."""
+    return " ".join(capitalised(report.loss) for report in reports if report.lost)
 
 
 def describe_layers(layers: Layers, mesh: Mesh, quality: ElementQuality | None = None) -> list[dict[str, Any]]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from typing import Any
 
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import examine
 from hexmend.io import read
+from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
@@ -34,14 +36,17 @@ def run(args: argparse.Namespace) -> int:
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
+    layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order)
+        _print_json(args, mesh, summary, metrics, second_order, layers)
         return 0
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
         _print_locked(mesh, quality, summary.locked_inverted)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
+    for wall in layers:
+        print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
     _print_problems(args, mesh)
@@ -54,6 +59,7 @@ def _print_json(
     summary: Summary,
     metrics: Mapping[str, MetricStatistics],
     second_order: SecondOrder | None,
+    layers: list[dict[str, Any]],
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
 
@@ -62,9 +68,19 @@ def _print_json(
         answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
+    if layers:
+        answer["layers"] = layers
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
     print(to_json(answer))
+
+
+def _layer_line(wall: dict[str, Any]) -> str:
+    return (
+        f"Layers at '{wall['wall']}': {wall['layers']} on {wall['faces']:,} faces, first height "
+        f"{wall['first_height_mean']:.4g} (least {wall['first_height_min']:.4g}), growth {wall['growth']:.3f}, "
+        f"{wall['angle_mean']:.1f}° from the wall's normal."
+    )
 
 
 def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
