@@ -106,7 +106,7 @@ class FeatureHistogram(Feature):
             self.panel.set_current(self._values(now), now.figures.inverted)
 
     def _values(self, state: State) -> np.ndarray:
-        return metric_values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
+        return metric_values(self.metric, state.mesh, state.figures)
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -136,8 +136,8 @@ class FeatureHistogram(Feature):
         known = self._snapshot_values.get(snapshot.slot)
         if known is not None and known[0] == self.metric and known[1] is snapshot.points:
             return known
-        hexes = self._document.now.mesh.hexes
-        values = metric_values(self.metric, snapshot.points, hexes, measure(snapshot.points, hexes))
+        mesh = self._document.now.mesh.with_points(snapshot.points)
+        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes))
         return self.metric, snapshot.points, values
 
     # Files

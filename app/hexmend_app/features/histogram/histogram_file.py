@@ -112,7 +112,7 @@ def _count(metric: str, drawn: Sequence[tuple[str, str, bool, Mesh]], bins: int,
     axis, lines = None, []
     for name, colour, filled, mesh in drawn:
         figures = measure(mesh.points, mesh.hexes)
-        values = metric_values(metric, mesh.points, mesh.hexes, figures)
+        values = metric_values(metric, mesh, figures)
         axis = axis or Axis.fitted(metric, values, figures.inverted)
         distribution = distribute(values, figures.inverted, axis, bins)
         lines.append(_Line(name, colour, filled, distribution.cumulated() if cumulative else distribution))
