@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.layers.profile import fitted_lengths
 from hexmend.layers.walls import Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
@@ -16,13 +17,16 @@ KEEP_LAYERS = ("auto", "keep", "free")
 #: Target that was not asked for: that of the mesh if it has one, or else ideal.
 AUTO = "auto"
 
+#: Targets in which hexes have their shape as given.
+_AS_THEY_ARE = ("given-shape", "given")
+
 #: Aspect ratios between which the target of hexes outside of layers goes from a cube to the shape as given.
 _CUBE, _AS_GIVEN = 2.0, 4.0
 
 
 def keeps_layers(specification: str, layers: str) -> bool:
-    """Return True if a run with this target and treatment of layers keeps layers by targets of their own."""
-    return layers == "keep" or (layers == "auto" and specification == AUTO)
+    """Return True if a run with this target and treatment of layers keeps the layers."""
+    return layers == "keep" or (layers == "auto" and specification in (AUTO, *_AS_THEY_ARE))
 
 
 def run_target(
@@ -62,15 +66,16 @@ def run_target(
             return mesh.element_target
         specification = "ideal"
     target = make_target(mesh, specification, size_weight, quality)
-    if not layers or specification in ("given", "given-shape"):
+    if not layers:
         return target
     own = recovered_lengths(mesh, quality)
     if target is None:
         lengths, weight, name = _towards_cubes(own), 0.0, "ideal"
     else:
         lengths, weight, name = target.lengths.copy(), target.size_weight, target.name
-    lengths[layers.hexes] = own[layers.hexes]
-    return Target(lengths, weight, f"{name}, layers as given")
+    kept = layers.hexes
+    lengths[kept] = (fitted_lengths(own, layers) if specification in _AS_THEY_ARE else own)[kept]
+    return Target(lengths, weight, f"{name}, layers kept")
 
 
 def _towards_cubes(lengths: np.ndarray) -> np.ndarray:
