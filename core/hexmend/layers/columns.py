@@ -54,6 +54,22 @@ class Columns:
         changes = np.abs(np.diff(np.log(self.heights), n=2, axis=1))
         return np.nansum(changes, axis=1) / np.maximum((~np.isnan(changes)).sum(axis=1), 1)
 
+    def separated(self, n_hexes: int) -> Columns:
+        """Leave each hex to the column on whose wall it is nearer, of columns that meet from opposite walls.
+
+        Parameters
+        ----------
+        n_hexes : int
+            Number of hexes of the mesh.
+        """
+        there = self.hexes >= 0
+        direction = 3 * self.hexes.astype(np.int64) + self.faces // 2
+        layer = np.broadcast_to(np.arange(self.hexes.shape[1]), self.hexes.shape)
+        nearest = np.full(3 * n_hexes, self.hexes.shape[1])
+        np.minimum.at(nearest, direction[there], layer[there])
+        own = there & (layer <= nearest[np.where(there, direction, 0)])
+        return Columns(np.where(own, self.hexes, -1), self.faces, np.where(own, self.heights, np.nan))
+
     def rows(self, which: np.ndarray) -> Columns:
         """Return some of the columns."""
         depth = int(self.layers[which].max(initial=1))

@@ -64,7 +64,7 @@ def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
     aspect, layers = aspect[candidates], columns.layers
     stacked = (layers >= MIN_LAYERS) | (aspect >= VERY_THIN) & (layers >= MIN_VERY_THIN_LAYERS)
     stacked &= (columns.growth >= MIN_GROWTH) & (columns.unsteadiness <= MAX_UNSTEADINESS)
-    return _walls(mesh, columns.rows(stacked), aspect[stacked] >= THIN)
+    return _walls(mesh, columns.rows(stacked).separated(mesh.n_hexes), aspect[stacked] >= THIN)
 
 
 def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.mesh.edge_length import hex_lengths
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
@@ -34,13 +35,7 @@ def given_lengths(mesh: Mesh, which: np.ndarray | None = None) -> np.ndarray:
     >>> given_lengths(Mesh(UNIT_CUBE * [1, 2, 3], [range(8)]))
     array([[1., 2., 3.]])
     """
-    points, hexes = mesh.points, mesh.hexes if which is None else mesh.hexes[which]
-    lengths = np.zeros((len(hexes), 3))
-    for number, (a, b) in enumerate(EDGES):
-        along = points[hexes[:, a]]
-        along -= points[hexes[:, b]]
-        lengths[:, number // 4] += np.sqrt(np.einsum("ij,ij->i", along, along))
-    lengths /= 4
+    lengths = hex_lengths(mesh.points, mesh.hexes if which is None else mesh.hexes[which])
     return np.maximum(lengths, _LEAST * (mesh.mean_edge_length or 1.0), out=lengths)
 
 
