@@ -195,7 +195,7 @@ class ComparisonModel(QAbstractTableModel):
             font = tabular(QFont())
             font.setBold(True)
             return font
-        regressed = quantity.key in {REGRESSION_KEYS[name] for name in entry.record.get("worse", ())}
+        regressed = quantity.key in {REGRESSION_KEYS.get(name, name) for name in entry.record.get("worse", ())}
         if role == _Role.AccessibleTextRole and (is_best or regressed):
             return ", ".join([quantity.of(entry.record), *["best"] * is_best, *[tr("worse than initial")] * regressed])
         if role == _Role.ForegroundRole:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import examine
 from hexmend.io import read
+from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
@@ -39,8 +41,9 @@ def run(args: argparse.Namespace) -> int:
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
+    layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order, quality)
+        _print_json(args, mesh, summary, metrics, second_order, quality, layers)
         return 0
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
@@ -49,6 +52,8 @@ def run(args: argparse.Namespace) -> int:
         _print_materials(mesh)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
+    for wall in layers:
+        print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
     if solver is not None:
@@ -64,6 +69,7 @@ def _print_json(
     metrics: Mapping[str, MetricStatistics],
     second_order: SecondOrder | None,
     quality: ElementQuality,
+    layers: list[dict[str, Any]],
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
 
@@ -77,6 +83,8 @@ def _print_json(
         answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
+    if layers:
+        answer["layers"] = layers
     if args.solver is not None:
         answer |= _checks(mesh, args.solver, quality)
     if args.doctor:
@@ -117,6 +125,14 @@ def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
     from hexmend.solver_checks import check_mesh
 
     print_checks(check_mesh(mesh, solver, quality))
+
+
+def _layer_line(wall: dict[str, Any]) -> str:
+    return (
+        f"Layers at '{wall['wall']}': {wall['layers']} on {wall['faces']:,} faces, first height "
+        f"{wall['first_height_mean']:.4g} (least {wall['first_height_min']:.4g}), growth {wall['growth']:.3f}, "
+        f"{wall['angle_mean']:.1f}° from the wall's normal."
+    )
 
 
 def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
