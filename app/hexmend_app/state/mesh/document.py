@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.io import Original
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, measure, summarise
 
@@ -208,6 +209,11 @@ class Document(QObject):
         if not np.array_equal(self.now.mesh.points, start.mesh.points):
             mesh = self.now.mesh.with_points(start.mesh.points)
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
+
+    @property
+    def original(self) -> Original | None:
+        """File that was opened or saved last, with its mesh; None if there is none."""
+        return None if self.path is None or self._saved is None else Original(self.path, self._saved.mesh)
 
     @property
     def recorded(self) -> State:

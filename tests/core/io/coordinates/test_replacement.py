@@ -134,7 +134,7 @@ def test_a_file_that_is_gone_is_written_anew(tmp_path):
     ],
 )
 def test_a_mesh_that_differs_in_more_than_coordinates_is_written_anew_and_it_is_said(change, words, tmp_path):
-    source, target = tmp_path / "a.inp", tmp_path / "b.inp"
+    source, target = tmp_path / "a.exo", tmp_path / "b.exo"
     io.write(source, with_everything())
     given = io.read(source)
     mesh = change(given)
@@ -144,6 +144,24 @@ def test_a_mesh_that_differs_in_more_than_coordinates_is_written_anew_and_it_is_
     assert io.read(target).n_hexes == mesh.n_hexes
     with pytest.raises(FileError, match=words):
         io.write(target, mesh, like=source)
+
+
+def test_pins_that_the_format_cannot_hold_do_not_cost_the_rest_of_the_file(tmp_path):
+    io.write(tmp_path / "a.inp", with_everything())
+    given = io.read(tmp_path / "a.inp")
+    mesh = moved(given).replace(pinned=np.ones(given.n_nodes, bool))
+    assert write_as_given(tmp_path / "b.inp", mesh, Original(tmp_path / "a.inp", given)).replaced
+
+
+@pytest.mark.parametrize("name", ["a.bdf", "a.inp"])
+def test_a_file_that_has_rounded_coordinates_can_be_replaced_again(name, tmp_path):
+    io.write(tmp_path / name, with_everything())
+    given = io.read(tmp_path / name)
+    first = moved(given)
+    assert write_as_given(tmp_path / name, first, Original(tmp_path / name, given)).replaced
+    second = moved(first, 3)
+    assert write_as_given(tmp_path / name, second, Original(tmp_path / name, first)).replaced
+    np.testing.assert_allclose(io.read(tmp_path / name).points, second.points, rtol=1e-10, atol=1e-13)
 
 
 def test_another_format_is_written_anew_without_a_word(tmp_path):
