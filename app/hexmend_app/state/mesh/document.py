@@ -107,6 +107,7 @@ class Document(QObject):
         self._changes: list[Change] = []
         self._at = 0
         self._saved: State | None = None
+        self._opened: Original | None = None
 
     @property
     def is_open(self) -> bool:
@@ -147,6 +148,7 @@ class Document(QObject):
         self.now = state
         self._changes = [Change("open", state)]
         self._at, self._saved = 0, state
+        self._opened = None if path is None else Original(path, state.mesh)
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
@@ -211,9 +213,10 @@ class Document(QObject):
             self.commit("reset", State(mesh, start.figures, summarise(mesh, start.figures)))
 
     @property
-    def original(self) -> Original | None:
-        """File that was opened or saved last, with its mesh; None if there is none."""
-        return None if self.path is None or self._saved is None else Original(self.path, self._saved.mesh)
+    def originals(self) -> tuple[Original, ...]:
+        """Files that hold the mesh: the one that was saved last, and the one that was opened."""
+        saved = () if self.path is None or self._saved is None else (Original(self.path, self._saved.mesh),)
+        return saved if self._opened is None else (*saved, self._opened)
 
     @property
     def recorded(self) -> State:
@@ -244,6 +247,7 @@ class Document(QObject):
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
+        self._opened = None
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from hexmend.io import Original, Written, unsupported_data, write_as_given
+from hexmend.io import Original, Written, replaces_coordinates, unsupported_data, write_as_given
 from hexmend.io.formats.session import SUFFIX
 from hexmend_app.state.mesh.document import State
 from hexmend_app.state.session import session_data
@@ -37,8 +37,10 @@ class SaveTask:
     ----------
     omitted : list of str
         Data that the format of the written file does not support, or that the file as given does not hold.
+    originals : tuple of Original
+        Files that hold the mesh: saved in the format of one, only its coordinates change.
     original : Original or None
-        File of the mesh: saved in the same format, only its coordinates change.
+        The first of them that has the format of the written file.
     written : Written or None
         The way in which a mesh file was written.
     over : bool
@@ -50,6 +52,7 @@ class SaveTask:
     def __init__(self, path: Path, state: State, recorded: State, data: SessionData | None):
         self.path, self.state, self.recorded, self.data = path, state, recorded, data
         self.omitted: list[str] = []
+        self.originals: tuple[Original, ...] = ()
         self.original: Original | None = None
         self.written: Written | None = None
         self.over = False
@@ -60,6 +63,8 @@ class SaveTask:
         if self.data is not None:
             session_data.write(self.path, self.data)
         else:
+            fitting = (one for one in self.originals if replaces_coordinates(self.path, one))
+            self.original = next(fitting, None)
             self.written = write_as_given(self.path, self.state.mesh, self.original)
             self.omitted = unsupported_data(self.path, self.state.mesh)
             if self.written.replaced:  # what the mesh had when it was read is still in the file
@@ -132,7 +137,9 @@ class MeshSaver(QObject):
     def _begin(self) -> None:
         if self._saving is None and self._waiting:
             self._saving = saving = self._waiting.popleft()
-            saving.original = self._session.document.original  # not earlier: a save before may have written this file
+            saving.originals = (
+                self._session.document.originals
+            )  # not earlier: a save before may have written one of them
             self._task = Task(f"saving {saving.path.name}", lambda _: saving.write())
             self._task.ended.connect(self._finish)
             self.began.emit(saving)
