@@ -107,7 +107,7 @@ class Document(QObject):
         self._changes: list[Change] = []
         self._at = 0
         self._saved: State | None = None
-        self._opened: Original | None = None
+        self._files: dict[Path, Mesh] = {}
 
     @property
     def is_open(self) -> bool:
@@ -148,7 +148,7 @@ class Document(QObject):
         self.now = state
         self._changes = [Change("open", state)]
         self._at, self._saved = 0, state
-        self._opened = None if path is None else Original(path, state.mesh)
+        self._files = {} if path is None else {path: state.mesh}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
@@ -214,9 +214,8 @@ class Document(QObject):
 
     @property
     def originals(self) -> tuple[Original, ...]:
-        """Files that hold the mesh: the one that was saved last, and the one that was opened."""
-        saved = () if self.path is None or self._saved is None else (Original(self.path, self._saved.mesh),)
-        return saved if self._opened is None else (*saved, self._opened)
+        """Files that were opened or saved, the last one first, with the mesh in each."""
+        return tuple(Original(path, mesh) for path, mesh in reversed(self._files.items()))
 
     @property
     def recorded(self) -> State:
@@ -235,6 +234,8 @@ class Document(QObject):
         is_open = any(change.state.mesh.hexes is state.mesh.hexes for change in self._changes)
         if is_open:
             self.path, self._saved = path, state
+            self._files.pop(path, None)
+            self._files[path] = state.mesh
             self.changes_changed.emit()
         return is_open
 
@@ -247,7 +248,7 @@ class Document(QObject):
         """Open the mesh of a session file, with its changes."""
         self.now, self._changes, self._at = data.now, list(data.changes), data.at
         self.path, self._saved = None if data.path is None else Path(data.path), data.saved
-        self._opened = None
+        self._files = {self.path: data.saved.mesh} if self.path is not None and data.saved is not None else {}
         self.mesh_replaced.emit()
         self.changes_changed.emit()
 
