@@ -48,9 +48,9 @@ class MeshOutput:
         try:
             written = write_as_given(self.path, mesh, self._original)
         except ChangedFileError as error:
-            beside = Path(self.path).with_stem(f"{Path(self.path).stem}-hexmend")
-            write(beside, mesh)
-            remedy = f"The result was written anew to {beside}."
+            second = Path(self.path).with_stem(f"{Path(self.path).stem}-hexmend")
+            write(second, mesh)
+            remedy = f"The result was written anew to {second}."
             raise FileError(error.path, error.problem, remedy) from None
         for note in written.notes:
             print(f"hexmend: {note}", file=sys.stderr)

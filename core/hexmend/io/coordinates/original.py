@@ -50,7 +50,7 @@ def difference(given: Mesh, mesh: Mesh, capabilities: Collection[Capability] = f
         "nodes": (given.n_nodes, mesh.n_nodes),
         "hexes": (given.hexes, mesh.hexes),
         "nodes of second order": (given.mid_nodes, mesh.mid_nodes),
-        "cells beside the hexes": (given.cells, mesh.cells),
+        "cells of other kinds": (given.cells, mesh.cells),
     }
     kept = {
         Capability.FIXED_NODES: (_marks(given), _marks(mesh)),

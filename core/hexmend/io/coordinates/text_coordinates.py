@@ -22,7 +22,7 @@ class TextFields:
     ----------
     begin, end : (n, 3) int64
         Equal for a blank field.
-    room : (n, 3) int64
+    space : (n, 3) int64
         Blanks before the number that belong to its field.
     absent : (n, 3) bool
         True for fields that a line ends before; they are written behind a comma at `begin`.
@@ -32,7 +32,7 @@ class TextFields:
 
     begin: np.ndarray
     end: np.ndarray
-    room: np.ndarray
+    space: np.ndarray
     absent: np.ndarray
     aligned: bool = False
 
@@ -46,19 +46,19 @@ class TextFields:
         texts : bytes
             The new numbers, one a line.
         """
-        begin, end, room, absent = (part[changed] for part in (self.begin, self.end, self.room, self.absent))
+        begin, end, space, absent = (part[changed] for part in (self.begin, self.end, self.space, self.absent))
         if absent.any():
             lines = texts.split(b"\n")
             texts = replace_lines(texts, np.flatnonzero(absent), lambda k: b", " + lines[k])
-        padding = room
+        padding = space
         if self.aligned:  # the number grows into its blanks, all but one
-            padding = np.maximum(np.minimum(room, 1), room + end - begin - text_lengths(texts))
+            padding = np.maximum(np.minimum(space, 1), space + end - begin - text_lengths(texts))
         order = np.argsort(begin, kind="stable")
         if (order[1:] > order[:-1]).all():
-            return Edits(begin - room, end, padding, texts)
+            return Edits(begin - space, end, padding, texts)
         lines = texts.split(b"\n")
         texts = b"".join(lines[k] + b"\n" for k in order.tolist())
-        return Edits((begin - room)[order], end[order], padding[order], texts)
+        return Edits((begin - space)[order], end[order], padding[order], texts)
 
 
 @dataclass(frozen=True, eq=False)

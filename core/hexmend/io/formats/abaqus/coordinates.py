@@ -167,6 +167,6 @@ def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[n
 
 def _joined(parts: list[TextFields]) -> TextFields:
     """Fields of several cards, one after the other."""
-    names = ("begin", "end", "room", "absent")
+    names = ("begin", "end", "space", "absent")
     arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in names]
     return TextFields(*arrays, aligned=all(part.aligned for part in parts))
