@@ -85,12 +85,15 @@ class TextCoordinates:
 
     def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+        with open(file, "wb") as out:
+            write_edited(out, self.data, self.edits(points))
+        return self.notes
+
+    def edits(self, points: np.ndarray) -> Edits:
+        """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
         changed |= changed.any(axis=1)[:, None] & self.fields.absent
-        texts = number_texts(points[changed], self._style(), self.width)
-        with open(file, "wb") as out:
-            write_edited(out, self.data, self.fields.edits(changed, texts))
-        return self.notes
+        return self.fields.edits(changed, number_texts(points[changed], self._style(), self.width))
 
     def _style(self) -> str | None:
         begin, end = self.fields.begin.ravel(), self.fields.end.ravel()
