@@ -6,15 +6,12 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-
-if TYPE_CHECKING:
-    from hexmend.io.formats.abaqus.includes import Piece
+from hexmend.io.formats.abaqus.deck_file import Piece
 
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
@@ -56,7 +53,7 @@ class Deck:
     data : bytes
         Content of the file, joined with those that it includes.
     pieces : sequence of Piece
-        Parts of files in the content, see `hexmend.io.formats.abaqus.includes`; empty for a file without others.
+        Parts of files in the content, see `hexmend.io.formats.abaqus.deck_file`; empty for a file without others.
     hidden : sequence of tuple of int
         Byte ranges of the lines that include a file, which are read as blank: the data lines of a keyword may follow.
 

@@ -11,7 +11,7 @@ from hexmend.io.coordinates.edits import Edits, write_edited
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.replacement import is_same_file
 from hexmend.io.formats.abaqus.deck import Deck
-from hexmend.io.formats.abaqus.includes import DeckFile
+from hexmend.io.formats.abaqus.deck_file import DeckFile
 from hexmend.io.storage.atomic import atomic_write
 
 

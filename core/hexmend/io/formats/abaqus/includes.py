@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import quoted, read_text_bytes
 from hexmend.io.formats.abaqus.deck import Card, Deck
+from hexmend.io.formats.abaqus.deck_file import DeckFile, Piece, Reference
 from hexmend.io.formats.abaqus.sets import unquoted
 from hexmend.io.storage.readable import check_readable
 
@@ -18,61 +18,6 @@ _INCLUDING = ("INCLUDE", "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE")
 _INPUT = re.compile(rb"input\s*=[ \t]*(\"[^\"\n]*\"|[^,\r\n]*)", re.IGNORECASE)
 #: Files that include each other, and all files of a deck.
 _MAX_DEPTH, _MAX_FILES = 10, 1000
-
-
-@dataclass(frozen=True, eq=False)
-class Reference:
-    """Name of an included file in the file that includes it.
-
-    Parameters
-    ----------
-    parent : DeckFile
-    begin, end : int
-        Byte range of the name in the parent, with quotes if it has them.
-    name : str
-        The name without quotes.
-    """
-
-    parent: DeckFile
-    begin: int
-    end: int
-    name: str
-
-
-@dataclass(eq=False)
-class DeckFile:
-    """The deck or a file that it includes; a file that is included twice is two of them.
-
-    Parameters
-    ----------
-    path : Path
-    data : bytes
-        Its content.
-    reference : Reference or None
-        None for the deck itself.
-    included : list of DeckFile
-    """
-
-    path: Path
-    data: bytes
-    reference: Reference | None = None
-    included: list[DeckFile] = field(default_factory=list)
-
-    def walk(self) -> Iterator[DeckFile]:
-        """Iterate over the file and all files that it includes, included ones last."""
-        yield self
-        for one in self.included:
-            yield from one.walk()
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """Part of a file in the joined text: its offset there and in the file, and its length."""
-
-    file: DeckFile
-    begin: int
-    file_begin: int
-    length: int
 
 
 def read_deck(path: Path) -> Deck:
