@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hexmend.aliases import exports, reads_old_members, reads_old_names
 from hexmend.mesh.mesh import Mesh
 from hexmend.registry import Registry
+
+if TYPE_CHECKING:
+    from hexmend.io.coordinates.located import LocatedCoordinates
 
 
 @reads_old_members
@@ -63,6 +66,9 @@ class Format:
         False if coordinates are rounded.
     limitations : callable, optional
         limitations(mesh) describes data of the mesh that are lost although the format has the capability, list of str.
+    locate : callable, optional
+        locate(path) finds the coordinates of a file, so that they can be replaced in a copy of it; returns
+        `hexmend.io.coordinates.located.LocatedCoordinates`.
     """
 
     name: str
@@ -76,6 +82,7 @@ class Format:
     matches: Callable[[bytes], bool] | None = None
     exact: bool = True
     limitations: Callable[[Mesh], list[str]] | None = None
+    locate: Callable[[Path], LocatedCoordinates] | None = None
 
 
 #: All formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`.
