@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
-from typing import NoReturn
 
 from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
-from hexmend.io.base.format import FORMATS, Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
-from hexmend.io.base.plugins import plugin_formats
+from hexmend.io.format_choice import (
+    every_format,
+    format_by_content,
+    format_by_place,
+    format_to_write,
+    has_format,
+    suffixes_of,
+)
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
@@ -27,7 +33,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Parameters
     ----------
     path : path-like
-        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading.
+        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading. For OpenFOAM
+        also the folder of a case.
     as_is : bool
         Keep parts whose hexes are all mirrored; else their node order is reversed.
     interpolate_missing : bool
@@ -36,8 +43,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Returns
     -------
     Mesh
-        Named after the file's stem. The order of nodes and hexes, data, sets, fixed nodes and other cells are kept.
-        Its `notes` list the changes made on reading.
+        Named after the file's stem or the case. The order of nodes and hexes, data, sets, fixed nodes and other cells
+        are kept. Its `notes` list the changes made on reading.
 
     Raises
     ------
@@ -45,12 +52,15 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
-    check_readable(path, "a mesh file")
-    format = _format_of(path)
+    format = format_by_place(path)
+    if format is None:
+        check_readable(path, "a mesh file or the folder of an OpenFOAM case")
+        format = format_by_content(path)
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
         with reading(path, "Close other programs or use a larger machine."):
-            mesh = format.read(path).replace(name=path.stem)
+            mesh = format.read(path)
+            mesh = mesh if format.contains else mesh.replace(name=path.stem)
             return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -58,7 +68,13 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         INTERPOLATE_MISSING.reset(token)
 
 
-def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = None) -> None:
+def write(
+    path: str | os.PathLike[str],
+    mesh: Mesh,
+    *,
+    encoding: str | None = None,
+    source: str | os.PathLike[str] | None = None,
+) -> None:
     """Write a mesh; if that fails, an earlier file stays unchanged.
 
     Parameters
@@ -69,6 +85,9 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
         Data that the format cannot store are left out; see `unsupported_data`.
     encoding : str, optional
         One of the format's `encodings`; the first one if None.
+    source : path-like, optional
+        The file that the mesh was read from. If it has the same format, and the format allows it, only the points are
+        replaced and everything else is kept: an OpenFOAM case is copied, or changed in place.
 
     Raises
     ------
@@ -76,11 +95,17 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
         For an unknown suffix or encoding, and where the file cannot be written.
     """
     path = Path(path)
-    format = _writer(path)
+    format = format_to_write(path, source)
+    replace = format.replace_points if encoding is None and source is not None else None
+    if replace and has_format(format, Path(source)) and replace(path, mesh, Path(source)):
+        return
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
+    if format.contains:
+        format.write(path, mesh, encoding)
+        return
     with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
@@ -88,17 +113,21 @@ def write(path: str | os.PathLike[str], mesh: Mesh, *, encoding: str | None = No
             raise FileError(path, error.problem, error.remedy) from None
 
 
-def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str], Mesh], None]:
+def writer_for(
+    path: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
+) -> Callable[[str | os.PathLike[str], Mesh], None]:
     """Return `write` after a check of suffix and folder, so that errors are found before a long run.
 
     Parameters
     ----------
     path : path-like
+    source : path-like, optional
+        As of `write`.
 
     Returns
     -------
     callable
-        `write`
+        `write`, with the source.
 
     Raises
     ------
@@ -106,12 +135,15 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
         For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
-    _writer(path)
-    check_writable(path)
-    return write
+    format = format_to_write(path, source)
+    if not format.contains:
+        check_writable(path)
+    return partial(write, source=source)
 
 
-def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
+def unsupported_data(
+    path: str | os.PathLike[str], mesh: Mesh, source: str | os.PathLike[str] | None = None
+) -> list[str]:
     """Describe the data of a mesh that are lost if it is written to a file.
 
     Parameters
@@ -119,6 +151,8 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     path : path-like
         Its suffix chooses the format; the file need not exist.
     mesh : Mesh
+    source : path-like, optional
+        As of `write`.
 
     Returns
     -------
@@ -128,30 +162,30 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     Raises
     ------
     FileError
-        For an unknown suffix.
+        For an unknown suffix, and for a case that has another mesh.
     """
-    format = _writer(Path(path))
+    path, source = Path(path), None if source is None else Path(source)
+    format = format_to_write(path, source)
+    if format.omissions and (lost := format.omissions(path, mesh, source)) is not None:
+        return lost
     required = required_capabilities(mesh, format.stored_names)
     missing = [description for kind, description in required.items() if kind not in format.capabilities]
     return missing + (format.limitations(mesh) if format.limitations else [])
 
 
+def copy_suffix(path: str | os.PathLike[str]) -> str:
+    """Return the suffix that a copy of a mesh gets: that of the file, or none for a case, which is a folder."""
+    return "" if format_by_place(Path(path)) else Path(path).suffix
+
+
 def readable_suffixes() -> tuple[str, ...]:
     """Return the suffixes that `read` knows, with the dot."""
-    return _suffixes(_every_format())
+    return suffixes_of(every_format())
 
 
 def writable_suffixes() -> tuple[str, ...]:
     """Return the suffixes that `write` knows, with the dot."""
-    return _suffixes(format for format in _every_format() if format.write)
-
-
-def _every_format() -> tuple[Format, ...]:
-    return *FORMATS.values(), *plugin_formats()
-
-
-def _suffixes(formats: Iterable[Format]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
+    return suffixes_of(format for format in every_format() if format.write)
 
 
 #: Remedies for an invalid mesh: False in general, True for coordinates that are not finite.
@@ -159,43 +193,6 @@ _REMEDY = {
     False: "Correct the file, or write it again with the program that made it.",
     True: "Correct the file, or let hexmend repair put such nodes between their neighbours.",
 }
-
-#: Bytes from which the format of a file is recognised.
-_HEAD = 4096
-
-
-def _format_of(path: Path) -> Format:
-    """Find the format of a file: by the suffix, unless the content is of another format."""
-    named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
-    with open(path, "rb") as file:
-        head = file.read(_HEAD)
-    for format in named:
-        if format.matches is None or format.matches(head):
-            return format
-    for format in FORMATS.values():
-        if format.matches is not None and format.matches(head):
-            return format
-    for format in plugin_formats():  # loaded only if none of ours matches
-        if format.matches is not None and format.matches(head):
-            return format
-        if not named and path.suffix.lower() in format.suffixes:
-            return format
-    return named[0] if named else _unknown(path, "read", _every_format())
-
-
-def _writer(path: Path) -> Format:
-    for formats in (FORMATS.values, plugin_formats):  # plug-ins are loaded only if none of ours writes it
-        for format in formats():
-            if format.write and path.suffix.lower() in format.suffixes:
-                return format
-    return _unknown(path, "write", [format for format in _every_format() if format.write])
-
-
-def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
-    titles = {suffix: format.title for format in reversed(tuple(formats)) for suffix in reversed(format.suffixes)}
-    known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
-    problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
-    raise FileError(path, problem, f"Hexmend can {verb} {known}.")
 
 
 def check_readable(path: Path, expected: str) -> None:

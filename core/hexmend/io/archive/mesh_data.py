@@ -16,7 +16,9 @@ from hexmend.mesh.validation import check_finite, check_node_numbers
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
 #: Fields of a mesh, and the version of sessions that introduced each.
 _SINCE = dict.fromkeys(("points", "hexes", "surface", "pinned", "mid_nodes", "cells", "name", "notes", *_TABLES), 1) | {
-    "target": 2
+    "target": 2,
+    "side_set_types": 6,
+    "periodic_pairs": 6,
 }
 #: Fields that are set for each mesh; meshes with the same other fields share them.
 _UNSHARED = {"points", "surface", "mid_nodes"}
@@ -35,6 +37,8 @@ def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
         "cells": [{"kind": c.kind, "nodes": c.nodes, "data": c.data, "sets": c.sets} for c in mesh.cells],
         "name": mesh.name,
         "notes": list(mesh.notes),
+        "side_set_types": dict(mesh.side_set_types),
+        "periodic_pairs": [list(pair) for pair in mesh.periodic_pairs],
         **{table: dict(getattr(mesh, table)) for table in _TABLES},
     }
 
@@ -132,6 +136,8 @@ def _decode_fields(data: Mapping[str, Any], mesh: Mesh) -> dict[str, Any]:
         "cells": tuple(_cells(block, n) for block in data["cells"]),
         "name": data["name"],
         "notes": tuple(data["notes"]),
+        "side_set_types": data.get("side_set_types", {}),
+        "periodic_pairs": data.get("periodic_pairs", []),
     }
 
 

@@ -63,6 +63,15 @@ class Format:
         False if coordinates are rounded.
     limitations : callable, optional
         limitations(mesh) describes data of the mesh that are lost although the format has the capability, list of str.
+    contains : callable, optional
+        For formats of several files: contains(path) returns True if a folder, or a file whatever its content is, is
+        of the format. `write` then gets the path that was named and replaces files itself.
+    replace_points : callable, optional
+        replace_points(path, mesh, source) writes the file that the mesh was read from with other points and everything
+        else as it is; returns False, without writing, if the mesh is no longer that of the file.
+    omissions : callable, optional
+        omissions(path, mesh, source) describes what is lost where the points alone are replaced, list of str; None
+        where it follows from the capabilities. It raises `FileError` where the path cannot be written.
     """
 
     name: str
@@ -76,6 +85,9 @@ class Format:
     matches: Callable[[bytes], bool] | None = None
     exact: bool = True
     limitations: Callable[[Mesh], list[str]] | None = None
+    contains: Callable[[Path], bool] | None = None
+    replace_points: Callable[[Path, Mesh, Path], bool] | None = None
+    omissions: Callable[[Path, Mesh, Path | None], list[str] | None] | None = None
 
 
 #: All formats of Hexmend by name; those of other distributions are in `hexmend.io.base.plugins`.

@@ -13,10 +13,10 @@ def run(args: argparse.Namespace) -> int:
     """Repair the mesh, write it, and print what was repaired and what remains."""
     for name in args.only:
         AILMENTS[name]  # raises for an unknown name before the mesh is read
-    write = writer_for(args.output)
+    write = writer_for(args.output, args.mesh)
     mesh = read(args.mesh, as_is=True, nodes_without_place=True)
     print_notes(mesh)
-    warn_of_losses(args.output, mesh)
+    warn_of_losses(args.output, mesh, args.mesh)
     mesh, repaired = repair(mesh, args.only)
     write(args.output, mesh)
     for finding in repaired:

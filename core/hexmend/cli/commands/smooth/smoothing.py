@@ -26,12 +26,12 @@ from hexmend.run.recipe_files import write_recipe
 def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
     method, limits = method_and_limits(args)
-    write = writer_for(args.output)  # raises now, and not after the run, for a file that cannot be written
+    write = writer_for(args.output, args.mesh)  # raises now, and not after the run, for a file that cannot be written
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
     print_problems(args.mesh, mesh)
-    warn_of_losses(args.output, mesh)
+    warn_of_losses(args.output, mesh, args.mesh)
     pinned = mesh.pinned  # as in the file, for the output: --fix and --only hold for this run alone
     if args.fix:
         mesh = with_sets_fixed(mesh, *args.fix)
