@@ -17,6 +17,7 @@ from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
+from hexmend.quality.material_volumes import MaterialVolume
 
 
 @reads_old_names
@@ -141,6 +142,8 @@ class Result:
         One for each method that was run.
     surface : SurfaceChange or None
         Distance of the boundary from where it was; None where no method let it slide.
+    materials : mapping of str to MaterialVolume
+        Volumes of the materials by name; empty for a mesh of one material.
     active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
     """
@@ -159,6 +162,7 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
+    materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
 
     @property

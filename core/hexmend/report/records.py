@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 
 def record(result: Result) -> dict[str, Any]:
-    """Return the report of `hexmend smooth --json`; only recipes have `stages`, only sliding boundaries `surface`."""
+    """Return the report of `hexmend smooth --json`.
+
+    Only recipes have `stages`, only sliding boundaries `surface`,
+    and only meshes of several materials `materials`."""
     from hexmend.iteration.figures import HISTORY
     from hexmend.run.recipe import Recipe
 
@@ -31,6 +34,8 @@ def record(result: Result) -> dict[str, Any]:
     }
     if result.surface is not None:
         report["surface"] = result.surface.to_dict()
+    if result.materials:
+        report["materials"] = {name: volume.to_dict() for name, volume in result.materials.items()}
     return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.method == Recipe.name else report
 
 

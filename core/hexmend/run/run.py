@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
+from hexmend.quality.material_volumes import MaterialVolume, volume_changes
+from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
@@ -34,7 +37,7 @@ class Run(Iterator[Iteration]):
     Attributes
     ----------
     mesh, smoother
-        As given.
+        As given; the mesh has the rules of motion of a recipe.
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
@@ -51,6 +54,8 @@ class Run(Iterator[Iteration]):
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
+        if isinstance(smoother, Recipe) and smoother.rules:
+            mesh = with_rules(mesh, mesh.node_rules.rules.merge(smoother.rules))
         self.mesh = mesh
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
@@ -163,14 +168,16 @@ class Run(Iterator[Iteration]):
         changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
         done = [stage for stage in changed if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        return Recipe.of(*done, self._stage_run.as_stage(), *self._remaining_stages, title=title)
+        stages = *done, self._stage_run.as_stage(), *self._remaining_stages
+        return Recipe.of(*stages, title=title, rules=self.mesh.node_rules.rules)
 
     @property
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
-        return self._message(*self._summaries())
+        volumes = volume_changes(self.mesh, self.mesh.with_points(self.best.points))
+        return self._message(*self._summaries(), volumes)
 
-    def _message(self, before: Summary, after: Summary) -> str:
+    def _message(self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume]) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
@@ -181,6 +188,7 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
+        words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
         return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
 
@@ -193,6 +201,7 @@ class Run(Iterator[Iteration]):
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self.mesh.with_points(self.best.points)
+        volumes = volume_changes(self.mesh, mesh)
         return Result(
             mesh=mesh,
             before=before,
@@ -200,7 +209,7 @@ class Run(Iterator[Iteration]):
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self._message(before, after),
+            message=self._message(before, after, volumes),
             iterations=self.last.number,
             kept=self.best.number,
             seconds=self.last.seconds,
@@ -208,12 +217,14 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
+            materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Return the change of the boundary from the mesh as given; None if no method let it slide."""
-        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides), None)
+        by_rule = self.mesh.node_rules.slides is not None
+        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
 
     def _summaries(self) -> tuple[Summary, Summary]:

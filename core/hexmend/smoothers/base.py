@@ -64,6 +64,10 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    def slides_on(self, mesh: Mesh) -> bool:
+        """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
+        return self.slides
+
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free

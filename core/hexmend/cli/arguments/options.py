@@ -54,6 +54,28 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_motion(parser: argparse.ArgumentParser) -> None:
+    """Declare the options for interfaces between materials and for the nodes of named sets."""
+    parser.add_argument(
+        "--interfaces",
+        choices=("keep", "slide", "free"),
+        help="nodes between materials: keep them like the boundary (default), let them slide on the interface, or let "
+        "them move freely",
+    )
+    add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
+    add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
+    add_repeated(parser, "--free", "SET", "free the pinned nodes, and those of interfaces, of this set")
+    add_repeated(parser, "--plane", "SET", "let the nodes of this flat set move in its plane")
+    parser.add_argument(
+        "--periodic",
+        nargs=2,
+        metavar=("SET", "OTHER"),
+        action="append",
+        default=[],
+        help="move the nodes of two sets as one, such as the two sides of a periodic cell",
+    )
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
     parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")

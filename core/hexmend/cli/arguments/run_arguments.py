@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from hexmend.cli.arguments.options import parse_settings
 from hexmend.errors import ParameterError
 from hexmend.io import read_surface
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import declared, from_strings
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
@@ -87,6 +89,15 @@ def given_limits(args: argparse.Namespace) -> dict[str, Any]:
 def _given_words(args: argparse.Namespace) -> dict[str, str]:
     words = {limit.name: getattr(args, limit.name) for limit in declared(StoppingCriteria)}
     return {name: text for name, text in words.items() if text is not None}
+
+
+def motion_rules(args: argparse.Namespace) -> MotionRules:
+    """Return the rules of motion of the options of `add_motion`; those of a recipe come first."""
+    given = MotionRules(args.interfaces or "keep", args.fix, args.slide, args.free, args.plane, args.periodic)
+    if not args.recipe:
+        return given
+    rules = read_recipe(args.recipe).rules.merge(given)
+    return replace(rules, interfaces=args.interfaces or rules.interfaces)
 
 
 def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe) -> Mesh:

@@ -33,7 +33,7 @@ def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
     far = np.isfinite(size) & (size > FAR_NODE_FACTOR * mesh.mean_edge_length)
     points = mesh.points
-    for node in np.flatnonzero(far & mesh.free & ~mesh.topology.boundary):
+    for node in np.flatnonzero(far & mesh.free & mesh.interior):
         ring = mesh.topology.rings[node]
         ring = ring[~far[ring]]
         if ring.size:

@@ -48,7 +48,7 @@ def local_sweeps(
     near = mask(mesh.hexes[around], mesh.n_nodes)
     near[mesh.hexes[near[mesh.hexes].any(axis=1)]] = True
     near[mesh.hexes[omitted != 0]] = False
-    colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
+    colours = mesh.topology.colouring(near & mesh.free & mesh.interior)
     settings = local.NodeStepSettings(
         local.Direction.MODIFIED_NEWTON, delta, energy.norm, LineSearch(max_backtracks=60)
     )

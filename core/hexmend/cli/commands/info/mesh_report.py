@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping
 
+import numpy as np
+
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import examine
@@ -21,6 +23,8 @@ from hexmend.quality import (
     summarise,
     summarise_second_order,
 )
+from hexmend.quality.material_volumes import material_volumes
+from hexmend.terminal_text import printable
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -40,6 +44,8 @@ def run(args: argparse.Namespace) -> int:
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
         _print_locked(mesh, quality, summary.locked_inverted)
+    if mesh.materials is not None:
+        _print_materials(mesh)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
     if args.metrics:
@@ -60,11 +66,28 @@ def _print_json(
     answer = summary.to_dict()
     if args.metrics:
         answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+    if mesh.materials is not None:
+        counts, volumes = np.bincount(mesh.materials.of_hex).tolist(), material_volumes(mesh).items()
+        pairs = zip(volumes, counts, strict=True)
+        answer["materials"] = {name: {"hexes": count, "volume": volume} for (name, volume), count in pairs}
+        answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
     print(to_json(answer))
+
+
+def _print_materials(mesh: Mesh) -> None:
+    """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
+    from hexmend.run.interface_messages import describe_interfaces  # loaded only for a mesh of several materials
+
+    materials = mesh.materials
+    counts = np.bincount(materials.of_hex).tolist()
+    named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
+    more = len(named) - _MAX_PLACES
+    listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
+    print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
 
 
 def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:
