@@ -14,13 +14,16 @@ import pkgutil
 from hexmend.aliases import exports
 from hexmend.io import formats
 from hexmend.io.base.format import FORMATS, Format
+from hexmend.io.coordinates.original import Original
+from hexmend.io.coordinates.replacement import Written
 from hexmend.io.files import (
-    copy_suffix,
     read,
     readable_suffixes,
+    replaces_coordinates,
     unsupported_data,
     writable_suffixes,
     write,
+    write_as_given,
     writer_for,
 )
 
@@ -32,8 +35,8 @@ if TYPE_CHECKING:
     from hexmend.io.surfaces import read_surface
 
 __all__ = [
-    "FORMATS", "Format", "copy_suffix", "read", "read_surface", "readable_suffixes", "unsupported_data",
-    "writable_suffixes", "write", "writer_for",
+    "FORMATS", "Format", "Original", "Written", "read", "read_surface", "readable_suffixes", "replaces_coordinates",
+    "unsupported_data", "writable_suffixes", "write", "write_as_given", "writer_for",
 ]  # fmt: skip
 
 

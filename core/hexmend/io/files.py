@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import difflib
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from functools import partial
+from collections.abc import Callable
 from pathlib import Path
 
 from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
+from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
-from hexmend.io.format_choice import (
-    every_format,
-    format_by_content,
-    format_by_place,
-    format_to_write,
-    has_format,
-    suffixes_of,
-)
+from hexmend.io.coordinates.located import CoordinatesError
+from hexmend.io.coordinates.original import Original, difference
+from hexmend.io.coordinates.replacement import ChangedFileError, Written, is_same_file, replace_coordinates
+from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
+from hexmend.io.storage.readable import check_readable, reading
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.orientation import with_consistent_orientation
 
@@ -52,15 +47,14 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
-    format = format_by_place(path)
-    if format is None:
+    if format_by_place(path) is None:
         check_readable(path, "a mesh file or the folder of an OpenFOAM case")
-        format = format_by_content(path)
+    format = format_of(path)
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
         with reading(path, "Close other programs or use a larger machine."):
             mesh = format.read(path)
-            mesh = mesh if format.contains else mesh.replace(name=path.stem)
+            mesh = mesh if format.place else mesh.replace(name=path.stem)
             return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -73,7 +67,7 @@ def write(
     mesh: Mesh,
     *,
     encoding: str | None = None,
-    source: str | os.PathLike[str] | None = None,
+    like: str | os.PathLike[str] | Original | None = None,
 ) -> None:
     """Write a mesh; if that fails, an earlier file stays unchanged.
 
@@ -85,25 +79,29 @@ def write(
         Data that the format cannot store are left out; see `unsupported_data`.
     encoding : str, optional
         One of the format's `encodings`; the first one if None.
-    source : path-like, optional
-        The file that the mesh was read from. If it has the same format, and the format allows it, only the points are
-        replaced and everything else is kept: an OpenFOAM case is copied, or changed in place.
+    like : path-like or Original, optional
+        File of the same format with the same hexes, whose coordinates are replaced in the copy that is written; all
+        else in it is kept.
 
     Raises
     ------
     FileError
-        For an unknown suffix or encoding, and where the file cannot be written.
+        For an unknown suffix or encoding, where the file cannot be written, and for a mesh that differs from that of
+        `like` in more than its coordinates.
     """
     path = Path(path)
-    format = format_to_write(path, source)
-    replace = format.replace_points if encoding is None and source is not None else None
-    if replace and has_format(format, Path(source)) and replace(path, mesh, Path(source)):
+    if like is not None:
+        _write_like(path, mesh, like)
         return
+    _write_anew(path, mesh, encoding, writable_format(path))
+
+
+def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
-    if format.contains:
+    if format.place:
         format.write(path, mesh, encoding)
         return
     with atomic_write(path) as temporary:
@@ -111,6 +109,77 @@ def write(
             format.write(temporary, mesh, encoding)
         except FileError as error:  # it names the temporary file
             raise FileError(path, error.problem, error.remedy) from None
+
+
+def _write_like(path: Path, mesh: Mesh, like: str | os.PathLike[str] | Original) -> None:
+    if not isinstance(like, Original):
+        given = read(like, as_is=True)
+        turned = with_consistent_orientation(given)
+        like = Original(Path(like), turned if difference(given, mesh) else given)
+    if not replaces_coordinates(path, like):
+        problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
+        raise FileError(path, problem, "Write it without the argument like.")
+    try:
+        replace_coordinates(path, mesh, like, format_of(like.path))
+    except CoordinatesError as error:
+        raise FileError(path, f"cannot be written: {error}", "Write it without the argument like.") from None
+
+
+def replaces_coordinates(path: str | os.PathLike[str], original: Original | None) -> bool:
+    """Return True if a mesh is written by replacing coordinates in a copy of its file, whose format `path` has.
+
+    Parameters
+    ----------
+    path : path-like
+    original : Original or None
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix, and for a folder that cannot take the mesh.
+    """
+    if original is None or not (original.path.is_file() or format_by_place(original.path)):
+        return False
+    format = writable_format(Path(path), original.path)
+    if format.locate is None or format_of(original.path) is not format:
+        return False
+    if format.place:
+        format.place.check_target(Path(path), original.mesh, original.path)
+    return True
+
+
+def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original | None) -> Written:
+    """Write a mesh by replacing coordinates in a copy of its file where that has the same format, else anew.
+
+    Parameters
+    ----------
+    path : path-like
+    mesh : Mesh
+    original : Original or None
+        File of the mesh, and the mesh as read from it; None to write anew.
+
+    Returns
+    -------
+    Written
+        Tells which of both was done, and why a file was written anew although it has the format of the original.
+
+    Raises
+    ------
+    FileError
+        Where the file cannot be written, or `path` is the original file and that has changed since it was read.
+    """
+    path, reason = Path(path), ()
+    if replaces_coordinates(path, original):
+        try:
+            return replace_coordinates(path, mesh, original, format_of(original.path))
+        except CoordinatesError as error:
+            reason = (f"The file is written anew: {error}.",)
+        except ChangedFileError as error:
+            if is_same_file(path, original.path):
+                raise
+            reason = (f"The file is written anew: {error.path.name} {error.problem}.",)
+    _write_anew(path, mesh, None, writable_format(path, original and original.path))
+    return Written(False, reason)
 
 
 def writer_for(
@@ -122,12 +191,12 @@ def writer_for(
     ----------
     path : path-like
     source : path-like, optional
-        As of `write`.
+        File that the mesh is read from; a case is written as a case where the suffix chooses nothing.
 
     Returns
     -------
     callable
-        `write`, with the source.
+        `write`
 
     Raises
     ------
@@ -135,10 +204,10 @@ def writer_for(
         For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
-    format = format_to_write(path, source)
-    if not format.contains:
+    format = writable_format(path, source and Path(source))
+    if not format.place:
         check_writable(path)
-    return partial(write, source=source)
+    return write
 
 
 def unsupported_data(
@@ -152,7 +221,7 @@ def unsupported_data(
         Its suffix chooses the format; the file need not exist.
     mesh : Mesh
     source : path-like, optional
-        As of `write`.
+        As of `writer_for`.
 
     Returns
     -------
@@ -162,20 +231,14 @@ def unsupported_data(
     Raises
     ------
     FileError
-        For an unknown suffix, and for a case that has another mesh.
+        For an unknown suffix, and for a folder that cannot take the mesh.
     """
-    path, source = Path(path), None if source is None else Path(source)
-    format = format_to_write(path, source)
-    if format.omissions and (lost := format.omissions(path, mesh, source)) is not None:
-        return lost
+    format = writable_format(Path(path), source and Path(source))
+    if format.place:
+        format.place.check_target(Path(path), mesh, None)
     required = required_capabilities(mesh, format.stored_names)
     missing = [description for kind, description in required.items() if kind not in format.capabilities]
     return missing + (format.limitations(mesh) if format.limitations else [])
-
-
-def copy_suffix(path: str | os.PathLike[str]) -> str:
-    """Return the suffix that a copy of a mesh gets: that of the file, or none for a case, which is a folder."""
-    return "" if format_by_place(Path(path)) else Path(path).suffix
 
 
 def readable_suffixes() -> tuple[str, ...]:
@@ -193,54 +256,3 @@ _REMEDY = {
     False: "Correct the file, or write it again with the program that made it.",
     True: "Correct the file, or let hexmend repair put such nodes between their neighbours.",
 }
-
-
-def check_readable(path: Path, expected: str) -> None:
-    """Raise a `FileError` unless the path is a readable regular file that is not empty.
-
-    Parameters
-    ----------
-    path : Path
-    expected : str
-        Expected content for errors, such as "a mesh file".
-    """
-    try:
-        if path.is_dir():
-            raise FileError(path, f"is a folder: expected {expected}", "Name a file in it.")
-        if not path.exists():
-            raise FileError(path, f"there is no such file in {path.absolute().parent}", _nearest(path))
-        if not path.is_file():
-            raise FileError(path, "is no regular file", "Save it to a file first.")
-        if path.stat().st_size == 0:
-            raise FileError(path, "is empty", "Write it again with the program that made it.")
-    except (OSError, ValueError) as error:  # a folder without permission, an invalid name
-        raise FileError(path, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
-    if not os.access(path, os.R_OK):
-        raise FileError(path, "cannot be read: permission denied", "Ask for permission to read it, or copy it.")
-
-
-@contextmanager
-def reading(path: Path, remedy: str) -> Iterator[None]:
-    """Context manager that turns errors of the memory and the file system into a `FileError`.
-
-    Parameters
-    ----------
-    path : Path
-    remedy : str
-        Advice where the memory does not suffice.
-    """
-    try:
-        yield
-    except MemoryError:
-        raise FileError(path, "needs more memory than there is", remedy) from None
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from None
-
-
-def _nearest(path: Path) -> str:
-    """Suggest a file of a similar name, as a sentence."""
-    try:
-        near = difflib.get_close_matches(path.name, (entry.name for entry in path.absolute().parent.iterdir()), n=1)
-    except OSError:
-        near = []
-    return f"Did you mean {near[0]}?" if near else "Check the spelling."

@@ -76,6 +76,12 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_rewrite(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
+    text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"
+    parser.add_argument("--rewrite", action="store_true", help=text)
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
     parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")

@@ -16,8 +16,8 @@ def print_notes(mesh: Mesh) -> None:
         print(f"hexmend: {note}", file=sys.stderr)
 
 
-def warn_of_losses(path: str, mesh: Mesh, source: str) -> None:
-    """Print a warning for each part of the mesh, or of its source, that the file to be written will not hold."""
+def warn_of_losses(path: str, mesh: Mesh, source: str | None = None) -> None:
+    """Print a warning for each part of the mesh that the file to be written cannot hold."""
     for part in unsupported_data(path, mesh, source):
         print(f"hexmend: warning: {path} cannot hold {part}, which is left out", file=sys.stderr)
 

@@ -11,7 +11,8 @@ from hexmend.cli.arguments.run_arguments import given_limits, method_settings, s
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.io import copy_suffix, read, write, writer_for
+from hexmend.io import read, write, writer_for
+from hexmend.io.format_lookup import copy_suffix
 from hexmend.report import comparison_rows, output_folder, record_table, write_documents
 from hexmend.smoothers import METHODS
 from hexmend.study.compare import compare

@@ -50,14 +50,22 @@ class Deck:
     path : Path
         The file; errors name it.
     data : bytes
-        Its content.
+        Content of the file.
+
+    Attributes
+    ----------
+    given : bytes
+        The content as it is.
+    data : bytes
+        The content, with blanks in place of comments and lines that end in "\\n"; offsets are those of `given`.
     """
 
     def __init__(self, path: Path, data: bytes):
+        self.given = data
         if b"\r" in data:
-            data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+            data = data.replace(b"\r\n", b" \n").replace(b"\r", b"\n")
         if b"**" in data:
-            data = _COMMENT.sub(b"", data)
+            data = _COMMENT.sub(lambda comment: b" " * len(comment.group()), data)
         self.path, self.data = path, data
         self._cursor = ByteCursor(path, data.replace(b",", b" "))
 

@@ -10,13 +10,26 @@ from pathlib import Path
 
 from hexmend.io.base.format import Capability, deferred, register
 from hexmend.io.formats.openfoam.case import SUFFIXES, find_case, times
+from hexmend.mesh.mesh import Mesh
 
-__all__ = ["contains", "find_case", "times"]
+__all__ = ["find_case", "times"]
 
 
-def contains(path: Path) -> bool:
-    """Return True for the folder or a file of a case; for its `.foam` file even if there is no mesh beside it."""
-    return path.suffix.lower() in SUFFIXES or find_case(path) is not None
+class CasePlace:
+    """Folders and files of cases; see `hexmend.io.base.format.FolderPlace`."""
+
+    def contains(self, path: Path) -> bool:
+        """Return True for the folder or a file of a case; for a `.foam` file even if there is no mesh beside it."""
+        return path.suffix.lower() in SUFFIXES or find_case(path) is not None
+
+    def is_same(self, a: Path, b: Path) -> bool:
+        """Return True if two paths lead to one case."""
+        first, second = find_case(a), find_case(b)
+        return first is not None and second is not None and first.points.resolve() == second.points.resolve()
+
+    def check_target(self, path: Path, mesh: Mesh, source: Path | None) -> None:
+        """Raise `FileError` for a case that has another mesh, and for a folder that a case cannot be copied to."""
+        deferred("hexmend.io.formats.openfoam.writer:check_target")(path, mesh, source)
 
 
 register(
@@ -30,7 +43,6 @@ register(
         {Capability.HEX_SETS, Capability.NODE_SETS, Capability.SIDE_SETS, Capability.EMPTY_SETS, Capability.OTHER_CELLS}
     ),
     limitations=deferred("hexmend.io.formats.openfoam.writer:limitations"),
-    contains=contains,
-    replace_points=deferred("hexmend.io.formats.openfoam.writer:replace_points"),
-    omissions=deferred("hexmend.io.formats.openfoam.writer:omissions"),
+    locate=deferred("hexmend.io.formats.openfoam.coordinates:locate"),
+    place=CasePlace(),
 )

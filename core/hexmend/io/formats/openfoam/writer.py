@@ -14,7 +14,6 @@ from hexmend.io.base.lower_order import lost_mid_nodes
 from hexmend.io.base.polyhedra import LOOPS
 from hexmend.io.base.unique_names import altered_names
 from hexmend.io.formats.openfoam.case import SUFFIXES, CaseFiles, case_folder, find_case
-from hexmend.io.formats.openfoam.case_copy import copy_case, results
 from hexmend.io.formats.openfoam.foam_text import write_poly_mesh
 from hexmend.io.formats.openfoam.points import replaced_points
 from hexmend.io.formats.openfoam.reader import read
@@ -44,56 +43,22 @@ def write(path: Path, mesh: Mesh, encoding: str) -> None:
     FileError
         Where the case has another mesh, and where it cannot be written.
     """
-    with _file_errors(path):
+    with file_errors(path):
         files = find_case(path)
         if files is not None:
             _check_same(path, files, mesh)
-            _replace(files.points, mesh.points)
+            replace_points(files.points, mesh.points)
         else:
             topology = poly_topology(path, mesh)
             folder = case_folder(path) / "constant"
             make_folder(folder)
             with temporary_folder(folder / "polyMesh") as temporary:
                 write_poly_mesh(temporary, topology, encoding)
-        _touch(path)
+        create_marker(path)
 
 
-def replace_points(path: Path, mesh: Mesh, source: Path) -> bool:
-    """Write a case with everything of the case that was read but its points.
-
-    Parameters
-    ----------
-    path : Path
-        As of `write`; the case that was read, one with the same mesh, or a new folder, into which it is copied.
-    mesh : Mesh
-    source : Path
-        The case that was read.
-
-    Returns
-    -------
-    bool
-        False if the mesh is no longer that of the case, and nothing is written.
-
-    Raises
-    ------
-    FileError
-        Where the case has another mesh, or the folder holds other things, and where it cannot be written.
-    """
-    given = find_case(source)
-    if given is None or find_case(path) is not None or not is_same(given, mesh):
-        return False
-    folder = case_folder(path)
-    _check_new(path, folder)
-    with _file_errors(path):
-        make_folder(folder.parent)
-        with temporary_folder(folder) as temporary:
-            copy_case(given, temporary, replaced_points(given.part("points"), mesh.points))
-        _touch(path)
-    return True
-
-
-def omissions(path: Path, mesh: Mesh, source: Path | None) -> list[str] | None:
-    """Describe what is not written where a case is kept; raise `FileError` if it cannot be.
+def check_target(path: Path, mesh: Mesh, source: Path | None) -> None:
+    """Raise `FileError` where a path cannot take a mesh.
 
     Parameters
     ----------
@@ -101,25 +66,13 @@ def omissions(path: Path, mesh: Mesh, source: Path | None) -> list[str] | None:
         As of `write`.
     mesh : Mesh
     source : Path or None
-        The file that the mesh was read from.
-
-    Returns
-    -------
-    list of str or None
-        None if what is lost follows from the capabilities of the format.
+        The case that the mesh was read from, which is copied if `path` has none.
     """
     files, given = find_case(path), None if source is None else find_case(source)
-    if files is not None:
-        if given is not None and given.mesh.resolve() == files.mesh.resolve():
-            return []
+    if files is None and given is not None:
+        _check_new(path, case_folder(path))
+    elif files is not None and (given is None or given.mesh.resolve() != files.mesh.resolve()):
         _check_same(path, files, mesh)
-        return None
-    if given is None:
-        return None
-    _check_new(path, case_folder(path))
-    left = results(given.root)
-    names = ", ".join([*left[:4], *(["..."] if len(left) > 4 else [])])
-    return [f"the results of the case ({names})"] if left else []
 
 
 def limitations(mesh: Mesh) -> list[str]:
@@ -150,13 +103,14 @@ def _check_new(path: Path, folder: Path) -> None:
         raise FileError(path, f"{folder} is a file: expected a folder", "Name a new folder.")
 
 
-def _replace(path: Path, points: np.ndarray) -> None:
+def replace_points(path: Path, points: np.ndarray) -> None:
+    """Replace the coordinates in a file of points."""
     content = replaced_points(path, points)
     with atomic_write(path) as temporary:
         temporary.write_bytes(content)
 
 
-def _touch(path: Path) -> None:
+def create_marker(path: Path) -> None:
     """Create the `.foam` file if it was named and does not exist."""
     if path.suffix.lower() in SUFFIXES and not path.exists():
         path.touch()
@@ -164,7 +118,7 @@ def _touch(path: Path) -> None:
 
 
 @contextmanager
-def _file_errors(path: Path) -> Iterator[None]:
+def file_errors(path: Path) -> Iterator[None]:
     """Context manager that turns errors of the file system into a `FileError`."""
     try:
         yield

@@ -1,4 +1,4 @@
-"""The format of a file: by its place or content on reading, by its place or suffix on writing."""
+"""Lookup of the format of a file, by its place, suffix and content."""
 
 from __future__ import annotations
 
@@ -15,23 +15,29 @@ from hexmend.io.base.plugins import plugin_formats
 _HEAD = 4096
 
 
+def every_format() -> tuple[Format, ...]:
+    """Return all formats, those of plug-ins last."""
+    return *FORMATS.values(), *plugin_formats()
+
+
+def suffixes_of(formats: Iterable[Format]) -> tuple[str, ...]:
+    """Return the suffixes of formats, each once."""
+    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
+
+
 def format_by_place(path: Path) -> Format | None:
     """Find the format of a folder, or of a file that is part of one; None for other files."""
     try:
-        return next((format for format in FORMATS.values() if format.contains and format.contains(path)), None)
+        return next((format for format in FORMATS.values() if format.place and format.place.contains(path)), None)
     except (OSError, ValueError):  # as of an invalid name, which is reported when it is read
         return None
 
 
-def has_format(format: Format, path: Path) -> bool:
-    """Return True if a file that has been read has a format."""
-    if format.contains:
-        return format_by_place(path) is format
-    return path.is_file() and format_by_content(path) is format
-
-
-def format_by_content(path: Path) -> Format:
-    """Find the format of a file: by the suffix, unless the content is of another format."""
+def format_of(path: Path) -> Format:
+    """Find the format of a file: by its place or suffix, unless the content is of another format."""
+    placed = format_by_place(path)
+    if placed is not None:
+        return placed
     named = [format for format in FORMATS.values() if path.suffix.lower() in format.suffixes]
     with open(path, "rb") as file:
         head = file.read(_HEAD)
@@ -49,8 +55,40 @@ def format_by_content(path: Path) -> Format:
     return named[0] if named else _unknown(path, "read", every_format())
 
 
-def format_to_write(path: Path, source: str | os.PathLike[str] | None = None) -> Format:
-    """Find the format of a file to be written: by its place or suffix, for a new folder by that of the source."""
+def unused_path(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a new file beside another one, for a result that cannot be written there.
+
+    >>> unused_path("dir/part.inp").as_posix()
+    'dir/part-hexmend.inp'
+    """
+    path = Path(path)
+    placed = format_by_place(path)
+    if placed is None:
+        return path.with_stem(f"{path.stem}-hexmend")
+    folder = path.parent if path.is_file() else path
+    return folder.with_name(f"{folder.name}-hexmend") / f"mesh{placed.suffixes[0]}"
+
+
+def copy_suffix(path: str | os.PathLike[str]) -> str:
+    """Return the suffix that a copy of a mesh gets: that of the file, or none for a mesh of several files."""
+    return "" if format_by_place(Path(path)) else Path(path).suffix
+
+
+def writable_format(path: Path, source: Path | None = None) -> Format:
+    """Return the format that a file is written in.
+
+    Parameters
+    ----------
+    path : Path
+        Its place or suffix chooses the format.
+    source : Path, optional
+        File that the mesh was read from; a case is written as a case where the suffix chooses nothing.
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix.
+    """
     placed = format_by_place(path)
     if placed is not None and placed.write:
         return placed
@@ -58,7 +96,7 @@ def format_to_write(path: Path, source: str | os.PathLike[str] | None = None) ->
         for format in formats():
             if format.write and path.suffix.lower() in format.suffixes:
                 return format
-    copied = None if source is None else format_by_place(Path(source))
+    copied = None if source is None else format_by_place(source)
     if copied is not None and copied.write:
         return copied
     return _unknown(path, "write", [format for format in every_format() if format.write])
@@ -69,11 +107,3 @@ def _unknown(path: Path, verb: str, formats: Iterable[Format]) -> NoReturn:
     known = ", ".join(f"{suffix} ({title})" for suffix, title in reversed(titles.items()))
     problem = f"the suffix {path.suffix!r} is unknown" if path.suffix else "the name has no suffix"
     raise FileError(path, problem, f"Hexmend can {verb} {known}.")
-
-
-def every_format() -> tuple[Format, ...]:
-    return *FORMATS.values(), *plugin_formats()
-
-
-def suffixes_of(formats: Iterable[Format]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(suffix for format in formats for suffix in format.suffixes))
