@@ -11,6 +11,7 @@ from hexmend.errors import MeshError
 from hexmend.mesh.cells import CELL_KINDS, Cells
 from hexmend.mesh.mesh import Mesh, TargetSurface
 from hexmend.mesh.size_limits import check_size
+from hexmend.mesh.two_dimensional import with_two_dimensional_motion
 from hexmend.mesh.validation import check_finite, check_node_numbers
 
 _TABLES = ("node_data", "hex_data", "node_sets", "hex_sets", "side_sets", "field_data")
@@ -72,7 +73,7 @@ class MeshDecoder:
         mesh = carrier.with_points(surface).keeping_surface().with_points(points)
         if mid_nodes is not None:  # last, because with_points would move the mid-nodes and round points
             mesh = mesh.replace(mid_nodes=_array(data, "mid_nodes", "i", (len(mesh.hexes), 19)))
-        return mesh
+        return with_two_dimensional_motion(mesh)
 
     def _carrier(self, data: Mapping[str, Any], points: np.ndarray) -> Mesh:
         hexes = _array(data, "hexes", "i", (-1, 8))

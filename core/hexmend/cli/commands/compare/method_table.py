@@ -5,13 +5,14 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+from pathlib import Path
 
 from hexmend.cli.arguments.checks import check_memory
 from hexmend.cli.arguments.run_arguments import given_limits, method_settings, stopping_criteria
 from hexmend.cli.output.progress import Progress
 from hexmend.cli.output.rich_tables import print_table
 from hexmend.cli.process.interrupts import FinishWriting
-from hexmend.io import read, write, writer_for
+from hexmend.io import Original, read, write_as_given, writer_for
 from hexmend.io.format_lookup import copy_suffix
 from hexmend.report import comparison_rows, output_folder, record_table, write_documents
 from hexmend.smoothers import METHODS
@@ -27,7 +28,7 @@ def run(args: argparse.Namespace) -> int:
     mesh = read(args.mesh)
     check_memory(args, smoothers, mesh, "compare fewer methods (--methods)")
     folder = output_folder(args.output)
-    suffix = copy_suffix(args.mesh)
+    suffix, original = copy_suffix(args.mesh), Original(Path(args.mesh), mesh)
     if args.write_meshes:
         writer_for(
             folder / f"mesh{suffix}", args.mesh
@@ -41,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         for row in comparison.rows if args.write_meshes else ():
             if row.mesh is not None:
                 paths.append(folder / f"{mesh.name}-{re.sub(r'[^A-Za-z0-9]+', '-', row.method)}{suffix}")
-                write(paths[-1], row.mesh, source=args.mesh)
+                write_as_given(paths[-1], row.mesh, None if suffix else original)
         print_table(table)
         print(f"Written to {args.output}: {', '.join(path.name for path in paths)}.")
         if comparison.interrupted:

@@ -9,7 +9,6 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.content import ID, Block, Content, to_mesh
-from hexmend.io.base.fixed_marks import FIXED
 from hexmend.io.base.numbering import first_out_of_range
 from hexmend.io.base.polyhedra import RaggedArray, cells_from_faces
 from hexmend.io.formats.openfoam.boundary import DEFAULT_PATCH, Patch, read_patches, read_zones
@@ -19,6 +18,7 @@ from hexmend.io.formats.openfoam.lists import read_faces, read_labels, read_vect
 from hexmend.io.formats.openfoam.standard_order import standard_order
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.two_dimensional import with_two_dimensional_motion
 from hexmend.terminal_text import count_phrase
 
 
@@ -72,7 +72,7 @@ def read(path: Path) -> Mesh:
     -------
     Mesh
         Patches and zones of faces are side sets, zones of cells and points are hex and node sets. Nodes of polyhedra
-        and of the point zone "fixed" are pinned.
+        are pinned. Between empty or wedge patches nodes move in the plane of these patches.
     """
     files = find_case(path)
     if files is None:
@@ -85,9 +85,6 @@ def read(path: Path) -> Mesh:
     hex_of[numbers] = np.arange(len(numbers))
     zones = {name: read_zones(files, name, count) for name, count in _counts(poly).items()}
     pinned, notes, unread = _polyhedra(poly, cells)
-    if FIXED in zones["pointZones"]:
-        pinned = np.zeros(len(poly.points), bool) if pinned is None else pinned
-        pinned[zones["pointZones"][FIXED]] = True
     sides = {patch.name: patch.faces for patch in poly.patches}
     sides |= {name: faces for name, faces in zones["faceZones"].items() if name not in sides}
     content = Content(
@@ -99,11 +96,12 @@ def read(path: Path) -> Mesh:
         notes=notes,
         unread=unread,
     )
-    return to_mesh(path, content).replace(
+    mesh = to_mesh(path, content).replace(
         name=path.stem if path.suffix.lower() in SUFFIXES else files.root.name,
         side_set_types={patch.name: patch.type for patch in poly.patches},
         periodic_pairs=_pairs(poly.patches),
     )
+    return with_two_dimensional_motion(mesh)
 
 
 def read_poly_mesh(files: CaseFiles) -> PolyMesh:
