@@ -56,7 +56,8 @@ class PolyMesh:
         counts += np.bincount(self.neighbour, minlength=self.n_cells)
         start = np.concatenate([[0], np.cumsum(counts)])
         is_owner = order < len(self.owner)  # which sees the face in reverse: its normal points out of the cell
-        found = cells_from_faces(self.faces, RaggedArray(start, numbers[order]), is_owner)
+        narrow = RaggedArray(self.faces.start, self.faces.values.astype(np.int32))  # half of the memory to go through
+        found = cells_from_faces(narrow, RaggedArray(start, numbers[order]), is_owner)
         return {kind: (which, standard_order(kind, nodes)) for kind, (which, nodes) in found.items()}
 
 

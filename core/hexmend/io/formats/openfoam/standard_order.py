@@ -37,7 +37,7 @@ def standard_order(kind: str, cells: np.ndarray) -> np.ndarray:
     """
     turns, ordered = ROTATIONS[kind], np.empty_like(cells)
     for begin in range(0, len(cells), _CHUNK):
-        part = cells[begin : begin + _CHUNK]
+        part = cells[begin : begin + _CHUNK].astype(np.int64)
         limit = part.max() + 1
         best = (part[:, turns[:, 0]] * limit + part[:, turns[:, 1]]).argmin(axis=1)
         ordered[begin : begin + _CHUNK] = np.take_along_axis(part, turns[best], axis=1)
