@@ -13,6 +13,7 @@ from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
+from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
@@ -70,9 +71,32 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    def slides_on(self, mesh: Mesh) -> bool:
+        """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
+        return self.slides
+
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
+
+    def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
+        """Return the mesh with the target of its hexes that the parameters name; the mesh itself by default.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            As given to the run, not the result of an earlier stage.
+        layers : Layers
+            Its boundary layers.
+        quality : ElementQuality, optional
+            Of its hexes.
+
+        Raises
+        ------
+        ParameterError
+            For a target that the mesh cannot have.
+        """
+        return mesh
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from PySide6.QtCore import QObject, Signal
 
+from hexmend.mesh.rules import MotionRules
 from hexmend.run.recipe import Recipe, Stage
 
 
@@ -15,6 +16,7 @@ class RecipeDraftData:
 
     title: str
     stages: tuple[Stage, ...]
+    rules: MotionRules = field(default_factory=MotionRules)
 
 
 class RecipeDraft(QObject):
@@ -25,6 +27,8 @@ class RecipeDraft(QObject):
     title : str
         "" to use the titles of the methods.
     stages : tuple of Stage
+    rules : MotionRules
+        Those of the recipe that was loaded.
 
     Signals
     -------
@@ -37,23 +41,25 @@ class RecipeDraft(QObject):
         super().__init__(parent)
         self.title = ""
         self.stages: tuple[Stage, ...] = ()
+        self.rules = MotionRules()
 
     @property
     def recipe(self) -> Recipe | None:
         """Recipe to run or save; None if there is no stage."""
-        return Recipe.of(*self.stages, title=self.title) if self.stages else None
+        return Recipe.of(*self.stages, title=self.title, rules=self.rules) if self.stages else None
 
     def to_data(self) -> RecipeDraftData:
         """Return the data for a session file."""
-        return RecipeDraftData(self.title, self.stages)
+        return RecipeDraftData(self.title, self.stages, self.rules)
 
     def restore(self, data: RecipeDraftData) -> None:
         """Restore the recipe of a session file."""
+        self.rules = data.rules
         self._set(data.stages, data.title)
 
     def load(self, recipe: Recipe) -> None:
         """Replace the stages and the title by those of a recipe."""
-        default = Recipe.of(*recipe.stages).title
+        default, self.rules = Recipe.of(*recipe.stages).title, recipe.rules
         self._set(recipe.stages, "" if recipe.title == default else recipe.title)
 
     def rename(self, title: str) -> None:

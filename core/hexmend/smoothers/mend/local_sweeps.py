@@ -55,7 +55,7 @@ def local_sweeps(
     near[mesh.hexes[omitted != 0]] = False
     motion = mesh.linear_motion
     linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
-    colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary & ~linear)
+    colours = mesh.topology.colouring(near & mesh.free & mesh.interior & ~linear)
     settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH)
     constrained = None
     if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:

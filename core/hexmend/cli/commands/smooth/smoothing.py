@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
-from hexmend.cli.arguments.run_arguments import method_and_limits, with_surface
+from hexmend.cli.arguments.run_arguments import method_and_limits, motion_rules, with_surface
 from hexmend.cli.commands.smooth.suggested_command import suggested_command
 from hexmend.cli.output.mesh_messages import print_notes, print_problems, warn_of_losses
 from hexmend.cli.output.progress import follow
@@ -14,8 +15,9 @@ from hexmend.cli.output.text_tables import print_summaries
 from hexmend.cli.process.interrupts import FinishWriting
 from hexmend.io import read, writer_for
 from hexmend.iteration import Result
-from hexmend.mesh.fixing import with_region_free, with_sets_fixed
+from hexmend.mesh.fixing import with_region_free
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import summarise_second_order
 from hexmend.quality.selection import hexes_in_set
 from hexmend.report import record, write_history, write_json
@@ -32,13 +34,14 @@ def run(args: argparse.Namespace) -> int:
     print_notes(mesh)
     print_problems(args.mesh, mesh)
     warn_of_losses(args.output, mesh)
-    pinned = mesh.pinned  # as in the file, for the output: --fix and --only hold for this run alone
-    if args.fix:
-        mesh = with_sets_fixed(mesh, *args.fix)
+    pinned = mesh.pinned  # as in the file, for the output: --only holds for this run alone
+    mesh = with_rules(mesh, motion_rules(args))
     if args.only:
         mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
+    if smoothing.layers:
+        print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
     with FinishWriting():
@@ -63,6 +66,8 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
     advice = advise(result) if result.after.inverted else None
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after])
     print(result.message)
+    for wall in result.layers:
+        print(wall.sentence)
     for time, summary in second_order.items():
         if summary is not None:
             print(f"Second order, {time}: {summary.phrase}.")
@@ -73,5 +78,5 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
         print(advice.state)
         for suggestion in advice.suggestions:
             print(f"Try next: {suggestion.text}")
-            if line := suggested_command(suggestion, args.mesh, args.output):
+            if line := suggested_command(suggestion, args.mesh, args.output, mesh.node_rules.rules):
                 print(f"      {line}")
