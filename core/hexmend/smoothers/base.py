@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
@@ -13,6 +13,7 @@ from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
+from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
@@ -21,6 +22,9 @@ from hexmend.registry import Registry, load_entry_points
 #: Type of the generator that `Smoother.steps` returns.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
+
+#: Function of the points (n, 3) that returns them with some nodes moved.
+Sweep: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 #: Least fall of q(H) that four decimals show: near its optimum an optimiser goes up and down by less.
 _VISIBLE_FALL = 0.5e-4
@@ -40,6 +44,9 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
+    #: `hexmend.smoothers.constrained_steps`.
+    keeps_linear_motion: ClassVar[bool] = False
     #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
     feature_angle = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
@@ -72,6 +79,25 @@ class Smoother(Parametrised, ABC):
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
 
+    def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
+        """Return the mesh with the target of its hexes that the parameters name; the mesh itself by default.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            As given to the run, not the result of an earlier stage.
+        layers : Layers
+            Its boundary layers.
+        quality : ElementQuality, optional
+            Of its hexes.
+
+        Raises
+        ------
+        ParameterError
+            For a target that the mesh cannot have.
+        """
+        return mesh
+
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
         """Yield the initial points once the method is prepared, then the points after each step.
@@ -92,6 +118,23 @@ class Smoother(Parametrised, ABC):
         Outcome or None
             Outcome when the method has no further step; a run may close the generator earlier.
         """
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep | None:
+        """Make the sweep over nodes with a linear motion that follows each step of the method over the other nodes.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        linear : (n,) bool
+            The nodes.
+
+        Returns
+        -------
+        callable or None
+            Function of points (n, 3) that returns them with these nodes moved. None for a method without such a
+            sweep: its steps are projected onto the admissible displacements.
+        """
+        return None
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.
