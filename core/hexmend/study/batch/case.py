@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from hexmend.errors import ParameterError
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import Parametrised, parameter
 from hexmend.run import StoppingCriteria
-from hexmend.mesh.rules import MotionRules
 from hexmend.run.recipe import Recipe, Stage, read_stage
 from hexmend.smoothers import Smoother
 
