@@ -27,7 +27,7 @@ def plotter(mesh: Mesh, metric: str = "q", **options: Any) -> Any:
         If there is no metric of that name.
     """
     quantity = METRICS[metric]
-    values = quantity.of(mesh.points, mesh.hexes, measure(mesh.points, mesh.hexes))
+    values = quantity.values(mesh, measure(mesh.points, mesh.hexes))
     prepare_off_screen()
     import pyvista as pv
 

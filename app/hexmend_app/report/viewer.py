@@ -148,7 +148,8 @@ def _metric(
     metric: Metric, mesh: Mesh, states: Sequence[ViewerState], figures: Sequence[ElementQuality]
 ) -> tuple[dict[str, Any], list[np.ndarray]]:
     """Return the description of a metric for the page, and its values of each state, (m,) uint16."""
-    values = [metric.of(state.points, mesh.hexes, quality) for state, quality in zip(states, figures, strict=True)]
+    meshes = [mesh.with_points(state.points) for state in states]
+    values = [metric.values(moved, quality) for moved, quality in zip(meshes, figures, strict=True)]
     low, high = _range(metric, values, figures)
     last = _EXACT.get(metric.name, _STEPS)
     with np.errstate(invalid="ignore", over="ignore"):

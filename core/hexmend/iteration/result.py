@@ -15,6 +15,7 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
+from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
 from hexmend.quality.material_volumes import MaterialVolume
@@ -146,6 +147,8 @@ class Result:
         Volumes of the materials by name; empty for a mesh of one material.
     active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
+    layers : tuple of LayerReport
+        Boundary layers before and after, one for each wall.
     """
 
     mesh: Mesh
@@ -164,11 +167,12 @@ class Result:
     surface: SurfaceChange | None = None
     materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
+    layers: tuple[LayerReport, ...] = ()
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before."""
-        return regressions(self.before, self.after)
+        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost."""
+        return regressions(self.before, self.after) + ("layers",) * any(wall.lost for wall in self.layers)
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

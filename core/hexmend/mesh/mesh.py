@@ -15,6 +15,7 @@ from hexmend.errors import MeshError
 from hexmend.hooks import hook
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.edge_length import mean_edge_length
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.fields import check_field
 from hexmend.mesh.linear_motion import LinearMotion
 from hexmend.mesh.linear_motion.constrained_points import constrained_points, with_ties_fixed
@@ -25,8 +26,8 @@ from hexmend.mesh.size_limits import check_size
 from hexmend.mesh.topology import Topology
 from hexmend.mesh.validation import as_bools, as_hexes, as_points, check_finite, points_like
 
-#: Attributes of a mesh that are no fields: the surfaces for sliding, the rules, and the linear motion with its start.
-_HIDDEN = ("_surface", "_target", "_rules", "_motion", "_motion_start")
+#: Attributes that are no fields, but kept by derived meshes: surfaces for sliding, target, rules, linear motion.
+_DERIVED = ("_surface", "_target", "_element_target", "_rules", "_motion", "_motion_start")
 
 
 class TargetSurface(Protocol):
@@ -200,8 +201,7 @@ class Mesh:
         """
         fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
         if motion is not None:
-            for nodes in motion.nodes, motion.tied, motion.master:
-                fixed[nodes] = ~self.topology.used[nodes]
+            fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
         fixed |= self.held
         materials, free = self.interfaces, self.node_rules.free
         if materials is not None:
@@ -291,6 +291,34 @@ class Mesh:
             surface.check_near(self)
         return self._copy(*_SHARED, _target=surface)
 
+    @property
+    def element_target(self) -> Target | None:
+        """Lengths that the hexes are to have; None if they are to be cubes. See `with_element_target`."""
+        return self.__dict__.get("_element_target")
+
+    def with_element_target(self, target: Target | None) -> Mesh:
+        """Return the mesh with a target of its elements, which the energies of optimisers take from it.
+
+        It is kept by meshes that are derived from this one, but not by `rebuilt`, which may have other hexes.
+
+        Parameters
+        ----------
+        target : hexmend.mesh.element_target.Target or None
+            None for cubes.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        MeshError
+            For a target of another number of hexes.
+        """
+        if target is not None and len(target.lengths) != self.n_hexes:
+            raise MeshError(f"the target is for {len(target.lengths)} hexes: the mesh has {self.n_hexes}")
+        return self._copy(*_SHARED, _element_target=target)
+
     def keeping_surface(self) -> Mesh:
         """Return the mesh with its present boundary kept as the surface for sliding, whatever points it gets later."""
         return self._copy(*_SHARED, _surface=self.surface_points)
@@ -332,6 +360,11 @@ class Mesh:
             )
         return self._copy("materials", "held", _motion=motion, _motion_start=self.points)
 
+    @property
+    def motion_start(self) -> np.ndarray:
+        """Node positions, (n, 3), from which the displacements of the linear motion are counted."""
+        return self.__dict__.get("_motion_start", self.points)
+
     def constrained(self, points: np.ndarray) -> np.ndarray:
         """Return node positions, (n, 3), that keep the linear motion of the mesh; see `constrained_points`.
 
@@ -341,7 +374,7 @@ class Mesh:
             Returned themselves if the mesh has no linear motion; not changed.
         """
         motion = self.linear_motion
-        return points if motion is None else constrained_points(motion, self._motion_start, points, self.free)
+        return points if motion is None else constrained_points(motion, self.motion_start, points, self.free)
 
     def with_fixed(self, fixed: np.ndarray) -> Mesh:
         """Return the mesh with exactly these nodes fixed, whatever its boundary and pins; all else is shared.
@@ -424,12 +457,12 @@ class Mesh:
         if "_rules" in self.__dict__ and "hexes" not in changes:
             mesh._set(_rules=self.node_rules)
         if self.linear_motion is not None and "points" not in changes:
-            mesh._set(_motion=self.linear_motion, _motion_start=self._motion_start)
+            mesh._set(_motion=self.linear_motion, _motion_start=self.motion_start)
         return mesh
 
     def _copy(self, *cached: str, **changes: object) -> Mesh:
-        """Return a copy with changes; it shares all fields, surfaces for sliding and the named cached properties."""
+        """Return a copy with changes; it shares all fields, surfaces, the target and the named cached properties."""
         copy = object.__new__(Mesh)
-        names = (*(one.name for one in dataclasses.fields(self)), *_HIDDEN, *cached)
+        names = (*(one.name for one in dataclasses.fields(self)), *_DERIVED, *cached)
         copy._set(**{name: self.__dict__[name] for name in names if name in self.__dict__} | changes)
         return copy

@@ -11,6 +11,8 @@ Numbered as VTK numbers types 25 (20 nodes) and 29 (27 nodes), after the corners
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from hexmend.mesh.hexahedron import FACES, UNIT_CUBE
@@ -91,17 +93,49 @@ def scaled_jacobians(points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarra
         less for an invalid hex, NaN for hexes with neither 20 nor 27 nodes.
     """
     answer = np.full(len(hexes), np.nan)
+    for some, maps in _derivatives(points, hexes, mid_nodes, nodes=True, gauss=True):
+        least = np.full(len(some), np.inf)
+        for columns in maps:
+            sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
+            least = np.minimum(least, np.linalg.det(columns) / np.where(sizes > 0, sizes, 1))
+        answer[some] = least
+    return answer
+
+
+def jacobian_range(
+    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, *, nodes: bool = True, gauss: bool = True
+) -> np.ndarray:
+    """Compute the least and the greatest Jacobian determinant of second-order hexes.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (m, 8) int32
+    mid_nodes : (m, 19) int32
+    nodes, gauss : bool
+        Whether it is taken at the nodes, and at the points of the 3 x 3 x 3 Gauss rule.
+
+    Returns
+    -------
+    (m, 2) float64
+        In the cube of the unit of the points; NaN for hexes with neither 20 nor 27 nodes.
+    """
+    answer = np.full((len(hexes), 2), np.nan)
+    for some, maps in _derivatives(points, hexes, mid_nodes, nodes=nodes, gauss=gauss):
+        found = np.array([np.linalg.det(columns) for columns in maps])
+        answer[some] = np.column_stack([found.min(axis=0), found.max(axis=0)])
+    return answer
+
+
+def _derivatives(
+    points: np.ndarray, hexes: np.ndarray, mid_nodes: np.ndarray, *, nodes: bool, gauss: bool
+) -> Iterator[tuple[np.ndarray, Iterator[np.ndarray]]]:
+    """Numbers of some second-order hexes (k,), and the derivatives of the position at each place, (k, 3, 3) by rows."""
     more = (mid_nodes >= 0).sum(axis=1)
     for width, functions in ((20, serendipity), (27, lagrange)):
-        gradients = functions(np.concatenate([NODE_POSITIONS[:width], GAUSS_POINTS]), NODE_POSITIONS[:width])[1]
+        places = [NODE_POSITIONS[:width]] * nodes + [GAUSS_POINTS] * gauss
+        gradients = functions(np.concatenate(places), NODE_POSITIONS[:width])[1]
         chosen = np.flatnonzero(more == width - 8)
         for some in np.split(chosen, range(_CHUNK_HEXES, len(chosen), _CHUNK_HEXES)):
-            nodes = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
-            least = np.full(len(some), np.inf)
-            for gradient in gradients:
-                columns = gradient.T @ nodes  # derivatives of the position
-                sizes = np.linalg.norm(columns, axis=2).prod(axis=1)
-                scaled = np.linalg.det(columns) / np.where(sizes > 0, sizes, 1)
-                least = np.minimum(least, scaled)
-            answer[some] = least
-    return answer
+            x = points[np.column_stack([hexes[some], mid_nodes[some, : width - 8]])]
+            yield some, (gradient.T @ x for gradient in gradients)

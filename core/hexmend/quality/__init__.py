@@ -1,7 +1,7 @@
 """Quality of hexes and of meshes: metrics, measurement, statistics and summary.
 
-Every module of `hexmend.quality.metrics` is imported here and registers its metrics in METRICS, which the command line,
-the viewer, the documentation and the tests read.
+Every module of `hexmend.quality.metrics` and its packages is imported here and registers its metrics in METRICS, which
+the command line, the viewer, the documentation and the tests read.
 """
 
 import importlib
@@ -20,8 +20,9 @@ from hexmend.quality.second_order import SecondOrderSummary, summarise_second_or
 from hexmend.quality.statistics import MetricStatistics, metric_statistics
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, objective, summarise
 
-for _module in pkgutil.iter_modules(metrics.__path__):
-    importlib.import_module(f"{metrics.__name__}.{_module.name}")
+_modules = [module.name for module in pkgutil.walk_packages(metrics.__path__, f"{metrics.__name__}.")]
+for _module in sorted(_modules, key=lambda name: name.count(".")):  # those of packages last
+    importlib.import_module(_module)
 
 __all__ = [
     "METRICS",

@@ -75,20 +75,34 @@ def describe_hex(mesh: Mesh, number: int) -> HexDetails:
     (8, 1.0, False)
     """
     number = as_index(number, mesh.n_hexes, "hex")
-    nodes = mesh.hexes[number]
+    nodes, neighbours = mesh.hexes[number], mesh.topology.face_neighbours[number]
     hexes = np.ascontiguousarray(nodes[None])
     quality = measure(mesh.points, hexes)
+    patch = _patch(mesh, np.concatenate([[number], np.unique(neighbours[(neighbours >= 0) & (neighbours != number)])]))
+    of_patch = measure(patch.points, patch.hexes)
     return HexDetails(
         number=number,
         nodes=nodes,
         points=mesh.points[nodes],
         fixed=mesh.fixed[nodes],
         corners=corner_qualities(mesh.points, hexes)[0],
-        values={metric.name: float(metric.of(mesh.points, hexes, quality)[0]) for metric in METRICS.values()},
-        neighbours=mesh.topology.face_neighbours[number],
+        values={metric.name: float(metric.values(patch, of_patch)[0]) for metric in METRICS.values()},
+        neighbours=neighbours,
         inverted=bool(quality.inverted[0]),
         locked=bool(locked_hexes(mesh.points, hexes, mesh.fixed, quality.inverted)[0]),
     )
+
+
+def _patch(mesh: Mesh, numbers: np.ndarray) -> Mesh:
+    """Return a mesh of some hexes (k,) of a mesh alone, in this order, with what metrics need."""
+    hexes, nodes = mesh.hexes[numbers], mesh.hexes[numbers].ravel()
+    mid_nodes = None if mesh.mid_nodes is None else mesh.mid_nodes[numbers]
+    if mid_nodes is not None:
+        nodes = np.concatenate([nodes, mid_nodes[mid_nodes >= 0]])
+    nodes = np.unique(nodes)
+    if mid_nodes is not None:
+        mid_nodes = np.where(mid_nodes >= 0, np.searchsorted(nodes, mid_nodes), -1).astype(np.int32)
+    return Mesh(mesh.points[nodes], np.searchsorted(nodes, hexes).astype(np.int32), mid_nodes=mid_nodes)
 
 
 @dataclass(frozen=True, eq=False)

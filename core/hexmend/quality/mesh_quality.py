@@ -77,4 +77,4 @@ def worst_hexes(mesh: Mesh, count: int = 10, metric: str = "q") -> np.ndarray:
 def _of(mesh: Mesh, metric: str) -> tuple[Metric, np.ndarray, ElementQuality]:
     declared = METRICS[str(metric).replace("_", "-")]
     quality = measure(mesh.points, mesh.hexes)
-    return declared, declared.of(mesh.points, mesh.hexes, quality), quality
+    return declared, declared.values(mesh, quality), quality

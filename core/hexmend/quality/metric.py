@@ -7,12 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_hexes, as_points
 from hexmend.quality.measure import ElementQuality
 from hexmend.registry import Registry, load_entry_points
 
 #: Function that computes values (m,) from points (n, 3), hexes (m, 8) and their measured quality.
 Values = Callable[[np.ndarray, np.ndarray, ElementQuality], np.ndarray]
+
+#: Function that computes values (m,) from a mesh and its measured quality.
+MeshValues = Callable[[Mesh, ElementQuality], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -59,10 +63,20 @@ class Metric(HexQuantity):
     ----------
     of : callable
         Computes the values, (m,) float64, from `points` (n, 3), `hexes` (m, 8) and their `ElementQuality`. For finite
-        points no value is NaN.
+        points no value is NaN. The value of a hex may depend on its neighbours among these hexes.
+    of_mesh : callable, optional
+        Computes the values from a mesh and its `ElementQuality`, for a metric that needs more of the mesh than points
+        and hexes; `of` then gives the values of a mesh that has nothing else.
     """
 
     of: Values
+    of_mesh: MeshValues | None = None
+
+    def values(self, mesh: Mesh, quality: ElementQuality) -> np.ndarray:
+        """Compute the values of the hexes of a mesh, (m,) float64; `quality` is that of the mesh."""
+        if self.of_mesh is not None:
+            return self.of_mesh(mesh, quality)
+        return self.of(mesh.points, mesh.hexes, quality)
 
     def register(self) -> Metric:
         """Add the metric to `METRICS` under its name and return it; raises `ValueError` if the name is taken."""

@@ -65,7 +65,4 @@ def metric_statistics(mesh: Mesh, quality: ElementQuality | None = None) -> dict
     MetricStatistics(min=90.0, mean=90.0, max=90.0, infinite=0, unacceptable=0)
     """
     quality = measure(mesh.points, mesh.hexes) if quality is None else quality
-    return {
-        name: MetricStatistics.over(metric, metric.of(mesh.points, mesh.hexes, quality))
-        for name, metric in METRICS.items()
-    }
+    return {name: MetricStatistics.over(metric, metric.values(mesh, quality)) for name, metric in METRICS.items()}

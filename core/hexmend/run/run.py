@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import pairwise
+
+import numpy as np
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
+from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
@@ -17,6 +22,7 @@ from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.target import recovered_lengths
 from hexmend.terminal_text import count_phrase
 
 
@@ -38,6 +44,8 @@ class Run(Iterator[Iteration]):
     ----------
     mesh, smoother
         As given; the mesh has the rules of motion of a recipe.
+    layers : Layers
+        Boundary layers of the mesh as given.
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
@@ -61,11 +69,12 @@ class Run(Iterator[Iteration]):
         self._stages = _stages(smoother, stop)
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
+        self.layers = find_layers(mesh, quality)
         self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.norm)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._stage_runs = [StageRun(mesh, self._stages[0], 1, self.start, self.start)]
+        self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
         self._end_if_done()
 
     def __next__(self) -> Iteration:
@@ -110,7 +119,7 @@ class Run(Iterator[Iteration]):
         if new.smoother == old.smoother and old.outcome is None:
             old.set_limits(new.stop)
         else:
-            stage_run = StageRun(self.mesh, new, old.number, old.current, self.last, old)
+            stage_run = self._stage_of(new, old.number, old.current, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
             self._stage_runs.append(stage_run)
@@ -174,10 +183,18 @@ class Run(Iterator[Iteration]):
     @property
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
-        volumes = volume_changes(self.mesh, self.mesh.with_points(self.best.points))
-        return self._message(*self._summaries(), volumes)
+        before, after = self._summaries()
+        mesh = self.mesh.with_points(self.best.points)
+        return self._message(before, after, mesh, volume_changes(self.mesh, mesh), self._layer_reports())
 
-    def _message(self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume]) -> str:
+    def _message(
+        self,
+        before: Summary,
+        after: Summary,
+        mesh: Mesh,
+        volumes: Mapping[str, MaterialVolume],
+        walls: Sequence[LayerReport],
+    ) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
@@ -188,9 +205,12 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
-        words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
+        words.append(interface_message(self.mesh, mesh, volumes))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
+        lost = describe_losses(walls)
+        if not lost and self.outcome is not None and self._target is None:
+            lost = grading_message(self.mesh, mesh, self.start.quality)
+        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, lost]))
 
     @property
     def _kept_last(self) -> bool:
@@ -200,8 +220,8 @@ class Run(Iterator[Iteration]):
         """Return the result so far."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
-        mesh = self.mesh.with_points(self.best.points)
-        volumes = volume_changes(self.mesh, mesh)
+        mesh = self.mesh.with_points(self.best.points).with_element_target(self._target)
+        volumes, walls = volume_changes(self.mesh, mesh), self._layer_reports()
         return Result(
             mesh=mesh,
             before=before,
@@ -209,7 +229,7 @@ class Run(Iterator[Iteration]):
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self._message(before, after, volumes),
+            message=self._message(before, after, mesh, volumes, walls),
             iterations=self.last.number,
             kept=self.best.number,
             seconds=self.last.seconds,
@@ -219,6 +239,7 @@ class Run(Iterator[Iteration]):
             surface=self._surface_change(mesh),
             materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
+            layers=walls,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
@@ -227,10 +248,39 @@ class Run(Iterator[Iteration]):
         sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
 
+    @cached_property
+    def _given_lengths(self) -> np.ndarray:
+        """Lengths of the hexes as given, recovered where the mesh is noisy, (m, 3)."""
+        return recovered_lengths(self.mesh, self.start.quality)
+
+    def _layer_reports(self) -> tuple[LayerReport, ...]:
+        """Return the layers of the mesh as given and of the result."""
+        if not self.layers:
+            return ()
+        return layer_report(self.layers, self.mesh, self.mesh.with_points(self.best.points), self._given_lengths)
+
+    @property
+    def layers_message(self) -> str:
+        """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
+        if not self.layers:
+            return ""
+        kept = "kept" if self._target is not None else "not kept"
+        return f"Boundary layers at {self.layers.names} are {kept}."
+
+    @property
+    def _target(self) -> Target | None:
+        """Target of the current stage."""
+        return self._stage_run.target
+
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
         mesh = self.mesh.with_points(self.best.points)
         return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
+
+    def _stage_of(self, stage: Stage, number: int, start: Iteration, last: Iteration, *old: StageRun) -> StageRun:
+        """Begin a stage; its target is made from the mesh as given, whatever earlier stages have done."""
+        mesh = stage.smoother.with_target(self.mesh, self.layers, self.start.quality)
+        return StageRun(mesh, stage, number, start, last, *old)
 
     @property
     def _stage_run(self) -> StageRun:
@@ -245,7 +295,7 @@ class Run(Iterator[Iteration]):
         kept = f" Iteration {reached.number} of it was kept." if reached is not last else ""
         count = count_phrase(last.number - done.stage_start.number, "iteration")
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._stage_runs.append(StageRun(self.mesh, self._remaining_stages[0], done.number + 1, reached, last))
+        self._stage_runs.append(self._stage_of(self._remaining_stages[0], done.number + 1, reached, last))
         self._end_if_done()
 
     def _end_if_done(self) -> None:

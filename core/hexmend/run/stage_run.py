@@ -15,6 +15,7 @@ from hexmend.mesh.validation import points_like
 from hexmend.quality import measure, objective
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import Smoother
+from hexmend.smoothers.constrained_steps import constrained_steps
 
 log = logging.getLogger(__name__)
 
@@ -57,6 +58,8 @@ class StageRun:
         The method's decision at its newest step, as a sentence.
     active : ActiveSet or None
         The constraints that stop the method, if it reports them.
+    target : Target or None
+        Target of the hexes.
     """
 
     def __init__(
@@ -75,13 +78,14 @@ class StageRun:
         self.outcome: Outcome | None = None
         self.decision = ""
         self.active: ActiveSet | None = None
+        self.target = mesh.element_target
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
         self._origin = start if predecessor is None else predecessor._origin
         self._best = start if predecessor is None else predecessor._best
         self._best_rank = self._rank(self._best)
         self._update_best(start)
         began = perf_counter()
-        self._steps = self.smoother.steps(mesh.keeping_surface().with_points(start.points))
+        self._steps = constrained_steps(self.smoother, mesh.keeping_surface().with_points(start.points))
         next(self._steps)
         self.setup_seconds = perf_counter() - began
         if not mesh.free.any() and not self.smoother.movable(mesh).any():

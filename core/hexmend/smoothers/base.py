@@ -13,6 +13,7 @@ from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
+from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
@@ -40,6 +41,9 @@ class Smoother(Parametrised, ABC):
     source: ClassVar[str]
     #: True for a method that goes to a minimum of the energy.
     optimises: ClassVar[bool] = False
+    #: True for a method whose steps keep the linear motion of a mesh; those of others are constrained afterwards, by
+    #: `hexmend.smoothers.constrained_steps`.
+    keeps_linear_motion: ClassVar[bool] = False
     #: Dihedral angle, in degrees, beyond which an edge of the boundary is a feature; a parameter of methods that slide.
     feature_angle = FEATURE_ANGLE
     #: Bytes per hex that its run needs at most in addition to the open mesh, topology included: measured by `hexmend
@@ -71,6 +75,25 @@ class Smoother(Parametrised, ABC):
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
+
+    def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
+        """Return the mesh with the target of its hexes that the parameters name; the mesh itself by default.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            As given to the run, not the result of an earlier stage.
+        layers : Layers
+            Its boundary layers.
+        quality : ElementQuality, optional
+            Of its hexes.
+
+        Raises
+        ------
+        ParameterError
+            For a target that the mesh cannot have.
+        """
+        return mesh
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:

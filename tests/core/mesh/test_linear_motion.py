@@ -12,7 +12,9 @@ from hexmend.mesh.linear_motion.constrained_points import admissible_displacemen
 from tests.core.grids import grid
 
 MESH = grid(4)
-FACES = {(axis, end): np.flatnonzero(MESH.points[:, axis] == end) for axis in range(3) for end in (0, MESH.points.max())}
+FACES = {
+    (axis, end): np.flatnonzero(MESH.points[:, axis] == end) for axis in range(3) for end in (0, MESH.points.max())
+}
 
 
 def planes(mesh=MESH):

@@ -64,15 +64,15 @@ class FeatureCamera(Feature):
                 in_view=True,
             ),
             *self._directions(),
-            self._move("face", "Face cutting pl&ane", "Shift+C", "Look along the normal of the plane.", self._face,
-                       lambda: self._plane is not None, in_view=True),
-            self._move("roll_left", "Roll &left", "Shift+[", f"Rotate the view by {_ROLL}° counter-clockwise.",
-                       lambda: self.canvas.roll(_ROLL)),
-            self._move("roll_right", "Roll ri&ght", "Shift+]", f"Rotate the view by {_ROLL}° clockwise.",
-                       lambda: self.canvas.roll(-_ROLL)),
-            self._move("view_back", "Previous &view", "Alt+Left", "Return to the previous camera position.",
+            self._move("face", tr("Face cutting pl&ane"), "Shift+C", tr("Look along the normal of the plane."),
+                       self._face, lambda: self._plane is not None, in_view=True),
+            self._move("roll_left", tr("Roll &left"), "Shift+[", tr("Rotate the view by {angle}° counter-clockwise.",
+                       angle=_ROLL), lambda: self.canvas.roll(_ROLL)),
+            self._move("roll_right", tr("Roll ri&ght"), "Shift+]", tr("Rotate the view by {angle}° clockwise.",
+                       angle=_ROLL), lambda: self.canvas.roll(-_ROLL)),
+            self._move("view_back", tr("Previous &view"), "Alt+Left", tr("Return to the previous camera position."),
                        lambda: self.canvas.back_view(), lambda: self.canvas.can_go_back, in_view=True),
-            self._move("view_forward", "Ne&xt view", "Alt+Right", "Go forward to the next camera position.",
+            self._move("view_forward", tr("Ne&xt view"), "Alt+Right", tr("Go forward to the next camera position."),
                        lambda: self.canvas.forward_view(), lambda: self.canvas.can_go_forward),
             *(
                 Action(
@@ -87,9 +87,9 @@ class FeatureCamera(Feature):
                 )
                 for axis in "xyz"
             ),
-            self._move("copy_camera", "&Copy camera", "", "Copy the camera to the clipboard, for another window "
-                       "or hexmend render.", self.copy, lambda: self._draws),
-            self._move("paste_camera", "&Paste camera", "", "Apply the camera from the clipboard.", self.paste),
+            self._move("copy_camera", tr("&Copy camera"), "", tr("Copy the camera to the clipboard, for another window "
+                       "or hexmend render."), self.copy, lambda: self._draws),
+            self._move("paste_camera", tr("&Paste camera"), "", tr("Apply the camera from the clipboard."), self.paste),
             *self._saved(),
             Action(
                 id="parallel",
@@ -109,14 +109,14 @@ class FeatureCamera(Feature):
         yield from (
             Action(
                 id=id,
-                text=text,
+                text=tr(text),
                 menu="View/Camera",
                 keys=keys,
                 icon=icon,
                 help=tr(
                     "Look at the mesh from {place}.", place="a corner" if name == "iso" else name.replace("-", "−")
                 ),
-                tool=tool,
+                tool=tr(tool),
                 handle=lambda name=name: self.canvas.look_along(name),
                 enabled=self._ready,
             )
@@ -215,7 +215,7 @@ class FeatureCamera(Feature):
     def keep(self, name: str) -> None:
         """Save the camera under a name, or show an error."""
         camera = Camera.at(self.canvas.pose)
-        success = f"Camera saved as “{name}”; apply it with View > Camera > Go to camera."
+        success = tr("Camera saved as “{name}”; apply it with View > Camera > Go to camera.", name=name)
         self.host.try_and_report(tr("Camera not saved"), lambda: self._cameras.add(name, camera), success)
 
     def go(self, name: str) -> None:

@@ -103,7 +103,7 @@ class CutPanel(QWidget):
         head.addWidget(self._kind)
         head.addStretch()
         head.addWidget(self._handles)
-        grid = form_grid(self, "Position")
+        grid = form_grid(self, tr("Position"))
         grid.addLayout(head, 0, 0, 1, 2)
         for row, widget in enumerate((self._plane_row, self._plane_page, self._box_page), start=1):
             grid.addWidget(widget, row, 0, 1, 2)

@@ -63,9 +63,9 @@ class PlanePage(QWidget):
         self._value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._value.setMinimumWidth(self._value.fontMetrics().horizontalAdvance("-0.000"))
         set_help(self._value, tr("Position in mesh units"), tr("Position along the plane's normal, in mesh units."))
-        grid = form_grid(self, "Position")
+        grid = form_grid(self, tr("Position"))
         for row, (text, widget, companion) in enumerate(
-            (("Axis", self._axis, self._flip), ("Position", self._slider, self._value))
+            ((tr("Axis"), self._axis, self._flip), (tr("Position"), self._slider, self._value))
         ):
             label = QLabel(text)
             label.setBuddy(widget)

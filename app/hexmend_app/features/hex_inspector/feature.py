@@ -220,7 +220,7 @@ class FeatureHexInspector(Feature):
     def _boundary_class(self, node: int | None) -> str:
         """Describe the class of a boundary node; "" for other nodes and while the classes are unknown."""
         classes = self.session.boundary_classifier.of(self._document.now.mesh)
-        return "" if node is None or classes is None else _BOUNDARY_CLASSES.get(int(classes.kinds[node]), "")
+        return "" if node is None or classes is None else tr(_BOUNDARY_CLASSES.get(int(classes.kinds[node]), ""))
 
     def _on_clicked(self, hit: tuple[int, int] | None) -> None:
         self._selection.choose(*(hit or (None, None)))

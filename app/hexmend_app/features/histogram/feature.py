@@ -106,7 +106,7 @@ class FeatureHistogram(Feature):
             self.panel.set_current(self._values(now), now.figures.inverted)
 
     def _values(self, state: State) -> np.ndarray:
-        return metric_values(self.metric, state.mesh.points, state.mesh.hexes, state.figures)
+        return metric_values(self.metric, state.mesh, state.figures)
 
     def _on_metric(self, name: str) -> None:
         self._view.counted = name or None
@@ -136,8 +136,8 @@ class FeatureHistogram(Feature):
         known = self._snapshot_values.get(snapshot.slot)
         if known is not None and known[0] == self.metric and known[1] is snapshot.points:
             return known
-        hexes = self._document.now.mesh.hexes
-        values = metric_values(self.metric, snapshot.points, hexes, measure(snapshot.points, hexes))
+        mesh = self._document.now.mesh.with_points(snapshot.points)
+        values = metric_values(self.metric, mesh, measure(mesh.points, mesh.hexes))
         return self.metric, snapshot.points, values
 
     # Files
@@ -152,7 +152,7 @@ class FeatureHistogram(Feature):
         """Return the export dialog, with the sizes and names of the last export."""
         event = self._export_event(Path())
         chart, proposed = figure(*event.arguments[1:], **event.options), f"{self.host.stem}-histogram.svg"
-        return ChartDialog(chart, "the histogram", proposed, _KINDS, self._style, self.host.dialog_parent)
+        return ChartDialog(chart, tr("the histogram"), proposed, tr(_KINDS), self._style, self.host.dialog_parent)
 
     def save(self, path: str | Path, style: ChartStyle | None = None) -> bool:
         """Write the histogram as a picture, or its counts as CSV, by the suffix; return True if it was written."""
@@ -164,7 +164,7 @@ class FeatureHistogram(Feature):
 
     def _export_event(self, path: Path, style: ChartStyle | None = None) -> FileExported:
         panel, document = self.panel, self._document
-        drawn = [("at the start", GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
+        drawn = [(tr("at the start"), GREY.light, True, document.start), ("now", BLUE.light, True, document.now)]
         for snapshot in self._snapshots.all:
             state = self.session.state_at(snapshot.points)
             mesh = document.now.mesh.with_points(snapshot.points) if state is None else state

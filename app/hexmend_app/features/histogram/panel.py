@@ -83,7 +83,7 @@ class QualityHistogram(QWidget):
         self._refresh()
 
     def _make_widgets(self) -> None:
-        self.head, self.legend = HistogramHead(), HistogramLegend(_HELP)
+        self.head, self.legend = HistogramHead(), HistogramLegend(tr(_HELP))
         self.plot, self.range_row = HistogramPlot(self.legend), RangeRow()
         self.head.metric_chosen.connect(self.metric_chosen)
         self.head.scale_changed.connect(self._on_scale)
@@ -96,8 +96,8 @@ class QualityHistogram(QWidget):
         self.range_row.cleared.connect(lambda: self._choose(None))
         # The tooltip of the plot shows counts; the help is the tooltip of the legend.
         self.plot.plot.setAccessibleName(tr("Histogram of hex quality"))
-        self.plot.plot.setAccessibleDescription(_HELP)
-        self.plot.plot.setWhatsThis(_HELP)
+        self.plot.plot.setAccessibleDescription(tr(_HELP))
+        self.plot.plot.setWhatsThis(tr(_HELP))
         self.plot.view.brushed.connect(self._on_brushed)
         self.plot.view.cleared.connect(lambda: self._choose(None))
         self.plot.view.bar_clicked.connect(self.inverted_requested)

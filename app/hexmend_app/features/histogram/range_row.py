@@ -47,7 +47,7 @@ class RangeRow(QWidget):
         self.inverted.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.inverted.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
         self.inverted.setIconSize(QSize(_SWATCH, _SWATCH))
-        set_help(self.inverted, tr("Show inverted"), _INVERTED)
+        set_help(self.inverted, tr("Show inverted"), tr(_INVERTED))
         self.inverted.clicked.connect(self._choose)
         self.inverted.setIcon(_swatch())
         self._label, to = QLabel(tr("Show")), QLabel(tr("to"))
@@ -67,7 +67,7 @@ class RangeRow(QWidget):
         """Change the metric and the range of its values."""
         self._axis = axis
         metric = in_sentence(METRICS[axis.metric])
-        for box, end in ((self.low, "Lowest"), (self.high, "Highest")):
+        for box, end in ((self.low, tr("Lowest")), (self.high, tr("Highest"))):
             with QSignalBlocker(box):
                 box.set_axis(axis)
             box.updateGeometry()

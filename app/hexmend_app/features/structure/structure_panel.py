@@ -118,7 +118,9 @@ class StructurePanel(QWidget):
         entries: list[Entry] | None = None
         if classes is not None:
             counts = {kind: classes.count(kind) for kind in _KIND_TEXT}
-            entries = [(KINDS[kind], False, f"{count:,} {_KIND_TEXT[kind]}") for kind, count in counts.items() if count]
+            entries = [
+                (KINDS[kind], False, f"{count:,} {tr(_KIND_TEXT[kind])}") for kind, count in counts.items() if count
+            ]
         self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 
@@ -127,7 +129,7 @@ class StructurePanel(QWidget):
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
         entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
         if locked and classes is not None and classes.locked == locked:
-            entries.append((None, False, f"{classes.freed:,} freed by sliding"))
+            entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
         self.layers["locked"].set_entries(entries)
 
     def _switch(self, name: str, on: bool) -> None:

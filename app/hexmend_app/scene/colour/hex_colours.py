@@ -34,7 +34,7 @@ class HexColours:
         mesh, figures, scale, movement = frame.mesh, frame.figures, frame.look.scale, frame.movement
         self.kinds, title = figures.inverted, ""
         if scale.metric not in DISPLACEMENT_QUANTITIES:
-            self.values = metric_values(scale.metric, mesh.points, mesh.hexes, figures)
+            self.values = metric_values(scale.metric, mesh, figures)
         elif movement is None:
             self.values = np.zeros(mesh.n_hexes)
         else:

@@ -55,7 +55,7 @@ class Filters:
                 "quality",
                 quality_range and (quality_range, figures),
                 lambda: within(
-                    metric_values(quality_range.metric, points, self._mesh.hexes, figures),
+                    metric_values(quality_range.metric, frame.mesh, figures),
                     figures.inverted,
                     quality_range,
                 ),

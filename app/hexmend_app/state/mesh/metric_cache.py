@@ -6,6 +6,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from hexmend.mesh.mesh import Mesh
 from hexmend.quality import METRICS, ElementQuality
 
 #: Maximum number of cached metrics of one state.
@@ -15,7 +16,7 @@ _MAX_CACHED_METRICS = 3
 CACHE: WeakKeyDictionary[ElementQuality, dict[str, np.ndarray]] = WeakKeyDictionary()
 
 
-def metric_values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: ElementQuality) -> np.ndarray:
+def metric_values(metric: str, mesh: Mesh, figures: ElementQuality) -> np.ndarray:
     """Return the value of each hex, (m,) float64, not to be modified; cached as long as `figures` lives.
 
     Workers call this in advance to relieve the window.
@@ -24,15 +25,14 @@ def metric_values(metric: str, points: np.ndarray, hexes: np.ndarray, figures: E
     ----------
     metric : str
         Name in `hexmend.quality.METRICS`.
-    points : (n, 3) float64
-    hexes : (m, 8) int32
+    mesh : Mesh
     figures : ElementQuality
-        Quality of the hexes at these points.
+        Quality of its hexes.
     """
     cached = CACHE.setdefault(figures, {})
     values = cached.get(metric)
     if values is None:
-        values = METRICS[metric].of(points, hexes, figures)
+        values = METRICS[metric].values(mesh, figures)
         while len(cached) >= _MAX_CACHED_METRICS:
             cached.pop(next(iter(cached)), None)
         cached[metric] = values

@@ -36,7 +36,7 @@ class WorstHexes:
     @classmethod
     def of(cls, mesh: Mesh, figures: ElementQuality, metric: str) -> WorstHexes:
         """Find the worst hexes of a mesh by the metric with this name in `METRICS`."""
-        values = metric_values(metric, mesh.points, mesh.hexes, figures)
+        values = metric_values(metric, mesh, figures)
         worst = rank_worst(values, figures, min(MAX_LISTED, values.size), METRICS[metric].better or 1)
         inverted = figures.inverted[worst]
         locked = locked_hexes(mesh.points, mesh.hexes[worst], mesh.fixed, inverted)

@@ -159,7 +159,7 @@ class Worker:
     def _report(self, iteration: Iteration, hit: Hit | None = None) -> None:
         moved = self._inputs[0].with_points(iteration.points)
         for metric in self.metrics:
-            metric_values(metric, moved.points, moved.hexes, iteration.quality)
+            metric_values(metric, moved, iteration.quality)
         self.last = IterationFrame(iteration, State(moved, iteration.quality, summarise(moved, iteration.quality)), hit)
         self.mailbox.put(self.last)
 

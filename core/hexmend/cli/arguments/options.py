@@ -19,6 +19,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
     add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
     _add_boundary(parser)
+    _add_target(parser)
     text = "run the methods of this recipe one after another; limits hold for each of them"
     parser.add_argument("--recipe", metavar="FILE.toml", help=text)
     _add_limits(parser)
@@ -29,6 +30,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     text = "a parameter of the one method, or of every method that has it"
     add_repeated(parser, "--set", "[METHOD.]KEY=VALUE", text)
     _add_boundary(parser)
+    _add_target(parser)
     _add_limits(parser)
     add_force(parser)
 
@@ -104,6 +106,18 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     """Declare the short form of `--set boundary=...`."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
+
+
+def _add_target(parser: argparse.ArgumentParser) -> None:
+    """Declare the short forms of `--set target=...` and `--set layers=...`."""
+    parser.add_argument(
+        "--target",
+        metavar="ideal|given-shape|given-size|given|FIELD",
+        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the file "
+        "or a formula in x, y, z (default: ideal, with boundary layers kept)",
+    )
+    text = "keep the heights of boundary layers (default unless --target is given) or leave them free"
+    parser.add_argument("--layers", choices=("keep", "free", "off"), help=text)
 
 
 def _add_limits(parser: argparse.ArgumentParser) -> None:

@@ -18,6 +18,14 @@ from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
+#: Parameters with an option of their own, and what is said of methods that do not have them.
+_WITHOUT = {
+    "boundary": "the boundary stays fixed in",
+    "surface_tolerance": "the boundary stays fixed in",
+    "target": "there are no targets in",
+    "layers": "there are no targets, which keep layers, in",
+}
+
 
 def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """Return the method or recipe of the options of `add_method`, and the limits.
@@ -36,10 +44,10 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
         For a recipe that cannot be read.
     """
     if args.recipe:
-        if args.method or args.set or args.boundary or getattr(args, "surface_tolerance", None):
+        if args.method or args.set or _given_options(args):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set, --boundary and "
-                "--surface-tolerance, or change the recipe"
+                "--recipe names its methods and their values: leave out --method, --set, --boundary, "
+                "--surface-tolerance, --target and --layers, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
     name = args.method or DEFAULT_METHOD
@@ -47,7 +55,7 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
 
 
 def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:
-    """Return the settings of --set together with those of --boundary, --surface and --surface-tolerance.
+    """Return the settings of --set together with those of options that set a parameter, such as --boundary.
 
     Parameters
     ----------
@@ -61,18 +69,24 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
         For methods without these parameters, and where --set gives them too.
     """
     settings = parse_settings(args.set)
-    options = {"boundary": args.boundary, "surface_tolerance": getattr(args, "surface_tolerance", None)}
+    options = _given_options(args)
     if getattr(args, "surface", None) is not None and args.boundary is None and "boundary" not in settings:
         options["boundary"] = "slide"
-    options = {key: value for key, value in options.items() if value is not None}
     for key, value in options.items():
         option = f"--{key.replace('_', '-')}"
         if key in settings:
             raise ParameterError(f"{option} and --set {key}=... set the same value: leave out one of them")
         without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
         if without:
-            raise ParameterError(f"{option} {value}: the boundary stays fixed in {', '.join(without)}")
+            raise ParameterError(f"{option} {value}: {_WITHOUT[key]} {', '.join(without)}")
     return settings | options
+
+
+def _given_options(args: argparse.Namespace) -> dict[str, str]:
+    """Values of the options that set a parameter, by the parameter."""
+    values = {name: getattr(args, name, None) for name in _WITHOUT}
+    values["layers"] = {"off": "free"}.get(values["layers"], values["layers"])
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def stopping_criteria(args: argparse.Namespace) -> StoppingCriteria:

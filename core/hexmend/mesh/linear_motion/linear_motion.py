@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexmend.arrays import as_immutable
+from hexmend.arrays import as_immutable, mask
 from hexmend.errors import MeshError
 from hexmend.mesh.linear_motion import subspaces
 from hexmend.mesh.linear_motion.ties import resolved
@@ -173,7 +173,7 @@ class LinearMotion:
             If a node is removed that others follow.
         """
         tied, master, rotations = self.tied, self.master, self.rotations
-        gone = number[master] < 0
+        gone = (number[master] < 0) & (number[tied] >= 0)
         if gone.any():
             raise MeshError(
                 f"node {master[gone][0]} is removed, but node {tied[gone][0]} moves with it: remove both, or end the "
@@ -197,6 +197,16 @@ class LinearMotion:
     def largest_node(self) -> int:
         """The largest node number, -1 if there is none."""
         return int(max(part.max(initial=-1) for part in (self.nodes, self.tied, self.master)))
+
+    def roots(self, n: int) -> np.ndarray:
+        """Node that each of n nodes moves with: the master of a tied node, else itself; (n,) int64."""
+        roots = np.arange(n)
+        roots[self.tied] = self.master
+        return roots
+
+    def marks(self, n: int) -> np.ndarray:
+        """Mark the nodes, of n, that are restricted, tied, or followed by others, (n,) bool."""
+        return mask(np.concatenate([self.nodes, self.tied, self.master]), n)
 
     def __bool__(self) -> bool:
         return self.largest_node >= 0
@@ -228,7 +238,9 @@ def _as_vectors(values: object, label: str, nodes: np.ndarray) -> np.ndarray:
     wrong = np.flatnonzero(~(np.isfinite(array).all(axis=1) & (array != 0).any(axis=1)))
     if wrong.size:
         row = wrong[0]
-        raise MeshError(f"{label} of node {nodes[row]} are {array[row].tolist()}: expected a finite vector other than 0")
+        raise MeshError(
+            f"{label} of node {nodes[row]} are {array[row].tolist()}: expected a finite vector other than 0"
+        )
     return array
 
 

@@ -17,6 +17,7 @@ from hexmend.boundary import SlidingBoundary
 from hexmend.iteration import Step
 from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
+from hexmend.optimise.maxmin.constrained_directions import constrained_directions, least_of_tied
 from hexmend.optimise.maxmin.corner_set import MovableCorners
 from hexmend.optimise.maxmin.corner_values import gradients
 from hexmend.optimise.maxmin.directions import step_directions
@@ -203,7 +204,9 @@ class MaxMinOptimiser:
         near = near[corners.active_values().ravel()[near] - least < band + self.config.max_slope * radius]
         corner_nodes = corners.nodes_of(near)
         values, derivatives = gradients(self.points, corner_nodes)
-        size = shortest_edges(self.points, self.mesh.hexes[around])
+        size, motion = shortest_edges(self.points, self.mesh.hexes[around]), self.mesh.linear_motion
+        if motion is not None:
+            size = least_of_tied(size, motion)
         constraints = LinearConstraints(corner_nodes, np.maximum(values - least, 0.0), derivatives, np.ones(near.size))
         moves = np.zeros(len(self.points))
         moves[nodes] = radius * size[nodes]
@@ -212,13 +215,16 @@ class MaxMinOptimiser:
             np.maximum(bounds.slack, 0.0, out=bounds.slack)
         x, slides = self.points[nodes], envelope.slides(nodes)
         directions = step_directions(x, size[nodes], radius, nodes, slides, envelope.sliding)
+        if motion is not None:
+            directions = constrained_directions(directions, nodes, size[nodes], motion)
         solved = solve(nodes, directions, constraints.concatenate(bounds), radius, may_decrease=outside is not None)
         if solved is None:
             return 0.0, self.points, nodes
         self._multipliers = near, solved.multipliers[: near.size]
         points = self.points.copy()
-        np.add.at(points, nodes[directions.node_index], solved.lengths[:, None] * directions.displacements)
-        return solved.gain, envelope.project(self.points, points, nodes), nodes
+        lengths = solved.lengths[directions.columns, None]
+        np.add.at(points, nodes[directions.node_index], lengths * directions.displacements)
+        return solved.gain, envelope.project(self.points, self.mesh.constrained(points), nodes), nodes
 
     def _accept(self, points: np.ndarray, moved: np.ndarray, least: float, promised: float) -> float:
         """Accept `points` if the gain is large enough, and adapt the trust region; returns the gain, 0 if rejected."""

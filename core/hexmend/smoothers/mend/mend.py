@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.boundary import SlidingBoundary
-from hexmend.energy import MeshEnergy, ObjectiveNorm, SlidingEnergy
+from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
 from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
@@ -35,6 +35,7 @@ class Mend(ObjectiveSmoother):
     help = "Untangles as far as the fixed nodes allow, then finds the optimum of shape or of the worst corner."
     source = "Wilson 5.2.2 and 5.2.4; truncated Newton: Dembo and Steihaug 1983"
     bytes_per_hex = 2200
+    keeps_linear_motion = True
 
     goal: str = parameter(
         "shape",
@@ -73,6 +74,8 @@ class Mend(ObjectiveSmoother):
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
+        if mesh.linear_motion is not None:
+            mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
         slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
         intermediate = slides or self.maximises_jacobian
@@ -81,7 +84,8 @@ class Mend(ObjectiveSmoother):
         if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
             quality = measure(mesh.points, mesh.hexes)
-        shape = yield from self._shape(mesh, MeshEnergy(mesh, norm), quality, intermediate)
+        energy = energy_of(mesh, norm)
+        shape = yield from self._shape(mesh, energy, quality, intermediate or mesh.linear_motion is not None)
         if not intermediate:
             return shape.outcome
         fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
@@ -94,7 +98,7 @@ class Mend(ObjectiveSmoother):
             yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
             freed = mesh.with_points(optimiser.points)
             quality = measure(freed.points, mesh.hexes)
-            shape = yield from self._shape(freed, SlidingEnergy(sliding, norm), quality, intermediate)
+            shape = yield from self._shape(freed, energy_of(mesh, norm, sliding), quality, intermediate)
             candidates += [freed.points, shape.points]
         result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
         points = shape.points if result is None else result.optimiser.points

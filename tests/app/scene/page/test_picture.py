@@ -107,7 +107,7 @@ def test_every_metric_has_a_range_of_colours(name):
         figures = measure(mesh.points, mesh.hexes)
         scale = look_of(args, mesh).scale
         assert scale.metric == name
-        shown = resolve(scale, metric_values(name, mesh.points, mesh.hexes, figures), figures.inverted)
+        shown = resolve(scale, metric_values(name, mesh, figures), figures.inverted)
         low, high = shown.low, shown.high
         assert np.isfinite((low, high)).all()
         assert low < high

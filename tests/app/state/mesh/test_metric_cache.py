@@ -17,23 +17,23 @@ MESH = scrambled(grid(3), 0.4)
 @pytest.mark.parametrize("name", METRICS)
 def test_values_are_those_of_the_metric_and_cached(name):
     figures = measure(MESH.points, MESH.hexes)
-    values = metric_values(name, MESH.points, MESH.hexes, figures)
+    values = metric_values(name, MESH, figures)
     np.testing.assert_array_equal(values, METRICS[name].of(MESH.points, MESH.hexes, figures))
-    assert metric_values(name, MESH.points, MESH.hexes, figures) is values
+    assert metric_values(name, MESH, figures) is values
 
 
 def test_other_points_have_other_values():
     other = scrambled(grid(3), 0.1)
-    first = metric_values("skew", MESH.points, MESH.hexes, measure(MESH.points, MESH.hexes))
-    assert (metric_values("skew", other.points, other.hexes, measure(other.points, other.hexes)) != first).any()
+    first = metric_values("skew", MESH, measure(MESH.points, MESH.hexes))
+    assert (metric_values("skew", other, measure(other.points, other.hexes)) != first).any()
 
 
 def test_three_metrics_are_cached_as_long_as_the_quality_lives():
     figures = measure(MESH.points, MESH.hexes)
     for name in METRICS:
-        metric_values(name, MESH.points, MESH.hexes, figures)
+        metric_values(name, MESH, figures)
     assert len(metric_cache.CACHE[figures]) == 3
-    values = weakref.ref(metric_values("volume", MESH.points, MESH.hexes, figures))
+    values = weakref.ref(metric_values("volume", MESH, figures))
     del figures
     gc.collect()
     assert values() is None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from hexmend.advice import advise
 from hexmend.cli.arguments.checks import check_memory, check_targets
@@ -39,6 +40,8 @@ def run(args: argparse.Namespace) -> int:
         mesh = with_region_free(mesh, hexes_in_set(mesh, args.only), max(args.rings, 0))
     check_memory(args, [method], mesh, *([] if args.only else ["smooth a part of it (--only)"]))
     smoothing = iterate(with_surface(args, mesh, method), method, limits)
+    if smoothing.layers:
+        print(f"hexmend: {smoothing.layers_message}", file=sys.stderr)
     if args.save_recipe:
         write_recipe(args.save_recipe, smoothing.recipe)
     with FinishWriting():
@@ -63,6 +66,8 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result) ->
     advice = advise(result) if result.after.inverted else None
     print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after])
     print(result.message)
+    for wall in result.layers:
+        print(wall.sentence)
     for time, summary in second_order.items():
         if summary is not None:
             print(f"Second order, {time}: {summary.phrase}.")

@@ -35,7 +35,7 @@ def suggested_command(suggestion: Suggestion, source: str, output: str, rules: M
     if smoother.name != DEFAULT_METHOD:
         words += ["--method", smoother.name]
     for key, value in _changed(smoother).items():
-        words += ["--boundary", value] if key == "boundary" else ["--set", f"{key}={value}"]
+        words += [f"--{key}", value] if key in ("boundary", "target", "layers") else ["--set", f"{key}={value}"]
     for key, value in _changed(suggestion.stop).items():
         words += [f"--{key.replace('_', '-')}", *([] if value is True else [str(value)])]
     return shlex.join([*words, *_options(rules or MotionRules())])

@@ -1,0 +1,1 @@
+"""Metrics of solvers' own checks, one a file; each registers itself in METRICS."""
