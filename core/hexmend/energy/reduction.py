@@ -141,7 +141,7 @@ class Reduction:
         return matrix
 
     def _merge_map(self, full: AssembledHessian) -> tuple[np.ndarray, ...]:
-        """Where blocks of all free nodes go: see `_merged`. It depends on the patterns alone."""
+        """Map of the blocks of all free nodes to those of `sparsity`; it depends on the patterns alone."""
         if "_map" not in self.__dict__:
             part, whole = self.sparsity, full.sparsity
             slot_of = np.empty(whole.nodes.size, np.int64)

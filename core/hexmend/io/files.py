@@ -9,11 +9,12 @@ from pathlib import Path
 from hexmend.aliases import old_keywords
 from hexmend.errors import FileError, MeshError
 from hexmend.io.base.capabilities import required_capabilities
+from hexmend.io.base.format import Format
 from hexmend.io.base.missing_coordinates import INTERPOLATE_MISSING
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.coordinates.replacement import ChangedFileError, Written, is_same_file, replace_coordinates
-from hexmend.io.format_lookup import every_format, format_of, suffixes_of, writable_format
+from hexmend.io.format_lookup import every_format, format_by_place, format_of, suffixes_of, writable_format
 from hexmend.io.storage.atomic import atomic_write, check_writable
 from hexmend.io.storage.readable import check_readable, reading
 from hexmend.mesh.mesh import Mesh
@@ -27,7 +28,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Parameters
     ----------
     path : path-like
-        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading.
+        A file of any format in `FORMATS`; the content decides where the suffix is unknown or misleading. For OpenFOAM
+        also the folder of a case.
     as_is : bool
         Keep parts whose hexes are all mirrored; else their node order is reversed.
     interpolate_missing : bool
@@ -36,8 +38,8 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
     Returns
     -------
     Mesh
-        Named after the file's stem. The order of nodes and hexes, data, sets, fixed nodes and other cells are kept.
-        Its `notes` list the changes made on reading.
+        Named after the file's stem or the case. The order of nodes and hexes, data, sets, fixed nodes and other cells
+        are kept. Its `notes` list the changes made on reading.
 
     Raises
     ------
@@ -45,12 +47,14 @@ def read(path: str | os.PathLike[str], *, as_is: bool = False, interpolate_missi
         Where the file cannot be read as a mesh: it names the location in the file and a remedy.
     """
     path = Path(path)
-    check_readable(path, "a mesh file")
+    if format_by_place(path) is None:
+        check_readable(path, "a mesh file or the folder of an OpenFOAM case")
     format = format_of(path)
     token = INTERPOLATE_MISSING.set(interpolate_missing)
     try:
         with reading(path, "Close other programs or use a larger machine."):
-            mesh = format.read(path).replace(name=path.stem)
+            mesh = format.read(path)
+            mesh = mesh if format.place else mesh.replace(name=path.stem)
             return mesh if as_is else with_consistent_orientation(mesh)
     except MeshError as error:
         raise FileError(path, str(error), _REMEDY["finite" in str(error)]) from None
@@ -86,14 +90,20 @@ def write(
         `like` in more than its coordinates.
     """
     path = Path(path)
-    format = writable_format(path)
     if like is not None:
         _write_like(path, mesh, like)
         return
+    _write_anew(path, mesh, encoding, writable_format(path))
+
+
+def _write_anew(path: Path, mesh: Mesh, encoding: str | None, format: Format) -> None:
     encoding = format.encodings[0] if encoding is None else encoding
     if encoding not in format.encodings:
         problem = f"{format.title} has no encoding {encoding!r}"
         raise FileError(path, problem, f"Use one of {', '.join(format.encodings)}.")
+    if format.place:
+        format.write(path, mesh, encoding)
+        return
     with atomic_write(path) as temporary:
         try:
             format.write(temporary, mesh, encoding)
@@ -122,11 +132,20 @@ def replaces_coordinates(path: str | os.PathLike[str], original: Original | None
     ----------
     path : path-like
     original : Original or None
+
+    Raises
+    ------
+    FileError
+        For an unknown suffix, and for a folder that cannot take the mesh.
     """
-    if original is None or not original.path.is_file():
+    if original is None or not (original.path.is_file() or format_by_place(original.path)):
         return False
-    format = writable_format(Path(path))
-    return format.locate is not None and format_of(original.path) is format
+    format = writable_format(Path(path), original.path)
+    if format.locate is None or format_of(original.path) is not format:
+        return False
+    if format.place:
+        format.place.check_target(Path(path), original.mesh, original.path)
+    return True
 
 
 def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original | None) -> Written:
@@ -159,16 +178,20 @@ def write_as_given(path: str | os.PathLike[str], mesh: Mesh, original: Original 
             if is_same_file(path, original.path):
                 raise
             reason = (f"The file is written anew: {error.path.name} {error.problem}.",)
-    write(path, mesh)
+    _write_anew(path, mesh, None, writable_format(path, original and original.path))
     return Written(False, reason)
 
 
-def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str], Mesh], None]:
+def writer_for(
+    path: str | os.PathLike[str], source: str | os.PathLike[str] | None = None
+) -> Callable[[str | os.PathLike[str], Mesh], None]:
     """Return `write` after a check of suffix and folder, so that errors are found before a long run.
 
     Parameters
     ----------
     path : path-like
+    source : path-like, optional
+        File that the mesh is read from; a case is written as a case where the suffix chooses nothing.
 
     Returns
     -------
@@ -181,12 +204,15 @@ def writer_for(path: str | os.PathLike[str]) -> Callable[[str | os.PathLike[str]
         For an unknown suffix, and where the file cannot be written.
     """
     path = Path(path)
-    writable_format(path)
-    check_writable(path)
+    format = writable_format(path, source and Path(source))
+    if not format.place:
+        check_writable(path)
     return write
 
 
-def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
+def unsupported_data(
+    path: str | os.PathLike[str], mesh: Mesh, source: str | os.PathLike[str] | None = None
+) -> list[str]:
     """Describe the data of a mesh that are lost if it is written to a file.
 
     Parameters
@@ -194,6 +220,8 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     path : path-like
         Its suffix chooses the format; the file need not exist.
     mesh : Mesh
+    source : path-like, optional
+        As of `writer_for`.
 
     Returns
     -------
@@ -203,9 +231,11 @@ def unsupported_data(path: str | os.PathLike[str], mesh: Mesh) -> list[str]:
     Raises
     ------
     FileError
-        For an unknown suffix.
+        For an unknown suffix, and for a folder that cannot take the mesh.
     """
-    format = writable_format(Path(path))
+    format = writable_format(Path(path), source and Path(source))
+    if format.place:
+        format.place.check_target(Path(path), mesh, None)
     required = required_capabilities(mesh, format.stored_names)
     missing = [description for kind, description in required.items() if kind not in format.capabilities]
     return missing + (format.limitations(mesh) if format.limitations else [])

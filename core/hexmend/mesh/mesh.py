@@ -78,6 +78,10 @@ class Mesh:
         Values of the mesh as a whole.
     notes : tuple of str
         Changes made to the mesh on reading, as sentences.
+    side_set_types : mapping of name to str
+        Kinds of boundary that side sets are, by the names of OpenFOAM: wall, patch, symmetryPlane, empty, wedge...
+    periodic_pairs : tuple of (str, str)
+        Names of side sets of which one is a translated or rotated copy of the other.
 
     Raises
     ------
@@ -106,6 +110,8 @@ class Mesh:
     mid_nodes: np.ndarray | None = None
     field_data: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    side_set_types: Mapping[str, str] = field(default_factory=dict)
+    periodic_pairs: tuple[tuple[str, str], ...] = ()
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:

@@ -18,7 +18,7 @@ from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
 
-#: Function of energies (k,), gradients (k, 3) and Hessians (k, 3, 3) of single nodes, giving directions (k, 3).
+#: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).
 NodeDirections: TypeAlias = Callable[[np.ndarray, np.ndarray, np.ndarray, float], np.ndarray]
 
 #: Share of the largest eigenvalue to which smaller ones are raised (A.4).

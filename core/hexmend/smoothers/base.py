@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
@@ -22,6 +22,9 @@ from hexmend.registry import Registry, load_entry_points
 #: Type of the generator that `Smoother.steps` returns.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
+
+#: Function of the points (n, 3) that returns them with some nodes moved.
+Sweep: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 #: Least fall of q(H) that four decimals show: near its optimum an optimiser goes up and down by less.
 _VISIBLE_FALL = 0.5e-4
@@ -115,6 +118,23 @@ class Smoother(Parametrised, ABC):
         Outcome or None
             Outcome when the method has no further step; a run may close the generator earlier.
         """
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep | None:
+        """Make the sweep over nodes with a linear motion that follows each step of the method over the other nodes.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        linear : (n,) bool
+            The nodes.
+
+        Returns
+        -------
+        callable or None
+            Function of points (n, 3) that returns them with these nodes moved. None for a method without such a
+            sweep: its steps are projected onto the admissible displacements.
+        """
+        return None
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.

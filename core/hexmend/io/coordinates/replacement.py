@@ -36,10 +36,13 @@ class Written:
         True if coordinates were replaced in a copy of the original file; False for a file written anew.
     notes : tuple of str
         Sentences for the user: why the file was written anew although the original has its format, or a loss of digits.
+    in_place : bool
+        True if the original file itself was changed.
     """
 
     replaced: bool
     notes: tuple[str, ...] = ()
+    in_place: bool = False
 
 
 def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Format) -> Written:
@@ -72,9 +75,12 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     if different:
         raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
     located = _located(original, format)
+    in_place = is_same_mesh(format, path, original.path)
+    if format.place:  # a folder, in which the format replaces files itself
+        return Written(True, located.write(path, path, mesh.points), in_place)
     with atomic_write(path) as file:
         notes = located.write(file, path, mesh.points)
-    return Written(True, notes)
+    return Written(True, notes, in_place)
 
 
 def _located(original: Original, format: Format) -> LocatedCoordinates:
@@ -96,6 +102,11 @@ def _located(original: Original, format: Format) -> LocatedCoordinates:
     if (np.abs(points[different] - given[different]) > _ROUNDING * np.abs(given).max()).any():
         raise changed
     return located
+
+
+def is_same_mesh(format: Format, a: Path, b: Path) -> bool:
+    """Return True if two paths lead to one existing file or case."""
+    return format.place.is_same(a, b) if format.place else is_same_file(a, b)
 
 
 def is_same_file(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> bool:

@@ -14,7 +14,7 @@ def run(args: argparse.Namespace) -> int:
     """Repair the mesh, write it, and print what was repaired and what remains."""
     for name in args.only:
         AILMENTS[name]  # raises for an unknown name before the mesh is read
-    writer_for(args.output)
+    writer_for(args.output, None if args.rewrite else args.mesh)
     mesh = read(args.mesh, as_is=True, nodes_without_place=True)
     print_notes(mesh)
     given = mesh

@@ -29,7 +29,7 @@ from hexmend.run.recipe_files import write_recipe
 def run(args: argparse.Namespace) -> int:
     """Read the mesh, smooth it, write it and the reports; return 4 if hexes are still inverted."""
     method, limits = method_and_limits(args)
-    writer_for(args.output)  # raises now, and not after the run, for a file that cannot be written
+    writer_for(args.output, None if args.rewrite else args.mesh)  # raises before the run, and not after it
     check_targets(args.mesh, args.output, args.json, args.history, args.save_recipe)
     mesh = read(args.mesh, as_is=args.as_is)
     print_notes(mesh)
