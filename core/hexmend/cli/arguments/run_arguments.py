@@ -16,6 +16,9 @@ from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
+#: Parameters of methods that have an option of their own, such as --surface-tolerance.
+_SHORT_FORMS = "boundary", "goal", "surface_tolerance"
+
 
 def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
     """Return the method or recipe of the options of `add_method`, and the limits.
@@ -34,9 +37,9 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
         For a recipe that cannot be read.
     """
     if args.recipe:
-        if args.method or args.set or args.boundary or getattr(args, "surface_tolerance", None):
+        if args.method or args.set or any(getattr(args, name, None) for name in _SHORT_FORMS):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set, --boundary and "
+                "--recipe names its methods and their values: leave out --method, --set, --boundary, --goal and "
                 "--surface-tolerance, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
@@ -45,7 +48,7 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
 
 
 def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:
-    """Return the settings of --set together with those of --boundary, --surface and --surface-tolerance.
+    """Return the settings of --set together with those of --boundary, --goal, --surface and --surface-tolerance.
 
     Parameters
     ----------
@@ -59,7 +62,7 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
         For methods without these parameters, and where --set gives them too.
     """
     settings = parse_settings(args.set)
-    options = {"boundary": args.boundary, "surface_tolerance": getattr(args, "surface_tolerance", None)}
+    options = {name: getattr(args, name, None) for name in _SHORT_FORMS}
     if getattr(args, "surface", None) is not None and args.boundary is None and "boundary" not in settings:
         options["boundary"] = "slide"
     options = {key: value for key, value in options.items() if value is not None}
@@ -69,7 +72,8 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
             raise ParameterError(f"{option} and --set {key}=... set the same value: leave out one of them")
         without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
         if without:
-            raise ParameterError(f"{option} {value}: the boundary stays fixed in {', '.join(without)}")
+            where = "only mend has goals, not" if key == "goal" else "the boundary stays fixed in"
+            raise ParameterError(f"{option} {value}: {where} {', '.join(without)}")
     return settings | options
 
 
