@@ -109,9 +109,11 @@ def parse_settings(words: list[str]) -> dict[str, str]:
 
 
 def _add_boundary(parser: argparse.ArgumentParser) -> None:
-    """Declare the short form of `--set boundary=...`."""
+    """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
+    text = "optimum of shape (default), greatest least scaled Jacobian, or greatest smallest explicit time step"
+    parser.add_argument("--goal", choices=("shape", "scaled-jacobian", "time-step"), help=text)
 
 
 def _add_target(parser: argparse.ArgumentParser) -> None:
