@@ -76,8 +76,7 @@ class LayerReport:
             return ""
         heights = f"{self.before.first_height_mean:.3g} → {self.after.first_height_mean:.3g}"
         return (
-            f"the layers at '{self.wall}' lose their grading: first height {heights}; "
-            "--target given-shape keeps them"
+            f"the layers at '{self.wall}' lose their grading: first height {heights}; --target given-shape keeps them"
         )
 
     @property
@@ -138,7 +137,12 @@ def describe_layers(layers: Layers, mesh: Mesh, quality: ElementQuality | None =
     """
     lengths = recovered_lengths(mesh, quality) if layers else np.zeros((0, 3))
     return [
-        {"wall": wall.name, "faces": wall.count, "layers": wall.depth, **dataclasses.asdict(_state(wall, mesh, lengths))}
+        {
+            "wall": wall.name,
+            "faces": wall.count,
+            "layers": wall.depth,
+            **dataclasses.asdict(_state(wall, mesh, lengths)),
+        }
         for wall in layers.walls
     ]
 

@@ -45,8 +45,8 @@ def run_target(
     mesh : Mesh
         The mesh as given.
     specification : str
-        As of `hexmend.target.make_target`, or "auto": the mesh's own target; or else given-shape for a mesh with layers,
-        and ideal for one without.
+        As of `hexmend.target.make_target`, or "auto": the mesh's own target; or else given-shape for a mesh with
+        layers, and ideal for one without.
     layers : Layers
         Layers that are kept: their hexes get their own lengths as target. With "given-shape" and "given", and with
         "auto" where they are tangled, heights are fitted to one first height of each wall; see `fitted_lengths`.

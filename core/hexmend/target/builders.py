@@ -76,7 +76,8 @@ def _field(mesh: Mesh, text: str) -> np.ndarray:
         try:
             columns = evaluate(text, _names(mesh))
         except ParameterError as error:
-            raise ParameterError(f"there is no target {text!r}: expected {_expected(mesh)}. As a formula: {error}") from None
+            message = f"there is no target {text!r}: expected {_expected(mesh)}. As a formula: {error}"
+            raise ParameterError(message) from None
     if len(columns) not in (1, 3):
         raise ParameterError(f"target {text!r} has {len(columns)} values a hex: expected one length, or three")
     lengths = np.empty((mesh.n_hexes, 3))
