@@ -23,7 +23,7 @@ _AS_THEY_ARE = ("given-shape", "given")
 #: Aspect ratios between which the target of hexes outside of layers goes from a cube to the shape as given.
 _CUBE, _AS_GIVEN = 2.0, 4.0
 #: Share of distorted hexes in layers beyond which their heights as given are no measure.
-_TANGLED = 0.01
+_MAX_DISTORTED = 0.01
 
 
 def keeps_layers(specification: str, layers: str) -> bool:
@@ -51,7 +51,7 @@ def run_target(
         Layers that are kept: their hexes get their own lengths as target. With "given-shape" and "given", and with
         "auto" where they are tangled, heights are fitted to one first height of each wall; see `fitted_lengths`.
     size_weight : float
-        Weight of the size beside the shape, where the target has one.
+        Weight of the size relative to the shape, where the target has one.
     quality : ElementQuality, optional
         Of the mesh's hexes, if it is measured already.
 
@@ -71,7 +71,7 @@ def run_target(
         if mesh.element_target is not None:
             return mesh.element_target
         specification = "given-shape" if layers else "ideal"
-        fits = bool(layers) and np.mean(quality.scaled_jacobian[layers.hexes] < DISTORTED) > _TANGLED
+        fits = bool(layers) and np.mean(quality.scaled_jacobian[layers.hexes] < DISTORTED) > _MAX_DISTORTED
     target = make_target(mesh, specification, size_weight, quality)
     if not layers or (specification in _AS_THEY_ARE and not fits):
         return target
