@@ -121,8 +121,8 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--target",
         metavar="ideal|given-shape|given-size|given|FIELD",
-        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the file "
-        "or a formula in x, y, z (default: ideal, with boundary layers kept)",
+        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
     )
     text = "keep the heights of boundary layers (default unless --target is given) or leave them free"
     parser.add_argument("--layers", choices=("keep", "free", "off"), help=text)
