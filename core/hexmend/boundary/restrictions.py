@@ -36,7 +36,7 @@ def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
         stays |= between
     if rules.slides is not None:
         stays &= ~rules.slides
-    return stays | mesh.held
+    return stays | mesh.immovable
 
 
 def freed_by_rules(mesh: Mesh) -> np.ndarray:
