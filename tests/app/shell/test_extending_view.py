@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QComboBox, QLabel
 from hexmend.cli.main import main
 from hexmend.errors import ParameterError
 from hexmend_app.picture import colour_map, from_toml, layer_switch
-from hexmend_app.picture.appearance import ColourScale, Structure
+from hexmend_app.picture.appearance import Structure
 from hexmend_app.scene.layers import optional_layer
 from hexmend_app.shell.keys import as_markdown
 from hexmend_app.shell.palette.palette_entries import command_entries
@@ -51,7 +51,7 @@ def window(files, fresh_window):
 
 def show_both(window):
     """Switch the layer and the map on."""
-    window.session.view.change(structure=Structure(extra=("bounding-box",)), scale=ColourScale(map="slate"))
+    window.session.view.change(structure=Structure(extra=("bounding-box",)), colours={"map": "slate"})
     window.refresh()
 
 
@@ -77,7 +77,7 @@ def test_a_session_keeps_them(window, qtbot, mesh_file, tmp_path):
     look = window.session.view.look
     assert count(pixels(window), BOX) > 100
     assert window.features["session"].save_and_wait(tmp_path / "both.hexmend")
-    window.session.view.change(structure=Structure(), scale=ColourScale())
+    window.session.view.change(structure=Structure(), colours={})
     window.refresh()
     assert count(pixels(window), BOX) == 0
     open_and_wait(qtbot, window, tmp_path / "both.hexmend")

@@ -14,6 +14,7 @@ from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.structure import find_structure
 from hexmend_app.picture.appearance import Look, Structure
+from hexmend_app.picture.page import Page
 from hexmend_app.scene.layers.optional.structure import KINDS, LOCKED, PINNED, VALENCES
 from hexmend_app.shell.palette.command_palette import CommandPalette
 from hexmend_app.state.mesh.document import State
@@ -39,7 +40,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     if name != "free":  # of which none is in sight
         assert (np.abs(pixels(five) - before).sum(axis=2) > 60).sum() > 100
     press_key(five, name)
-    assert five.session.view.look == Look(shading=False)
+    assert five.session.view.look == Look(page=Page(shading=False))
     np.testing.assert_array_equal(pixels(five), before)
 
 
@@ -133,7 +134,7 @@ def test_marks_follow_a_smoother(window, qtbot, tmp_path):
 def test_a_pinned_node_changes_its_colour(five, qtbot):
     tick(five.features["structure"].panel.layers["fixed"].box)
     inside = int(np.flatnonzero(five.session.document.now.mesh.free)[0])
-    five.session.view.change(peel=1)
+    five.session.view.change(show={"peel": 1})
     five.refresh()
     assert count(pixels(five), PINNED) == 0
     visible = five.canvas.viewport.mesh_layer.faces.nodes

@@ -11,7 +11,10 @@ from hexmend.gallery.pentagon import fan, subdivide
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import measure
 from hexmend_app.picture.appearance import Look, Structure
-from hexmend_app.picture.cut_planes import BoxClip, PlaneClip
+from hexmend_app.picture.cut import Cut, CutStyle
+from hexmend_app.picture.cut_planes import Box
+from hexmend_app.picture.page import LineStyle
+from hexmend_app.picture.visibility import Show
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -42,7 +45,7 @@ def five_blocks(segments, layers):
 
 
 FIVE = five_blocks(3, 11)
-BELOW = PlaneClip.at((0, 0, 1), (0, 0, 0.7))
+NO_CUT, BELOW = Cut(), Cut.at((0, 0, 1), (0, 0, 0.7))
 
 
 @pytest.fixture
@@ -51,8 +54,9 @@ def draw():
     stage = Stage((400, 300))
     viewport = Viewport(Pane(stage.window))
 
-    def drawn(mesh, structure, **look):
-        look = Look(edges=False, outline=False, structure=structure, **look)
+    def drawn(mesh, structure, cut=NO_CUT, shrink=0.0):
+        show = Show(shrink=shrink, outline=False)
+        look = Look(structure=structure, cut=cut, lines=LineStyle(edges=0.0), show=show)
         viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look))
         viewport.view("iso")
         viewport.moving()
@@ -103,12 +107,12 @@ def test_nodes_have_the_colour_of_their_kind(draw):
     pinned = np.zeros(mesh.n_nodes, bool)
     pinned[[62, 0]] = True  # the centre, and a corner, which is on the boundary anyway
     mesh = mesh.replace(pinned=pinned)
-    half = PlaneClip.at((0, 0, 1), (0, 0, 2))
-    image = draw(mesh, Structure(fixed=True, free=True), clip=half)
+    half = Cut.at((0, 0, 1), (0, 0, 2))
+    image = draw(mesh, Structure(fixed=True, free=True), cut=half)
     assert count(image, PINNED) in range(4, 40)
     assert count(image, FREE) > 4 * count(image, PINNED)
     assert count(image, BOUNDARY) > 4 * count(image, PINNED)
-    image = draw(mesh, Structure(free=True), clip=half)
+    image = draw(mesh, Structure(free=True), cut=half)
     assert count(image, BOUNDARY) == count(image, PINNED) == 0 < count(image, FREE)
     image = draw(mesh, Structure(free=True))
     assert count(image, FREE) == 0  # none is in sight
@@ -126,24 +130,26 @@ def test_nodes_of_locked_hexes_are_marked(draw):
 
 
 @pytest.mark.parametrize(
-    "clip",
+    "cut",
     [
         BELOW,
-        PlaneClip.at((0, 0, 1), (0, 0, 0.7), False),
-        PlaneClip((*BELOW.planes, *BELOW.planes), False, notch=True),
-        BoxClip((-2, -2, -2), (2, 2, 0.7), False),
-        BoxClip((-2, -2, 0.7), (2, 2, 2), False, notch=True),
+        Cut.at((0, 0, 1), (0, 0, 0.7), CutStyle.SMOOTH),
+        Cut((*BELOW.planes, *BELOW.planes), style=CutStyle.SMOOTH, notch=True),
+        Cut(box=Box((-2, -2, -2), (2, 2, 0.7)), style=CutStyle.SMOOTH),
+        Cut(box=Box((-2, -2, 0.7), (2, 2, 2)), style=CutStyle.SMOOTH, notch=True),
     ],
 )
-def test_only_shown_hexes_have_marks(draw, clip):
+def test_only_shown_hexes_have_marks(draw, cut):
     wanted = Structure(irregular=True, sharp=True, fixed=True)
-    draw(FIVE, wanted, clip=clip)
+    draw(FIVE, wanted, cut=cut)
     layers = draw.viewport.overlay_layers.structure
     assert layers.irregular.count == 5  # of the eleven, those below the plane
     for marks in (layers.irregular, layers.sharp, layers.nodes):
         assert marks.poly.points[:, 2].max() <= 0.75
     draw.viewport.draw(
-        dataclasses.replace(draw.viewport.frame, look=Look(structure=wanted, dug=frozenset(range(FIVE.n_hexes))))
+        dataclasses.replace(
+            draw.viewport.frame, look=Look(structure=wanted, show=Show(hidden=frozenset(range(FIVE.n_hexes))))
+        )
     )
     assert not layers.irregular.shown
     assert not layers.nodes.shown
@@ -196,7 +202,7 @@ def test_boundary_nodes_have_the_colour_of_their_class(draw):
 def test_given_classes_are_drawn(draw):
     mesh = grid(3)
     kinds = np.where(mesh.topology.boundary, WHISKER, 0).astype(np.uint8)
-    look = Look(edges=False, outline=False, structure=Structure(kinds=True))
+    look = Look(structure=Structure(kinds=True), lines=LineStyle(edges=0.0), show=Show(outline=False))
     draw(mesh, Structure(kinds=True))
     draw.viewport.draw(Frame(mesh, measure(mesh.points, mesh.hexes), look=look, kinds=kinds))
     assert count(draw.pixels(), KINDS[WHISKER]) > 300
