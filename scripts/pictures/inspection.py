@@ -53,7 +53,7 @@ def structure(window: Window) -> None:
     """Irregular edges seen through the mesh, fixed nodes on a cut mesh."""
     window.session.view.set_handles(False)
     cut_mesh(window, (1, -1, 0))
-    window.session.view.change(structure=Structure(irregular=True, sharp=True, fixed=True, free=True))
+    window.session.view.change(structure=Structure.of("irregular", "sharp", "fixed", "free"))
     window.show_panel("show")
 
 

@@ -87,7 +87,7 @@ def _with_palette(image: Image.Image, bar: int) -> Image.Image:
 
 
 def _geometry(mesh: Mesh) -> _Subject:
-    return _Subject(mesh, Look(colours=_NEUTRAL, lines=_NO_EDGES, structure=Structure(sharp=True)), mesh.points)
+    return _Subject(mesh, Look(colours=_NEUTRAL, lines=_NO_EDGES, structure=Structure.of("sharp")), mesh.points)
 
 
 def _mesh(mesh: Mesh) -> _Subject:

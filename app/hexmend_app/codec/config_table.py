@@ -57,7 +57,12 @@ def option(default: Any = None, **bounds: Any) -> Any:
 
 @cache
 def options_of(kind: type) -> tuple[Option, ...]:
-    """Return the declarations of the keys of a table or another dataclass, in order."""
+    """Return the declarations of the keys of a table or another dataclass, in order.
+
+    They are its fields, unless it has a method `keys` that declares others, which `to_keys` and `from_keys` convert.
+    """
+    if hasattr(kind, "from_keys"):
+        return kind.keys()
     types = typing.get_type_hints(kind)
     return tuple(
         Option(field.name.rstrip("_"), field.name, types[field.name], _default(field), **field.metadata.get("key", {}))
@@ -145,7 +150,8 @@ class _TableConversion(Conversion):
         return self.encode(value, type(value) if dataclasses.is_dataclass(value) else _with_shape(value, kinds))
 
     def _encode_table(self, value: Any, kind: type) -> dict[str, Any]:
-        entries = {option.name: (getattr(value, option.field), option.kind) for option in options_of(type(value))}
+        values = value.to_keys() if hasattr(kind, "from_keys") else vars(value)
+        entries = {option.name: (values[option.field], option.kind) for option in options_of(type(value))}
         return {name: self.encode(*entry) for name, entry in entries.items() if entry[0] not in _EMPTY}
 
     def _decode_union(self, data: Any, kinds: tuple[Any, ...], where: _Place) -> Any:
@@ -166,7 +172,7 @@ class _TableConversion(Conversion):
             for name, value in data.items()
         }
         try:
-            return kind(**values)
+            return kind.from_keys(values) if hasattr(kind, "from_keys") else kind(**values)
         except OptionError as error:
             raise OptionError(f"{table}: {error}" if where.path else str(error)) from None
         except (ParameterError, ValueError) as error:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from hexmend.mesh.mesh import Mesh
-from hexmend_app.codec.config_table import ConfigTable, option
+from hexmend_app.codec.config_table import ConfigTable, Option, option
 from hexmend_app.picture.colours import Colours
 from hexmend_app.picture.cut import Cut
-from hexmend_app.picture.layer_switch import LAYERS
+from hexmend_app.picture.layer_switch import LAYERS, ON_BY_DEFAULT, OWN_KEYS
 from hexmend_app.picture.page import LineStyle, Page
 from hexmend_app.picture.visibility import Show
 
@@ -57,66 +58,53 @@ class Traces:
 
 @dataclass(frozen=True)
 class Structure:
-    """Switches of the layers over the mesh.
+    """Layers over the mesh that are on.
+
+    In files, the layers of `OWN_KEYS` are keys that are true or false, and `extra` lists the names of the others.
 
     Parameters
     ----------
-    irregular : bool
-        Interior edges that are not shared by exactly four hexes, drawn through the mesh, and nodes where they end.
-    boundary : bool
-        Edges of a smooth boundary that are not shared by exactly two hexes.
-    sharp : bool
-        Sharp edges of the boundary.
-    fixed, free : bool
-        Visible nodes that no method moves, and visible nodes that methods may move.
-    locked : bool
-        Visible nodes of hexes that are inverted because of fixed nodes alone.
-    kinds : bool
-        Visible boundary nodes by their motion on a sliding boundary: corners, nodes on curves, nodes on patches.
-    original : bool
-        The boundary of the mesh as opened, translucent.
-    others : bool
-        Outer faces of tetrahedra, pyramids and wedges, translucent.
-    extra : tuple of str
-        Names of additional layers that are on.
+    on : frozenset of str
+        Names of `LAYERS`.
     """
 
-    irregular: bool = False
-    boundary: bool = False
-    sharp: bool = False
-    fixed: bool = False
-    free: bool = False
-    locked: bool = False
-    kinds: bool = False
-    original: bool = False
-    others: bool = True
-    extra: tuple[str, ...] = ()
+    on: frozenset[str] = ON_BY_DEFAULT
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "extra", tuple(sorted({LAYERS[name].name for name in self.extra})))
+        object.__setattr__(self, "on", frozenset(name if name in OWN_KEYS else LAYERS[name].name for name in self.on))
+
+    @classmethod
+    def of(cls, *names: str) -> Structure:
+        """Return the structure in which layers are on, in addition to those that are on by default."""
+        return cls(ON_BY_DEFAULT.union(names))
 
     def is_on(self, name: str) -> bool:
-        """Return True if the layer of a name is switched on."""
-        return name in self.extra if name not in _FIELDS else getattr(self, name)
+        """Return True if the layer of a name is on."""
+        return name in self.on
 
     def switched(self, name: str, on: bool) -> Structure:
         """Return a copy in which the layer of a name is on or off."""
-        if name in _FIELDS:
-            return dataclasses.replace(self, **{name: on})
-        return dataclasses.replace(self, extra=(*self.extra, name) if on else tuple({*self.extra} - {name}))
+        return Structure(self.on | {name} if on else self.on - {name})
 
-    @property
-    def edges(self) -> bool:
-        """True if edges are drawn that depend on the structure of the mesh."""
-        return self.irregular or self.boundary or self.sharp
+    def without(self, *names: str) -> Structure:
+        """Return a copy in which layers are off."""
+        return Structure(self.on.difference(names))
 
-    def without_edges(self) -> Structure:
-        """Return a copy in which all layers of edges are off."""
-        return dataclasses.replace(self, irregular=False, boundary=False, sharp=False)
+    @classmethod
+    def keys(cls) -> tuple[Option, ...]:
+        """Return the keys in files."""
+        switches = [Option(name, name, bool, name in ON_BY_DEFAULT) for name in OWN_KEYS]
+        return (*switches, Option("extra", "extra", tuple[str, ...], ()))
 
+    def to_keys(self) -> dict[str, Any]:
+        """Return the values of the keys in files."""
+        return {**{name: name in self.on for name in OWN_KEYS}, "extra": tuple(sorted(self.on.difference(OWN_KEYS)))}
 
-#: Layers with a field in `Structure`.
-_FIELDS = {field.name for field in dataclasses.fields(Structure)} - {"extra"}
+    @classmethod
+    def from_keys(cls, values: dict[str, Any]) -> Structure:
+        """Return the structure for values of keys; a missing key has its default."""
+        values = {**cls().to_keys(), **values}
+        return cls(frozenset(name for name in OWN_KEYS if values[name]).union(values["extra"]))
 
 
 @dataclass(frozen=True)

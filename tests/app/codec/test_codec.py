@@ -41,7 +41,7 @@ LOOKS = [
     Look(cut=Cut((Plane((1, 2, 3), point=(0.1, 0.2, 0.3)), Plane(point=(0, 0, 0))), style=CutStyle.SMOOTH, notch=True)),
     Look(cut=Cut(box=Box((0, 0, 0), (1, 2, 3))), show=Show(isolate=Isolate((3, 1), 2), hidden=frozenset({5, 2}))),
     Look(
-        structure=Structure(sharp=True),
+        structure=Structure.of("sharp"),
         movement=Traces(Since.RUN, Arrows.ALL, 3),
         colours=Colours(metric="shape", map="plasma", range=(0.1, 0.9), reverse=True),
         show=Show(quality=(-float("inf"), 0.5)),

@@ -83,7 +83,7 @@ def run_and_go_back(window, qtbot):
         window.session.commands.run(Stage(METHODS["laplacian"](), StoppingCriteria(max_iterations=3, tolerance=0)))
     window.session.timeline.go(window.session.history.records[-1], 1)
     window.session.view.change(
-        movement=Traces(arrows=Arrows.ALL), structure=Structure(original=True), colours={"metric": "q-change"}
+        movement=Traces(arrows=Arrows.ALL), structure=Structure.of("original"), colours={"metric": "q-change"}
     )
 
 
@@ -114,9 +114,7 @@ def tag_and_pin(window, qtbot):
 
 
 def show_the_structure(window, qtbot):
-    window.session.view.change(
-        structure=Structure(irregular=True, sharp=True, boundary=True, kinds=True, locked=True, original=True)
-    )
+    window.session.view.change(structure=Structure.of("irregular", "sharp", "boundary", "kinds", "locked", "original"))
     qtbot.waitUntil(lambda: window.session.structure_finder.structure is not None, timeout=PATIENCE)
 
 
@@ -172,7 +170,7 @@ LAYERS = ("outline", "structure", "selection", "ghosts", "original", "others", "
 @pytest.mark.parametrize("layer", LAYERS)
 def test_a_failing_layer_is_omitted(window, small_file, qtbot, layer, monkeypatch):
     overlay_layers, failures = window.canvas.viewport.overlay_layers, []
-    window.session.view.change(structure=Structure(original=True))
+    window.session.view.change(structure=Structure.of("original"))
     window.refresh()
 
     def fail(*_):

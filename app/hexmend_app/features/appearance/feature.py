@@ -10,6 +10,7 @@ from hexmend.boundary.displacement import DISPLACEMENT_QUANTITIES, Displacement
 from hexmend_app.feature import Action, ChangeTracker, Feature, Host, Panel, PanelPlace
 from hexmend_app.features.appearance.colour_panel import NEUTRAL, SHADING, ColourPanel
 from hexmend_app.picture.appearance import Arrows, Look
+from hexmend_app.picture.layer_switch import EDGE_LAYERS
 from hexmend_app.scene.views.frame import Frame
 from hexmend_app.state.mesh.hex_groups import hexes_of_group
 from hexmend_app.state.run.run_controller import Phase
@@ -112,8 +113,8 @@ class FeatureAppearance(Feature):
     def _draw(self) -> None:
         session = self.session
         now, movement, look = session.document.now, self._movement, self._drawable
-        kinds = self._kinds if look.structure.kinds else None
-        original = session.document.start.mesh.points if look.structure.original else None
+        kinds = self._kinds if look.structure.is_on("kinds") else None
+        original = session.document.start.mesh.points if look.structure.is_on("original") else None
         if self._seen.changed("frame", now, movement, look, original, kinds):
             live = session.run.phase is Phase.RUNNING and session.run.following
             self.canvas.draw(Frame(now.mesh, now.figures, movement, look, original, kinds), live)
@@ -145,9 +146,9 @@ class FeatureAppearance(Feature):
         look = self._view.look
         structure = look.structure
         if self.session.structure_finder.structure is None:
-            structure = structure.without_edges()
+            structure = structure.without(*EDGE_LAYERS)
         if self._kinds is None:
-            structure = dataclasses.replace(structure, kinds=False)
+            structure = structure.without("kinds")
         return dataclasses.replace(look, structure=structure)
 
     @property

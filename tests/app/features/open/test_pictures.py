@@ -28,7 +28,7 @@ def change_appearance(window, qtbot):
     session = window.session
     session.view.change(
         cut=Cut.at((1, 0.2, 0), (0.5, 0.5, 0.5)),
-        structure=Structure(sharp=True),
+        structure=Structure.of("sharp"),
         colours={"metric": "scaled-jacobian", "map": "plasma"},
         show={"hidden": frozenset({3, 5})},
     )

@@ -65,7 +65,7 @@ def test_a_picture_has_the_requested_size(window, tmp_path, size):
 def test_the_same_scene_is_the_same_picture_without_a_window(window, tmp_path, views):
     session = window.session
     window.action("cut").trigger()
-    session.view.change(structure=Structure(sharp=True), show={"shrink": 0.1})
+    session.view.change(structure=Structure.of("sharp"), show={"shrink": 0.1})
     if views != 1:
         session.side_views.show("as it was", session.document.now)
         session.side_views.set_wiping(views == "wipe")

@@ -50,7 +50,7 @@ def work(window, qtbot):
     window.features["smooth"].panel.breakpoint_form.set_breakpoints(Breakpoints(inverts=True, node=12, move=0.25))
     session.view.change(
         cut=Cut.at((1, 0, 0.2), session.document.now.mesh.points.mean(axis=0)),
-        structure=Structure(sharp=True, fixed=True),
+        structure=Structure.of("sharp", "fixed"),
         movement=Traces(arrows=Arrows.SIGHT, factor=2.0),
         colours={"metric": "scaled-jacobian", "map": "plasma"},
         show={"quality": (-1.0, 0.9), "metric": "scaled-jacobian", "inverted": True, "hidden": frozenset({40, 41})},

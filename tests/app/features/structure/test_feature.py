@@ -34,7 +34,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
     before = pixels(five)
     box = five.features["structure"].panel.layers[name].box
     press_key(five, name)
-    assert five.session.view.look.structure == Structure(**{name: True})
+    assert five.session.view.look.structure == Structure.of(name)
     assert box.isChecked()
     assert five.window_actions[f"show_{name}"].isChecked()
     if name != "free":  # of which none is in sight
@@ -46,7 +46,7 @@ def test_a_key_shows_and_hides_a_layer(five, name):
 
 def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
     press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
     panel = five.features["structure"].panel
     classes = five.session.boundary_classifier.classes
     assert texts(panel, "kinds")[0] == f"{classes.count(NodeClass.CORNER)} corners"
@@ -62,7 +62,7 @@ def test_kinds_of_nodes_follow_the_feature_angle(five, qtbot):
 
 def test_a_pin_changes_the_class_of_a_boundary_node(five, qtbot):
     press_key(five, "kinds")
-    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.kinds, timeout=PATIENCE)
+    qtbot.waitUntil(lambda: five.canvas.viewport.frame.look.structure.is_on("kinds"), timeout=PATIENCE)
     node = int(np.flatnonzero(five.session.boundary_classifier.classes.kinds == NodeClass.PATCH)[0])
     five.session.commands.pin(node, True)
     qtbot.waitUntil(lambda: five.session.boundary_classifier.classes.kinds[node] == PIN, timeout=PATIENCE)
@@ -111,7 +111,7 @@ def test_irregular_edges_are_shown_by_the_palette(five, qtbot):
     field = five.findChild(CommandPalette).findChild(QLineEdit)
     QTest.keyClicks(field, "irregular edges inside")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: five.session.view.look.structure.irregular, timeout=2000)
+    qtbot.waitUntil(lambda: five.session.view.look.structure.is_on("irregular"), timeout=2000)
     assert count(pixels(five), VALENCES[5]) > 100
 
 
@@ -183,7 +183,7 @@ def test_nothing_is_cut_off(five, qtbot, size):
     five.resize(*size)
     panel = five.features["structure"].panel
     panel.set_nodes(1_234_567, 12_345, 1_234_567, 12_345)
-    five.session.view.change(structure=Structure(irregular=True))
+    five.session.view.change(structure=Structure.of("irregular"))
     found = find_structure(tetrahedron())
     valence = np.repeat([3, 5, 6, 7, 8], [14_461, 10_776, 1_048, 303, 10])
     panel.set_found(type(found)(found.interior, valence, np.arange(8672), found.boundary, valence, found.sharp))

@@ -15,7 +15,7 @@ from hexmend_app.scene.views.pane import Pane
 from hexmend_app.scene.views.viewport import Viewport
 from tests.core.grids import grid
 
-OFF = Look(structure=Structure(others=False))
+OFF = Look(structure=Structure(frozenset()))
 
 
 def hybrid() -> Mesh:

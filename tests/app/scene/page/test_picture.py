@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from hexmend.quality import METRICS, measure
 from hexmend_app.cli.cut_options import parse_plane
 from hexmend_app.cli.render import command
 from hexmend_app.cli.scene_options import look_of
-from hexmend_app.picture import ColourBarStyle, Page, Scene, TextPlace
+from hexmend_app.picture import ColourBarStyle, LineStyle, Page, Scene, Show, TextPlace
 from hexmend_app.picture.appearance import Look, Structure
 from hexmend_app.picture.cut import Cut, CutStyle
 from hexmend_app.picture.cut_planes import Box, Plane
@@ -169,7 +170,8 @@ def test_several_meshes_are_drawn_side_by_side_by_the_command(tmp_path, capsys):
 
 
 def sheet(*meshes, look=Look(), bar=True, names="abcdef", **page):  # noqa: B008
-    scene = Scene.of(look, page=Page(**page), bar=ColourBarStyle(TextPlace.BELOW if bar else TextPlace.NONE))
+    page = replace(look.page, **page)
+    scene = Scene.of(look, page=page, bar=ColourBarStyle(TextPlace.BELOW if bar else TextPlace.NONE))
     return draw_page(scene, [PageMesh.of(mesh, name) for mesh, name in zip(meshes, names, strict=False)])
 
 
@@ -248,11 +250,12 @@ def test_a_picture_has_the_format_of_its_suffix(tmp_path, capsys):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("panels", [1, 2])
-@pytest.mark.parametrize("lines", [{"edges": True}, {"outline": True}, {"structure": Structure(sharp=True)}])
+@pytest.mark.parametrize("lines", [{"lines": LineStyle()}, {"show": Show()}, {"structure": Structure.of("sharp")}])
 def test_lines_are_as_thick_on_paper_in_every_size(panels, lines):
     if QOpenGLContext.currentContext() is not None:
         QOpenGLContext.currentContext().doneCurrent()  # a window's, in which VTK would draw by another library
-    look = Look(**{"edges": False, "outline": False, "shading": False} | lines)
+    bare = {"lines": LineStyle(edges=0.0), "show": Show(outline=False), "page": Page(shading=False)}
+    look = Look(**bare | lines)
     shares = []
     for size in ((1440, 900), (2880, 1800)):
         page = sheet(*[grid(2)] * panels, look=look, pixels=size, supersampling=1)

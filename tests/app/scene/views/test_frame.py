@@ -100,7 +100,7 @@ def test_another_look_is_measured_only_if_its_colours_differ(watched):
 
 def test_other_pins_are_drawn(watched):
     draw, viewport = watched
-    look = Look(structure=Structure(free=True), show=Show(peel=1))
+    look = Look(structure=Structure.of("free"), show=Show(peel=1))
     draw(Frame(MESH, FIGURES, look=look))
     pinned = np.zeros(MESH.n_nodes, bool)
     pinned[62] = True  # the centre

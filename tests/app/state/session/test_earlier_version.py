@@ -83,7 +83,7 @@ def test_the_look_of_a_session_of_version_5_is_read():
     assert look.cut.with_hexes(None) == Cut(planes, style=CutStyle.CRINKLE, notch=True)
     assert np.flatnonzero(~look.cut.listed(mesh.n_hexes))[:4].tolist() == [7, 9, 10, 359]
     assert look.colours == Colours("edge-ratio", "plasma", (1.25, 4.0), reverse=True, neutral=True)
-    assert look.structure == Structure(irregular=True, sharp=True, fixed=True, locked=True, others=False)
+    assert look.structure == Structure(frozenset({"irregular", "sharp", "fixed", "locked"}))
     assert look.movement == Traces(Since.ITERATION, Arrows.ALL, 1.1)
     assert (look.lines.shown, look.page.shading) == (False, False)
     assert data.features["cut"]["planes"] == data.features["cut"]["planes"] | {"style": "crinkle", "notch": True}
@@ -106,8 +106,8 @@ def test_a_scene_of_version_0_1_is_read():
     assert scene.cut.notch
     assert scene.cut.planes[0].position == 0.4
     assert (scene.colours.metric, scene.colours.map, scene.colours.range) == ("edge-ratio", "cividis", (1.0, 4.0))
-    assert scene.structure.sharp
-    assert scene.structure.fixed
+    assert scene.structure.is_on("sharp")
+    assert scene.structure.is_on("fixed")
     assert (scene.camera.from_, scene.page.size, scene.page.shading) == ("-y", (160, 120), False)
 
 
@@ -121,7 +121,7 @@ def test_a_picture_of_version_0_1_opens_its_mesh_as_it_shows_it(fresh_window, qt
     assert window.session.document.now.mesh.n_hexes == 108
     assert (look.colours.metric, look.colours.map, look.colours.range) == ("edge-ratio", "cividis", (1.0, 4.0))
     assert look.cut.notch
-    assert (look.structure.sharp, look.structure.fixed) == (True, True)
+    assert (look.structure.is_on("sharp"), look.structure.is_on("fixed")) == (True, True)
 
 
 @pytest.fixture
