@@ -132,7 +132,7 @@ def _help(kind: type, one: Option) -> str:
     """Describe a key; the keys of layers are described by the layers."""
     if kind is not Structure:
         return helps(kind)[one.field]
-    return LAYERS[one.name].help if one.name in OWN_KEYS else "Names of other layers that are on."
+    return LAYERS[one.name].action_help if one.name in OWN_KEYS else "Names of other layers that are on."
 
 
 def _table_of(kind: Any) -> type | None:
