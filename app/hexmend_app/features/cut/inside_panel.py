@@ -132,25 +132,26 @@ class InsidePanel(QWidget):
 
     def set_look(self, look: Look, rings: int) -> None:
         """Show the settings of a look and the number of rings; emits no signal."""
-        self._peel.set_value(look.peel)
-        self._cut_smoothly = look.clip is not None and not look.clip.crinkle
-        self._shrink.set_value(round(100 * look.shrink))
+        show, isolate = look.show, look.show.isolate
+        self._peel.set_value(show.peel)
+        self._cut_smoothly = look.cut.smooth
+        self._shrink.set_value(round(100 * show.shrink))
         self._shrink.setEnabled(not self._cut_smoothly)
         self._shrink.set_help(_CUT_SMOOTHLY if self._cut_smoothly else _SHRINK)
         if self._rings.value() != rings:  # setValue would overwrite text being typed
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)
-        isolated = len(look.isolation.hexes) if look.isolation is not None else 0
+        isolated = 0 if isolate is None else len(isolate.hexes)
         self.isolated.setText(
             tr("{count} isolated", count=counted(isolated, "hex")) if isolated else tr("No hexes isolated")
         )
-        self._all.setEnabled(look.isolation is not None)
+        self._all.setEnabled(isolate is not None)
         self.dug.setText(
-            tr("{count} dug away", count=counted(len(look.dug), "hex")) if look.dug else tr("No hexes dug away")
+            tr("{count} dug away", count=counted(len(show.hidden), "hex")) if show.hidden else tr("No hexes dug away")
         )
         for button in (self._undo, self._restore):
-            button.setEnabled(bool(look.dug))
-        self._outline.setChecked(look.outline)
+            button.setEnabled(bool(show.hidden))
+        self._outline.setChecked(show.outline)
 
     def set_shown(self, shown: int, total: int) -> None:
         """Show the number of hexes drawn, whole or in part, out of `total`; 0 of 0 without a mesh."""
