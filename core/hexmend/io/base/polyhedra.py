@@ -86,7 +86,9 @@ def _of_kind(kind: str, faces: RaggedArray, cells: RaggedArray, turned: np.ndarr
     which = np.flatnonzero(cells.lengths == len(LOOPS[kind]))
     chunks = [which[begin : begin + _CHUNK] for begin in range(0, len(which), _CHUNK)]
     lengths = faces.lengths
-    found = [part for part in (_nodes_of(kind, faces, lengths, cells, turned, chunk) for chunk in chunks) if len(part[0])]
+    found = [
+        part for part in (_nodes_of(kind, faces, lengths, cells, turned, chunk) for chunk in chunks) if len(part[0])
+    ]
     if not found:
         return which[:0], np.empty((0, 0), np.int64)
     return np.concatenate([numbers for numbers, _ in found]), np.concatenate([nodes for _, nodes in found])
