@@ -20,6 +20,7 @@ from hexmend.parameters import declared
 from hexmend.quality import METRICS, Metric
 from hexmend.run.memory import format_bytes, needed
 from hexmend.smoothers import METHODS
+from hexmend.solver_checks import SOLVERS
 from hexmend.study.batch.case import TaskLimits
 from hexmend.study.batch.table_columns import COLUMNS
 from hexmend_app.codec.config_table import Option, options_of
@@ -65,6 +66,19 @@ def meanings() -> str:
     return table(
         ("name", "title", "", "from"), ((f"`{one.name}`", one.title, one.meaning, one.source) for one in _metrics())
     )
+
+
+def solvers() -> str:
+    """The checks of every solver: limits, definitions, sources, and what is left out."""
+    parts = []
+    for solver in sorted(SOLVERS.values(), key=lambda one: one.title.lower()):
+        rows = (
+            (one.name, one.limit_text, one.unit, one.level.name.lower(), one.definition, one.source)
+            for one in solver.checks
+        )
+        head = ("check", "limit", "unit", "beyond it", "definition", "source")
+        parts.append(f"## {solver.title}\n`--for {solver.name}`. {solver.omitted}\n\n{table(head, rows)}")
+    return "\n\n".join(parts)
 
 
 def stops() -> str:
@@ -185,6 +199,7 @@ TABLES: dict[str, tuple[str, Callable[[], str]]] = {
     "methods": ("docs/methods.md", methods),
     "metrics": ("docs/metrics.md", metrics),
     "meanings": ("docs/metrics.md", meanings),
+    "solvers": ("docs/solvers.md", solvers),
     "stops": ("docs/recipes.md", stops),
     "formats": ("docs/formats.md", formats),
     "scene": ("docs/figures.md", scene),

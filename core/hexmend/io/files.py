@@ -115,7 +115,7 @@ def _write_like(path: Path, mesh: Mesh, like: str | os.PathLike[str] | Original)
     if not isinstance(like, Original):
         given = read(like, as_is=True)
         turned = with_consistent_orientation(given)
-        like = Original(Path(like), turned if difference(given, mesh) else given)
+        like = Original(Path(like), turned if difference(given, mesh, ()) else given)
     if not replaces_coordinates(path, like):
         problem = f"cannot be written like {like.path.name}: its format is another, or keeps nothing else"
         raise FileError(path, problem, "Write it without the argument like.")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from hexmend.io.base.format import Capability
 from hexmend.mesh.cells import Cells
 from hexmend.mesh.mesh import Mesh
 
@@ -27,12 +28,14 @@ class Original:
     mesh: Mesh
 
 
-def difference(given: Mesh, mesh: Mesh) -> str:
+def difference(given: Mesh, mesh: Mesh, capabilities: Collection[Capability] = frozenset(Capability)) -> str:
     """Describe the first difference of two meshes other than coordinates, notes and names; empty for none.
 
     Parameters
     ----------
     given, mesh : Mesh
+    capabilities : collection of Capability
+        Of the file's format: data that it cannot hold are not compared.
 
     Examples
     --------
@@ -43,20 +46,23 @@ def difference(given: Mesh, mesh: Mesh) -> str:
     >>> difference(mesh, mesh.replace(pinned=[True] * 8))
     'other fixed nodes'
     """
-    pairs = {
-        "other nodes": (given.n_nodes, mesh.n_nodes),
-        "other hexes": (given.hexes, mesh.hexes),
-        "other nodes of second order": (given.mid_nodes, mesh.mid_nodes),
-        "other fixed nodes": (_marks(given), _marks(mesh)),
-        "other point data": (given.node_data, mesh.node_data),
-        "other cell data": (given.hex_data, mesh.hex_data),
-        "other node sets": (given.node_sets, mesh.node_sets),
-        "other element sets": (given.hex_sets, mesh.hex_sets),
-        "other side sets": (given.side_sets, mesh.side_sets),
-        "other cells beside the hexes": (given.cells, mesh.cells),
-        "other field data": (given.field_data, mesh.field_data),
+    always = {
+        "nodes": (given.n_nodes, mesh.n_nodes),
+        "hexes": (given.hexes, mesh.hexes),
+        "nodes of second order": (given.mid_nodes, mesh.mid_nodes),
+        "cells of other kinds": (given.cells, mesh.cells),
     }
-    return next((words for words, (before, after) in pairs.items() if not _equal(before, after)), "")
+    kept = {
+        Capability.FIXED_NODES: (_marks(given), _marks(mesh)),
+        Capability.NODE_DATA: (given.node_data, mesh.node_data),
+        Capability.HEX_DATA: (given.hex_data, mesh.hex_data),
+        Capability.NODE_SETS: (given.node_sets, mesh.node_sets),
+        Capability.HEX_SETS: (given.hex_sets, mesh.hex_sets),
+        Capability.SIDE_SETS: (given.side_sets, mesh.side_sets),
+        Capability.FIELD_DATA: (given.field_data, mesh.field_data),
+    }
+    pairs = always | {kind.value: pair for kind, pair in kept.items() if kind in capabilities}
+    return next((f"other {words}" for words, (before, after) in pairs.items() if not _equal(before, after)), "")
 
 
 def _marks(mesh: Mesh) -> np.ndarray | None:

@@ -17,7 +17,9 @@ from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
 
 _LOGGER = logging.getLogger(__name__)
-_REWRITE = "Write the file anew (--rewrite), or to another format."
+_REWRITE = "Choose another name, or write the file anew (--rewrite)."
+#: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
+_ROUNDING = 1e-6
 
 
 class ChangedFileError(FileError):
@@ -69,7 +71,7 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     FileError
         If a file cannot be read or written.
     """
-    different = difference(original.mesh, mesh)
+    different = difference(original.mesh, mesh, format.capabilities)
     if different:
         raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
     located = _located(original, format)
@@ -94,8 +96,10 @@ def _located(original: Original, format: Format) -> LocatedCoordinates:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else "it has changed since"
         raise ChangedFileError(path, f"cannot be read again ({reason})", _REWRITE) from None
     points = located.points
-    same = points.shape == given.shape and bool(((points == given) | ~np.isfinite(points)).all())
-    if not same:
+    if points.shape != given.shape:
+        raise changed
+    different = ~((points == given) | ~np.isfinite(points))
+    if (np.abs(points[different] - given[different]) > _ROUNDING * np.abs(given).max()).any():
         raise changed
     return located
 

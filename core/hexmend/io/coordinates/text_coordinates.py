@@ -22,7 +22,7 @@ class TextFields:
     ----------
     begin, end : (n, 3) int64
         Equal for a blank field.
-    room : (n, 3) int64
+    space : (n, 3) int64
         Blanks before the number that belong to its field.
     absent : (n, 3) bool
         True for fields that a line ends before; they are written behind a comma at `begin`.
@@ -32,7 +32,7 @@ class TextFields:
 
     begin: np.ndarray
     end: np.ndarray
-    room: np.ndarray
+    space: np.ndarray
     absent: np.ndarray
     aligned: bool = False
 
@@ -46,19 +46,19 @@ class TextFields:
         texts : bytes
             The new numbers, one a line.
         """
-        begin, end, room, absent = (part[changed] for part in (self.begin, self.end, self.room, self.absent))
+        begin, end, space, absent = (part[changed] for part in (self.begin, self.end, self.space, self.absent))
         if absent.any():
             lines = texts.split(b"\n")
             texts = replace_lines(texts, np.flatnonzero(absent), lambda k: b", " + lines[k])
-        padding = room
+        padding = space
         if self.aligned:  # the number grows into its blanks, all but one
-            padding = np.maximum(np.minimum(room, 1), room + end - begin - text_lengths(texts))
+            padding = np.maximum(np.minimum(space, 1), space + end - begin - text_lengths(texts))
         order = np.argsort(begin, kind="stable")
         if (order[1:] > order[:-1]).all():
-            return Edits(begin - room, end, padding, texts)
+            return Edits(begin - space, end, padding, texts)
         lines = texts.split(b"\n")
         texts = b"".join(lines[k] + b"\n" for k in order.tolist())
-        return Edits((begin - room)[order], end[order], padding[order], texts)
+        return Edits((begin - space)[order], end[order], padding[order], texts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,12 +85,15 @@ class TextCoordinates:
 
     def write(self, file: Path, target: Path, points: np.ndarray) -> tuple[str, ...]:
         """Write the file with new coordinates; see `LocatedCoordinates.write`."""
+        with open(file, "wb") as out:
+            write_edited(out, self.data, self.edits(points))
+        return self.notes
+
+    def edits(self, points: np.ndarray) -> Edits:
+        """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
         changed |= changed.any(axis=1)[:, None] & self.fields.absent
-        texts = number_texts(points[changed], self._style(), self.width)
-        with open(file, "wb") as out:
-            write_edited(out, self.data, self.fields.edits(changed, texts))
-        return self.notes
+        return self.fields.edits(changed, number_texts(points[changed], self._style(), self.width))
 
     def _style(self) -> str | None:
         begin, end = self.fields.begin.ravel(), self.fields.end.ravel()

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from hexmend.energy import POLICIES
+from hexmend.energy import POLICIES, MeshEnergy
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
@@ -38,13 +38,14 @@ class LocalOptimiser(Optimiser):
     )
 
     def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep:
-        sweeps, unit = ConstrainedSweeps(mesh, linear, self.norm), mesh.mean_edge_length or 1.0
+        energy = MeshEnergy(mesh, self.norm)
+        sweeps = ConstrainedSweeps(energy, linear)
         find = steepest_descents if self.direction == local.Direction.STEEPEST_DESCENT else newton_steps
 
         def sweep(points: np.ndarray) -> np.ndarray:
-            x = points / unit
+            x = energy.to_edge_units(points)
             sweeps(x, self.delta_at(mesh, points), find, self.line_search)
-            return np.where(linear[:, None], x * unit, points)
+            return np.where(linear[:, None], x * energy.unit, points)
 
         return sweep
 

@@ -59,7 +59,7 @@ def local_sweeps(
     settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH)
     constrained = None
     if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
-        constrained = ConstrainedSweeps(mesh, near & linear, energy.norm, omitted)
+        constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)

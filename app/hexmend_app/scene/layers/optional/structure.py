@@ -227,6 +227,8 @@ def node_marks(
     """
     marks = np.zeros(mesh.n_nodes, np.uint8)
     if switches.fixed:
+        if mesh.interfaces is not None:  # kept like the boundary
+            marks[mesh.interfaces.interface_nodes & mesh.fixed] = _BOUNDARY
         if mesh.pinned is not None:
             marks[mesh.pinned] = _PINNED
         marks[mesh.topology.boundary] = _BOUNDARY

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import (
-    add_force,
-    add_mesh,
-    add_method,
-    add_motion,
-    add_rewrite,
-    add_surface,
-)
+from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_motion, add_rewrite, add_surface
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.base.cursor import quoted, read_text_bytes
+from hexmend.io.base.cursor import quoted
 from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.text_coordinates import TextCoordinates, TextFields
 from hexmend.io.formats.abaqus.deck import Card, Deck
+from hexmend.io.formats.abaqus.included_output import write_files
+from hexmend.io.formats.abaqus.includes import read_deck
 from hexmend.io.formats.abaqus.model import Instance, Part, placement
 from hexmend.io.formats.abaqus.sets import name_key
 
@@ -22,7 +24,7 @@ _ROUNDING = 1e-9
 
 def locate(path: Path) -> AbaqusCoordinates:
     """Find the coordinates of a file that the reader has accepted."""
-    deck = Deck(path, read_text_bytes(path))
+    deck = read_deck(path)
     return AbaqusCoordinates(deck, _placed_cards(deck))
 
 
@@ -72,7 +74,10 @@ class AbaqusCoordinates:
         cards = [self._cards[line] for line in self._rows]
         fields = _joined([node_fields(self._deck.data, card.begin, card.end) for card in cards])
         coordinates = TextCoordinates(self._deck.given, given, fields, _WIDTH)
-        return coordinates.write(file, target, np.concatenate([new_rows[line] for line in self._rows]))
+        points = np.concatenate([new_rows[line] for line in self._rows])
+        if not self._deck.pieces:
+            return coordinates.write(file, target, points)
+        return write_files(self._deck, coordinates.edits(points), file, target)
 
 
 def _placed_cards(deck: Deck) -> list[_PlacedCards]:
@@ -167,6 +172,6 @@ def _trimmed(letters: np.ndarray, begin: np.ndarray, end: np.ndarray) -> tuple[n
 
 def _joined(parts: list[TextFields]) -> TextFields:
     """Fields of several cards, one after the other."""
-    names = ("begin", "end", "room", "absent")
+    names = ("begin", "end", "space", "absent")
     arrays = [np.concatenate([getattr(part, name) for part in parts]) for name in names]
     return TextFields(*arrays, aligned=all(part.aligned for part in parts))

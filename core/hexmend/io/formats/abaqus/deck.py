@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
+from hexmend.io.formats.abaqus.deck_file import Piece
 
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
@@ -50,7 +51,11 @@ class Deck:
     path : Path
         The file; errors name it.
     data : bytes
-        Content of the file.
+        Content of the file, joined with those that it includes.
+    pieces : sequence of Piece
+        Parts of files in the content, see `hexmend.io.formats.abaqus.deck_file`; empty for a file without others.
+    hidden : sequence of tuple of int
+        Byte ranges of the lines that include a file, which are read as blank: the data lines of a keyword may follow.
 
     Attributes
     ----------
@@ -60,8 +65,10 @@ class Deck:
         The content, with blanks in place of comments and lines that end in "\\n"; offsets are those of `given`.
     """
 
-    def __init__(self, path: Path, data: bytes):
-        self.given = data
+    def __init__(self, path: Path, data: bytes, pieces: Sequence[Piece] = (), hidden: Sequence[tuple[int, int]] = ()):
+        self.given, self.pieces = data, pieces
+        for begin, end in hidden:
+            data = data[:begin] + b" " * (end - begin) + data[end:]
         if b"\r" in data:
             data = data.replace(b"\r\n", b" \n").replace(b"\r", b"\n")
         if b"**" in data:
@@ -72,6 +79,15 @@ class Deck:
     def error(self, problem: str, remedy: str = "Correct the file.") -> FileError:
         """Make the error to raise."""
         return FileError(self.path, problem, remedy)
+
+    def place(self, card: Card) -> str:
+        """Describe the place of a card, such as "line 12", or "line 3 of nodes.inp" in an included file."""
+        at = card.begin - 1
+        for piece in self.pieces:
+            if piece.begin <= at <= piece.begin + piece.length and piece.file.reference is not None:
+                line = piece.file.data.count(b"\n", 0, piece.file_begin + at - piece.begin) + 1
+                return f"line {line} of {piece.file.path.name}"
+        return f"line {card.line}"
 
     def cards(self) -> Iterator[Card]:
         """Iterate over all cards in order."""
@@ -120,7 +136,9 @@ class Deck:
         numbers = np.where(np.isfinite(rows[:, 0]) & (np.abs(rows[:, 0]) < 2**53), rows[:, 0], 0.5)
         wrong = np.flatnonzero(numbers != np.floor(numbers))
         if wrong.size:
-            raise self.error(f"*NODE in line {card.line} has the number {rows[wrong[0], 0]:g}: expected a whole number")
+            raise self.error(
+                f"*NODE in {self.place(card)} has the number {rows[wrong[0], 0]:g}: expected a whole number"
+            )
         return numbers.astype(np.int64), np.ascontiguousarray(rows[:, 1:])
 
     def numbers(self, card: Card, label: str, dtype: type) -> np.ndarray:
