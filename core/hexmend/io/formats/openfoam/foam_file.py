@@ -22,6 +22,8 @@ from hexmend.io.base.remedies import DAMAGED
 _TOKEN = re.compile(
     rb'(?:\s++|//[^\n]*+|/\*(?s:.*?)\*/)*+(?:("(?:[^"\\]|\\.)*+")|([{}();\[\]])|((?:(?!/[/*])[^\s{}();"\[\]])++))'
 )
+_COMMENT = re.compile(rb'"(?:[^"\\]|\\.)*+"|//[^\n]*+|/\*(?s:.*?)\*/')
+_NOT_NEWLINE = re.compile(rb"[^\n]")
 _ARCH = re.compile(r"(?P<order>LSB|MSB)|label=(?P<label>32|64)|scalar=(?P<scalar>32|64)")
 _GZIP = b"\x1f\x8b"
 #: Dictionaries inside one another.
@@ -79,6 +81,7 @@ class FoamFile(ByteCursor):
         if encoding not in ("ascii", "binary"):
             raise self.error(f"its format is {quoted(encoding)}: expected ascii or binary")
         self.is_binary = encoding == "binary"
+        self._is_blanked = False
         self.arch = _arch_of(self.word(self.header, "arch", "the header FoamFile", ""))
 
     def peek(self) -> str:
@@ -96,6 +99,12 @@ class FoamFile(ByteCursor):
             return ""
         self.pos = found.end()
         return found[found.lastindex].decode("utf-8", errors="replace")
+
+    def blank_comments(self) -> None:
+        """Replace the comments of a file of text by blanks; lines and offsets stay the same."""
+        if not self._is_blanked and self.data.find(b"/", self.pos) >= 0:
+            self.data = self.data[: self.pos] + _COMMENT.sub(_blanks, self.data[self.pos :])
+        self._is_blanked = True
 
     def expect(self, mark: str, label: str) -> None:
         """Read a token and raise `FileError` unless it is `mark`."""
@@ -172,6 +181,11 @@ class FoamFile(ByteCursor):
     def count(self, label: str) -> int:
         """Read a natural number; `label` names it in errors."""
         return self.parse_count(self.token(), label)
+
+
+def _blanks(found: re.Match[bytes]) -> bytes:
+    """Blanks in place of a comment; texts in quotes stay."""
+    return found[0] if found[0].startswith(b'"') else _NOT_NEWLINE.sub(b" ", found[0])
 
 
 def _bare(token: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple
 
 import numpy as np
@@ -11,10 +10,8 @@ from hexmend.io.base.cursor import ByteCursor
 from hexmend.io.base.polyhedra import RaggedArray
 from hexmend.io.formats.openfoam.foam_file import FoamFile
 
-_COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 #: Parentheses count as white space between numbers, and bytes keep their places for errors.
 _BLANKS = bytes.maketrans(b"()", b"  ")
-_NOT_NEWLINE = re.compile(rb"[^\n]")
 
 
 class Span(NamedTuple):
@@ -110,8 +107,9 @@ def find_list(file: FoamFile, label: str, dtype: np.dtype, width: int) -> Span:
             raise file.error(f"{label} of {count:,} items does not end at byte {end}, as {bits} would have it")
         file.pos = end + 1
         return Span(begin, end, count)
+    file.blank_comments()
     file.expect("(", label)
-    end = _closing(file, file.pos)
+    end = _closing(file.data, file.pos)
     if end < 0:
         raise file.error(f"{label} ends without ')': the file ends at {file.location_of(len(file.data))}")
     span = Span(file.pos, end, count)
@@ -119,17 +117,13 @@ def find_list(file: FoamFile, label: str, dtype: np.dtype, width: int) -> Span:
     return span
 
 
-def _closing(file: FoamFile, begin: int) -> int:
+def _closing(data: bytes, begin: int) -> int:
     """Offset of the parenthesis that closes a list; -1 if it is missing. Items may be lists themselves."""
-    first = file.data.find(b")", begin)
-    if first < 0 or b"(" not in file.data[begin:first]:
+    first = data.find(b")", begin)
+    if first < 0 or data.find(b"(", begin, first) < 0:
         return first
-    end = len(file.data)
-    while (end := file.data.rfind(b")", begin, end)) >= 0:  # not one in a comment
-        line = file.data[file.data.rfind(b"\n", begin, end) + 1 : end]
-        if b"//" not in line:
-            break
-    return end if file.data.count(b"(", begin, end) == file.data.count(b")", begin, end) else -1
+    end = data.rfind(b")", begin)
+    return end if data.count(b"(", begin, end) == data.count(b")", begin, end) else -1
 
 
 def _numbers(file: FoamFile, span: Span, label: str, width: int, dtype: np.dtype) -> np.ndarray:
@@ -145,12 +139,8 @@ def _numbers(file: FoamFile, span: Span, label: str, width: int, dtype: np.dtype
 
 
 def _blanked(file: FoamFile, span: Span) -> ByteCursor:
-    """Cursor over the numbers of a list of text, without parentheses, comments and what follows."""
-    data = file.data[: span.end]
-    if data.find(b"/", span.begin) >= 0:
-        inside = _COMMENT.sub(lambda found: _NOT_NEWLINE.sub(b" ", found[0]), data[span.begin :])
-        data = data[: span.begin] + inside
-    cursor = ByteCursor(file.path, data.translate(_BLANKS))
+    """Cursor over the numbers of a list of text, without parentheses and what follows."""
+    cursor = ByteCursor(file.path, file.data[: span.end].translate(_BLANKS))
     cursor.pos = span.begin
     return cursor
 

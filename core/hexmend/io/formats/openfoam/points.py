@@ -33,12 +33,13 @@ def replaced_points(path: Path, points: np.ndarray) -> bytes:
         For a damaged file, and one with another number of points.
     """
     file = FoamFile(path)
+    data = file.data  # with comments
     span = find_list(file, "points", file.arch.scalar, 3)
     if span.count != len(points):
         problem = f"holds {span.count:,} points: expected {len(points):,}"
         raise file.error(problem, "Was the case meshed anew meanwhile?")
     new = points.astype(file.arch.scalar).tobytes() if file.is_binary else b"\n" + vector_rows(points)
-    content = b"".join([file.data[: span.begin], new, file.data[span.end :]])
+    content = b"".join([data[: span.begin], new, data[span.end :]])
     return gzip.compress(content, 6) if file.is_compressed else content
 
 
