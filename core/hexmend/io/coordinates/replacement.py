@@ -15,9 +15,11 @@ from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import was_turned
 
 _LOGGER = logging.getLogger(__name__)
 _REWRITE = "Choose another name, or write the file anew (--rewrite)."
+_TURNED = "Hexes that have been turned keep the order of nodes that they have in the file."
 #: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
 _ROUNDING = 1e-6
 
@@ -74,7 +76,7 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
     located = _located(original, format)
     with atomic_write(path) as file:
         notes = located.write(file, path, mesh.points)
-    return Written(True, notes)
+    return Written(True, (*notes, *((_TURNED,) if was_turned(original.mesh) else ())))
 
 
 def _located(original: Original, format: Format) -> LocatedCoordinates:
