@@ -14,6 +14,7 @@ from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
@@ -43,7 +44,8 @@ class Run(Iterator[Iteration]):
     Attributes
     ----------
     mesh, smoother
-        As given; the mesh has the rules of motion of a recipe.
+        As given; the mesh has the rules of motion of a recipe, and where a stage slides, its periodic pairs move as
+        one.
     layers : Layers
         Boundary layers of the mesh as given.
     start : Iteration
@@ -64,9 +66,11 @@ class Run(Iterator[Iteration]):
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
         if isinstance(smoother, Recipe) and smoother.rules:
             mesh = with_rules(mesh, mesh.node_rules.rules.merge(smoother.rules))
-        self.mesh = mesh
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
+        if mesh.periodic_pairs and any(stage.smoother.slides for stage in self._stages):
+            mesh = with_rules(mesh, mesh.node_rules.rules.merge(MotionRules(periodic=mesh.periodic_pairs)))
+        self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
         self.layers = find_layers(mesh, quality)
