@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.two_dimensional import flat_sides
 
 
 def interface_nodes(mesh: Mesh) -> np.ndarray:
@@ -36,7 +37,7 @@ def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
         stays |= between
     if rules.slides is not None:
         stays &= ~rules.slides
-    return stays | mesh.held
+    return stays | mesh.immovable | flat_sides(mesh)  # whose nodes move in their planes, or not at all
 
 
 def freed_by_rules(mesh: Mesh) -> np.ndarray:

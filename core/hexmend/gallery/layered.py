@@ -49,7 +49,7 @@ class Layered(GalleryMesh):
         return mesh.replace(side_sets=_sides(mesh, around, self.layers))
 
     def scrambled(self, mesh: Mesh) -> Mesh:
-        around, along = self._counts
+        around, _ = self._counts
         radii = self._radii
         gaps = np.diff(radii)
         least = np.minimum(np.append(gaps, np.inf), np.insert(gaps, 0, np.inf))

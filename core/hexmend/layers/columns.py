@@ -133,8 +133,8 @@ def walk_columns(neighbours: np.ndarray, lengths: Lengths, hexes: np.ndarray, fa
         size = lengths(following)
         upper = size[np.arange(len(size)), entry // 2]
         lateral = lateral_lengths(size, entry, neighbours[following])
-        goes_on = (upper >= LEAST_RATIO * height) & (upper <= GREATEST_RATIO * height) & (upper < ISOTROPIC * lateral)
-        active, current, entry, height = active[goes_on], following[goes_on], entry[goes_on], upper[goes_on]
+        continues = (upper >= LEAST_RATIO * height) & (upper <= GREATEST_RATIO * height) & (upper < ISOTROPIC * lateral)
+        active, current, entry, height = active[continues], following[continues], entry[continues], upper[continues]
         if not active.size:
             break
         layer = np.full(len(hexes), -1, np.int32), np.zeros(len(hexes), np.int8), np.full(len(hexes), np.nan)

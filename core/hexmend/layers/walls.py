@@ -37,7 +37,7 @@ class Wall:
         return int(np.median((self.hexes >= 0).sum(axis=1)))
 
     def of(self, lengths: np.ndarray) -> np.ndarray:
-        """Return the heights of the hexes from the lengths (m, 3) of all hexes, (w, k); NaN where a column has ended."""
+        """Return the heights of the hexes, (w, k), from the lengths (m, 3) of all; NaN where a column has ended."""
         return np.where(self.hexes >= 0, lengths[self.hexes, self.faces // 2], np.nan)
 
 

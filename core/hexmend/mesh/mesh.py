@@ -42,7 +42,7 @@ class TargetSurface(Protocol):
 
 
 #: Cached properties that do not depend on the points.
-_SHARED = ("fixed", "free", "held", "materials")
+_SHARED = ("fixed", "free", "immovable", "materials")
 #: Fields from which the materials follow.
 _OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
 
@@ -78,6 +78,10 @@ class Mesh:
         Values of the mesh as a whole.
     notes : tuple of str
         Changes made to the mesh on reading, as sentences.
+    side_set_types : mapping of name to str
+        Kinds of boundary that side sets are, by the names of OpenFOAM: wall, patch, symmetryPlane, empty, wedge...
+    periodic_pairs : tuple of (str, str)
+        Names of side sets of which one is a translated or rotated copy of the other.
 
     Raises
     ------
@@ -106,6 +110,8 @@ class Mesh:
     mid_nodes: np.ndarray | None = None
     field_data: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    side_set_types: Mapping[str, str] = field(default_factory=dict)
+    periodic_pairs: tuple[tuple[str, str], ...] = ()
     topology: Topology = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -184,13 +190,13 @@ class Mesh:
         return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
 
     @cached_property
-    def held(self) -> np.ndarray:
+    def immovable(self) -> np.ndarray:
         """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
         rules = self.node_rules
-        held = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
+        stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
         if rules.free is not None:
-            held &= ~rules.free
-        return as_immutable(held if rules.fixed is None else held | rules.fixed)
+            stays &= ~rules.free
+        return as_immutable(stays if rules.fixed is None else stays | rules.fixed)
 
     @cached_property
     def fixed(self) -> np.ndarray:
@@ -202,7 +208,7 @@ class Mesh:
         fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
         if motion is not None:
             fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
-        fixed |= self.held
+        fixed |= self.immovable
         materials, free = self.interfaces, self.node_rules.free
         if materials is not None:
             fixed |= materials.interface_nodes if free is None else materials.interface_nodes & ~free
@@ -358,7 +364,7 @@ class Mesh:
                 f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
                 "from 0: correct the number"
             )
-        return self._copy("materials", "held", _motion=motion, _motion_start=self.points)
+        return self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
 
     @property
     def motion_start(self) -> np.ndarray:
@@ -397,7 +403,7 @@ class Mesh:
         fixed = as_bools(fixed, "fixed", self.n_nodes)
         if self.linear_motion is not None:
             fixed = with_ties_fixed(self.linear_motion, fixed)
-        return self._copy("materials", "held", fixed=as_immutable(fixed), _surface=self.surface_points)
+        return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
 
     def with_rules(self, **rules: object) -> Mesh:
         """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.

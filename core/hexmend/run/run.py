@@ -207,10 +207,12 @@ class Run(Iterator[Iteration]):
             words.append(kept_message(self.best.number))
         words.append(interface_message(self.mesh, mesh, volumes))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
-        lost = describe_losses(walls)
-        if not lost and self.outcome is not None and self._target is None:
-            lost = grading_message(self.mesh, mesh, self.start.quality)
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, lost]))
+        grading = describe_losses(walls)
+        if not grading and walls and self._target is not None:
+            grading = self.layers_message
+        elif not grading and self.outcome is not None and self._target is None:
+            grading = grading_message(self.mesh, mesh, self.start.quality)
+        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, grading]))
 
     @property
     def _kept_last(self) -> bool:

@@ -183,7 +183,7 @@ class StageRun:
         )
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
-        return self.smoother.rank(self._origin.quality, iteration.quality)
+        return self.smoother.rank_iteration(self._hexes, self._origin, iteration)
 
     def _update_best(self, iteration: Iteration) -> None:
         """Make the iteration the best of the stage unless an earlier one is better."""

@@ -19,10 +19,10 @@ class TargetedSmoother(SlidingSmoother):
     target: str = parameter(
         AUTO,
         help="Shape of hexes to aim at: ideal, given-shape, given-size, given, or lengths: data of the file or a "
-        "formula in x, y, z. auto: ideal, with layers kept.",
+        "formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
-        1.0, low=0, high=1000, help="Weight of the size beside the shape, where the target has sizes."
+        1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
     )
     layers: str = parameter(
         "auto",

@@ -6,6 +6,7 @@ from hexmend.solver_checks.check import Check, Level
 from hexmend.solver_checks.solver import Solver
 
 _PROCESSOR = "Abaqus, messages of the input file processor"
+_DISTORTED = f"{_PROCESSOR}: distorted elements, angles of isoparametric lines below 45 or above 135 degrees"
 _VERIFY = "Abaqus/CAE User's Guide, Verifying element quality: default limits of shape metrics of hexahedra"
 _ANGLE = "of two adjacent edges over the 24 corners of the faces"
 
@@ -20,11 +21,11 @@ ABAQUS = Solver(
         ),
         Check(
             "isoparametric angle, least", lambda measures: measures.quads.min_angle, "hexes", 1, 45.0, Level.WARNING,
-            f"least angle {_ANGLE}", f"{_PROCESSOR}: distorted elements, WarnElemDistorted", unit="degrees",
+            f"least angle {_ANGLE}", _DISTORTED, unit="degrees",
         ),
         Check(
             "isoparametric angle, greatest", lambda measures: measures.quads.max_face_angle, "hexes", -1, 135.0,
-            Level.WARNING, f"greatest angle {_ANGLE}", f"{_PROCESSOR}: distorted elements, WarnElemDistorted",
+            Level.WARNING, f"greatest angle {_ANGLE}", _DISTORTED,
             unit="degrees",
         ),
         Check(
@@ -42,6 +43,6 @@ ABAQUS = Solver(
     ),
     omitted=(
         "Left out is the geometric deviation factor, which needs the CAD geometry, and what needs a material: the "
-        "stable time increment and the maximum frequency. Abaqus documents no limit on the size of a small volume."
+        "stable time increment and the maximum frequency. For small positive volumes no documented limit is known."
     ),
 ).register()  # fmt: skip

@@ -31,7 +31,7 @@ LSDYNA = Solver(
         ),
     ),
     omitted=(
-        "LS-DYNA's manuals state no limits of aspect ratio, warpage or Jacobian for solids: companies set their own, "
-        "so none is judged here. hexmend info --metrics prints these values."
+        "No documented limits of aspect ratio, warpage or Jacobian are known for LS-DYNA's solids, so none is judged "
+        "here: hexmend info --metrics prints these values."
     ),
 ).register()  # fmt: skip

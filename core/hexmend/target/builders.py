@@ -18,7 +18,7 @@ SPECIFICATIONS = {
     "given-size": "cubes of each hex's own size",
     "given": "each hex's own three lengths, shape and size",
 }
-#: Weight of the size beside the shape where none is named.
+#: Weight of the size relative to the shape where none is named.
 SIZE_WEIGHT = 1.0
 
 
@@ -36,7 +36,7 @@ def make_target(
         centres of hexes) with one value, or three with commas between them. Names of data that are words can be used
         in a formula too.
     size_weight : float
-        Weight of the size beside the shape; "given-shape" has none.
+        Weight of the size relative to the shape; "given-shape" has none.
     quality : ElementQuality, optional
         Of the mesh's hexes, if it is measured already.
 
@@ -76,9 +76,8 @@ def _field(mesh: Mesh, text: str) -> np.ndarray:
         try:
             columns = evaluate(text, _names(mesh))
         except ParameterError as error:
-            raise ParameterError(
-                f"there is no target {text!r}: expected {_expected(mesh)}. As a formula: {error}"
-            ) from None
+            message = f"there is no target {text!r}: expected {_expected(mesh)}. As a formula: {error}"
+            raise ParameterError(message) from None
     if len(columns) not in (1, 3):
         raise ParameterError(f"target {text!r} has {len(columns)} values a hex: expected one length, or three")
     lengths = np.empty((mesh.n_hexes, 3))

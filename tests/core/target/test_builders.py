@@ -29,7 +29,9 @@ def test_formulas_are_computed_at_the_centres():
     mesh = stack()
     centres = mesh.points[mesh.hexes].mean(axis=1)
     np.testing.assert_allclose(make_target(mesh, "0.1 + x").lengths, 0.1 + centres[:, [0, 0, 0]])
-    np.testing.assert_allclose(make_target(mesh, "1, y, 2").lengths, np.insert(np.full((800, 2), [1.0, 2.0]), 1, centres[:, 1], 1))
+    np.testing.assert_allclose(
+        make_target(mesh, "1, y, 2").lengths, np.insert(np.full((800, 2), [1.0, 2.0]), 1, centres[:, 1], 1)
+    )
 
 
 def test_data_of_hexes_and_nodes_are_lengths():

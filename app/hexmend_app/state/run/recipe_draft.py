@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
@@ -16,7 +16,6 @@ class RecipeDraftData:
 
     title: str
     stages: tuple[Stage, ...]
-    rules: MotionRules = field(default_factory=MotionRules)
 
 
 class RecipeDraft(QObject):
@@ -28,7 +27,7 @@ class RecipeDraft(QObject):
         "" to use the titles of the methods.
     stages : tuple of Stage
     rules : MotionRules
-        Those of the recipe that was loaded.
+        Those of the recipe that was loaded; sessions do not keep them.
 
     Signals
     -------
@@ -50,11 +49,11 @@ class RecipeDraft(QObject):
 
     def to_data(self) -> RecipeDraftData:
         """Return the data for a session file."""
-        return RecipeDraftData(self.title, self.stages, self.rules)
+        return RecipeDraftData(self.title, self.stages)
 
     def restore(self, data: RecipeDraftData) -> None:
         """Restore the recipe of a session file."""
-        self.rules = data.rules
+        self.rules = MotionRules()
         self._set(data.stages, data.title)
 
     def load(self, recipe: Recipe) -> None:

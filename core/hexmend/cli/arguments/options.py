@@ -78,6 +78,12 @@ def add_motion(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_rewrite(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
+    text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"
+    parser.add_argument("--rewrite", action="store_true", help=text)
+
+
 def add_force(parser: argparse.ArgumentParser) -> None:
     """Declare the option that runs a method in spite of a shortage of memory."""
     parser.add_argument("--force", action="store_true", help="run even if memory will probably not suffice")
@@ -103,9 +109,11 @@ def parse_settings(words: list[str]) -> dict[str, str]:
 
 
 def _add_boundary(parser: argparse.ArgumentParser) -> None:
-    """Declare the short form of `--set boundary=...`."""
+    """Declare the short forms of `--set boundary=...` and `--set goal=...`."""
     text = "keep the nodes of the boundary fixed (default) or let them slide on the surface"
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
+    text = "optimum of shape (default), greatest least scaled Jacobian, or greatest smallest explicit time step"
+    parser.add_argument("--goal", choices=("shape", "scaled-jacobian", "time-step"), help=text)
 
 
 def _add_target(parser: argparse.ArgumentParser) -> None:
@@ -113,8 +121,8 @@ def _add_target(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--target",
         metavar="ideal|given-shape|given-size|given|FIELD",
-        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the file "
-        "or a formula in x, y, z (default: ideal, with boundary layers kept)",
+        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
     )
     text = "keep the heights of boundary layers (default unless --target is given) or leave them free"
     parser.add_argument("--layers", choices=("keep", "free", "off"), help=text)

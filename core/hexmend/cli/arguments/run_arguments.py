@@ -21,6 +21,7 @@ from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 #: Parameters with an option of their own, and what is said of methods that do not have them.
 _WITHOUT = {
     "boundary": "the boundary stays fixed in",
+    "goal": "only mend has goals, not",
     "surface_tolerance": "the boundary stays fixed in",
     "target": "there are no targets in",
     "layers": "there are no targets, which keep layers, in",
@@ -46,7 +47,7 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
     if args.recipe:
         if args.method or args.set or _given_options(args):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set, --boundary, "
+                "--recipe names its methods and their values: leave out --method, --set, --boundary, --goal, "
                 "--surface-tolerance, --target and --layers, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from hexmend.arrays import mask
 from hexmend.errors import MeshError
 from hexmend.mesh.edge_length import shortest_edges
 from hexmend.mesh.mesh import Mesh
@@ -13,6 +14,8 @@ from hexmend.mesh.rules.named_sets import nodes_in_set
 
 #: Largest distance of a node from its partner's image, in lengths of the shortest edge at the node.
 MATCH_TOLERANCE = 1e-3
+#: Least cosine of the angle between the inward area of a set and the image of the outward area of its partner.
+_MIN_COSINE = 0.9
 
 
 class PeriodicPair(NamedTuple):
@@ -54,11 +57,12 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
         raise MeshError(
             f"{one!r} and {other!r} are not periodic: they have {nodes.size} and {others.size} nodes; expected as many"
         )
-    if np.array_equal(nodes, others):
-        raise MeshError(f"{one!r} and {other!r} are not periodic: they have the same nodes")
+    if not nodes.size or np.array_equal(nodes, others):
+        raise MeshError(f"{one!r} and {other!r} are not periodic: they have the same nodes, or none")
     x, y = mesh.points[nodes], mesh.points[others]
     best = None
-    for rotation, shift in _candidates(x, y):
+    normals = _outward_area(mesh, nodes), _outward_area(mesh, others)
+    for rotation, shift in _candidates(x, y, *normals):
         partner, distance = _nearest(x @ rotation.T + shift, y)
         if best is None or distance.max() < best[2].max():
             best = rotation, partner, distance
@@ -77,20 +81,33 @@ def match_periodic(mesh: Mesh, one: str, other: str) -> PeriodicPair:
     return PeriodicPair(nodes, others[partner], rotation)
 
 
-def _candidates(x: np.ndarray, y: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Rotations and translations that may take points x (k, 3) to y (k, 3).
+def _candidates(
+    x: np.ndarray, y: np.ndarray, outward: np.ndarray, other_outward: np.ndarray
+) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Rotations and translations that may take points x (k, 3) to y (k, 3), the likeliest first.
 
-    They are a translation, the smallest rotations that take the plane of the one set to that of the other, and those
-    that take principal axes to principal axes.
+    They are a translation, the smallest rotation that takes the outward area of the one set, (3,), to the inward area
+    of the other, and those that take principal axes to principal axes. Of these only such remain as take the inside of
+    the mesh at the one set to the outside at the other: a square matches its image in other ways too.
     """
     middle, end = x.mean(axis=0), y.mean(axis=0)
     frames = [np.linalg.eigh((z - z.mean(axis=0)).T @ (z - z.mean(axis=0)))[1] for z in (x, y)]
-    normal, image = (frame[:, 0] for frame in frames)
-    rotations = [np.eye(3), _smallest_rotation(normal, image), _smallest_rotation(normal, -image)]
+    sizes = np.linalg.norm(outward), np.linalg.norm(other_outward)
+    oriented = min(sizes) > 0
+    one, other = (outward / sizes[0], -other_outward / sizes[1]) if oriented else (frame[:, 0] for frame in frames)
+    rotations = [np.eye(3), _smallest_rotation(one, other)]
     for signs in np.ndindex(2, 2, 2):
         rotation = frames[1] @ np.diag(1.0 - 2.0 * np.array(signs)) @ frames[0].T
         rotations += [rotation] if np.linalg.det(rotation) > 0 else []
-    return [(rotation, end - rotation @ middle) for rotation in rotations]
+    fitting = [turn for turn in rotations if not oriented or (turn @ one) @ other > _MIN_COSINE]
+    return [(rotation, end - rotation @ middle) for rotation in fitting or rotations]
+
+
+def _outward_area(mesh: Mesh, nodes: np.ndarray) -> np.ndarray:
+    """Sum of the outward area vectors of the boundary faces of which all nodes are in a set (k,), (3,); 0 for none."""
+    faces = mesh.topology.boundary_faces
+    a, b, c, d = (mesh.points[column] for column in faces[mask(nodes, mesh.n_nodes)[faces].all(axis=1)].T)
+    return np.cross(c - a, d - b).sum(axis=0) / 2
 
 
 def _smallest_rotation(one: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Corners of a mesh that can be moved, with their scaled Jacobians."""
+"""Corners of a mesh that can be moved, with the values of a measure."""
 
 from __future__ import annotations
 
@@ -9,30 +9,34 @@ from hexmend.mesh.components import components
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA
 from hexmend.mesh.linear_motion.constrained_points import with_ties_fixed
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.maxmin.corner_values import scaled_jacobians
+from hexmend.optimise.maxmin.corner_measure import SCALED_JACOBIAN, CornerMeasure
 from hexmend.quality.measure import fixed_tetrahedra
 
 
 class MovableCorners:
-    """Corners with a free node, and their scaled Jacobians as nodes move.
+    """Corners with a free node, and the values of a measure as nodes move.
 
     Parameters
     ----------
     mesh : Mesh
         Its free nodes are moved.
     points : (n, 3) float64
+    measure : CornerMeasure, optional
+        The scaled Jacobian by default.
 
     Attributes
     ----------
     mesh : Mesh
+    measure : CornerMeasure
     values : (m, 8) float64
-        Scaled Jacobian of each corner, including those that cannot be moved.
+        Value of each corner, including those that cannot be moved.
     frozen : (m, 8) bool
         Corners that could be moved, but whose nodes all stay.
     """
 
-    def __init__(self, mesh: Mesh, points: np.ndarray):
-        self.values = scaled_jacobians(points, mesh.hexes)
+    def __init__(self, mesh: Mesh, points: np.ndarray, measure: CornerMeasure = SCALED_JACOBIAN):
+        self.measure = measure
+        self.values = measure.values(points, mesh.hexes)
         self.frozen = np.zeros(self.values.shape, dtype=bool)
         self._stays = np.zeros(mesh.n_nodes, dtype=bool)
         self.set_mesh(mesh)
@@ -106,4 +110,4 @@ class MovableCorners:
 
     def update(self, points: np.ndarray, hexes: np.ndarray) -> None:
         """Compute the values of some hexes (k,) at points (n, 3)."""
-        self.values[hexes] = scaled_jacobians(points, self.mesh.hexes[hexes])
+        self.values[hexes] = self.measure.values(points, self.mesh.hexes[hexes])

@@ -9,11 +9,12 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.iteration import Outcome, Step
+from hexmend.iteration import Iteration, Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
+from hexmend.quality.corner_heights import least_heights
 from hexmend.smoothers.base import Steps, method
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
@@ -22,6 +23,7 @@ from hexmend.smoothers.mend.messages import freed_message, limit_message, omissi
 from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
+from hexmend.smoothers.mend.time_step import maximise_time_step
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
 
 
@@ -39,8 +41,9 @@ class Mend(ObjectiveSmoother):
 
     goal: str = parameter(
         "shape",
-        choices=("shape", "scaled-jacobian"),
-        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian.",
+        choices=("shape", "scaled-jacobian", "time-step"),
+        help="shape: minimise (3.3); scaled-jacobian: then also maximise the least scaled Jacobian; time-step: or the "
+        "smallest explicit time step, the least height of a hex.",
     )
     max_p: float = parameter(
         1.0, low=1, high=32, help="If higher than p, p is doubled at the optimum up to this value, for the worst hexes."
@@ -71,6 +74,11 @@ class Mend(ObjectiveSmoother):
     @property
     def maximises_jacobian(self) -> bool:
         """The least scaled Jacobian is the goal."""
+        return self.goal == "scaled-jacobian"
+
+    @property
+    def maximises_minimum(self) -> bool:
+        """The least value of a measure of corners is the goal."""
         return self.goal != "shape"
 
     def steps(self, mesh: Mesh) -> Steps:
@@ -78,7 +86,7 @@ class Mend(ObjectiveSmoother):
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
         slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
-        intermediate = slides or self.maximises_jacobian
+        intermediate = slides or self.maximises_minimum
         quality = measure(mesh.points, mesh.hexes)
         locked_at_start = locked_corners(mesh, quality)
         if slides and mesh.target is not None:  # the boundary begins on the surface
@@ -101,10 +109,12 @@ class Mend(ObjectiveSmoother):
             shape = yield from self._shape(freed, energy_of(mesh, norm, sliding), quality, intermediate)
             candidates += [freed.points, shape.points]
         result = yield from self._maxmin_stage(mesh, candidates, fixed_optimum, sliding, max_deviation)
+        if self.goal == "time-step":
+            result = yield from maximise_time_step(mesh, candidates, sliding, result)
         points = shape.points if result is None else result.optimiser.points
         outcome = shape.outcome if result is None else Outcome.NO_IMPROVEMENT
         active, sentences, quality = None, [], None
-        if self.maximises_jacobian:
+        if self.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
         if slides:
@@ -166,13 +176,19 @@ class Mend(ObjectiveSmoother):
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
+        if self.goal == "time-step":  # the time step itself comes last, see `rank_iteration`
+            return now.n_inverted, harmed if self.guard else False
         p, offset = self.norm
         with np.errstate(over="ignore"):  # close to the barrier
             before, after = (np.power(of.eta[~of.inverted] + (1 - offset), p).sum() for of in (start, now))
         return now.n_inverted, harmed, after > before
 
+    def rank_iteration(self, hexes: np.ndarray, start: Iteration, now: Iteration) -> tuple[float, ...]:
+        rank = super().rank_iteration(hexes, start, now)
+        return (*rank, -least_heights(now.points, hexes).min()) if self.goal == "time-step" else rank
+
     def regression_hint(self, worse: tuple[str, ...]) -> str:
-        if self.maximises_jacobian or "inverted" in worse:
+        if self.maximises_minimum or "inverted" in worse:
             return ""
         if "scaled_jacobian" in worse:
             return "With goal=scaled-jacobian the least scaled Jacobian rises instead; with guard=true neither falls."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_motion, add_surface
+from hexmend.cli.arguments.options import add_force, add_mesh, add_method, add_motion, add_rewrite, add_surface
 from hexmend.cli.command import CoreCommand
 
 _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and writes the result so far."
@@ -13,6 +13,7 @@ _HELP = "Smooth or untangle a mesh and write the result. Ctrl-C ends the run and
 def _arguments(parser: argparse.ArgumentParser) -> None:
     add_mesh(parser)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the smoothed mesh to write")
+    add_rewrite(parser)
     add_method(parser)
     add_surface(parser)
     add_motion(parser)

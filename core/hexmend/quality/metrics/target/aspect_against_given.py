@@ -20,7 +20,7 @@ def _of_mesh(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
 
 ASPECT_AGAINST_GIVEN = Metric(
     name="aspect-against-given",
-    title="Aspect against given",
+    title="Aspect vs given",
     formula="greatest / least of lᵢ / tᵢ: mean edge lengths along the three directions over those of the target",
     source="Hexmend",
     full_range=(1.0, math.inf),

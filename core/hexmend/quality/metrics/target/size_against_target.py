@@ -19,7 +19,7 @@ def _of_mesh(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
 
 SIZE_AGAINST_TARGET = Metric(
     name="size-against-target",
-    title="Size against target",
+    title="Size vs target",
     formula="∛((l₁ l₂ l₃) / (t₁ t₂ t₃)): mean edge lengths along the three directions over those of the target",
     source="Hexmend",
     full_range=(0.0, math.inf),
