@@ -111,6 +111,6 @@ def marked_edges(mesh: Mesh) -> np.ndarray:
 
 
 def marked_corners(mesh: Mesh) -> np.ndarray:
-    """Nodes marked in the mesh's file as corners, those alone in a named set, pinned and held ones, (c,) int."""
+    """Nodes marked in the mesh's file as corners, those alone in a named set, and those that stay, (c,) int."""
     corners = np.asarray(mesh.node_sets.get("corners", []), dtype=np.int64)
-    return np.concatenate([corners, lone_set_nodes(mesh), np.flatnonzero(mesh.held)])
+    return np.concatenate([corners, lone_set_nodes(mesh), np.flatnonzero(mesh.immovable)])

@@ -37,7 +37,7 @@ def fixed_on_surface(mesh: Mesh, outer: bool) -> np.ndarray:
         stays |= between
     if rules.slides is not None:
         stays &= ~rules.slides
-    return stays | mesh.held | flat_sides(mesh)  # whose nodes move in their planes, or not at all
+    return stays | mesh.immovable | flat_sides(mesh)  # whose nodes move in their planes, or not at all
 
 
 def freed_by_rules(mesh: Mesh) -> np.ndarray:

@@ -81,6 +81,6 @@ def lone_set_nodes(mesh: Mesh) -> np.ndarray:
             marks[nodes] = True
             rings = mesh.topology.rings
             at = np.repeat(np.arange(nodes.size), rings.start[nodes + 1] - rings.start[nodes])
-            beside = np.bincount(at, marks[rings.of(nodes)], minlength=nodes.size)
-            found.append(nodes[beside == 0])
+            neighbours = np.bincount(at, marks[rings.of(nodes)], minlength=nodes.size)
+            found.append(nodes[neighbours == 0])
     return np.concatenate(found)

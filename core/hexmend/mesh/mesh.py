@@ -42,7 +42,7 @@ class TargetSurface(Protocol):
 
 
 #: Cached properties that do not depend on the points.
-_SHARED = ("fixed", "free", "held", "materials")
+_SHARED = ("fixed", "free", "immovable", "materials")
 #: Fields from which the materials follow.
 _OF_MATERIALS = {"hex_sets", "hex_data", "field_data"}
 
@@ -190,13 +190,13 @@ class Mesh:
         return inner if self.interfaces is None else inner & ~self.interfaces.interface_nodes
 
     @cached_property
-    def held(self) -> np.ndarray:
+    def immovable(self) -> np.ndarray:
         """True for nodes that stay where they are even if the boundary slides: pinned or fixed by a rule; (n,) bool."""
         rules = self.node_rules
-        held = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
+        stays = np.zeros(self.n_nodes, dtype=bool) if self.pinned is None else self.pinned.copy()
         if rules.free is not None:
-            held &= ~rules.free
-        return as_immutable(held if rules.fixed is None else held | rules.fixed)
+            stays &= ~rules.free
+        return as_immutable(stays if rules.fixed is None else stays | rules.fixed)
 
     @cached_property
     def fixed(self) -> np.ndarray:
@@ -208,7 +208,7 @@ class Mesh:
         fixed, motion = self.topology.boundary | ~self.topology.used, self.linear_motion
         if motion is not None:
             fixed &= ~(motion.marks(self.n_nodes) & self.topology.used)
-        fixed |= self.held
+        fixed |= self.immovable
         materials, free = self.interfaces, self.node_rules.free
         if materials is not None:
             fixed |= materials.interface_nodes if free is None else materials.interface_nodes & ~free
@@ -364,7 +364,7 @@ class Mesh:
                 f"the linear motion names node {motion.largest_node}, but the mesh has {self.n_nodes} nodes, counted "
                 "from 0: correct the number"
             )
-        return self._copy("materials", "held", _motion=motion, _motion_start=self.points)
+        return self._copy("materials", "immovable", _motion=motion, _motion_start=self.points)
 
     @property
     def motion_start(self) -> np.ndarray:
@@ -403,7 +403,7 @@ class Mesh:
         fixed = as_bools(fixed, "fixed", self.n_nodes)
         if self.linear_motion is not None:
             fixed = with_ties_fixed(self.linear_motion, fixed)
-        return self._copy("materials", "held", fixed=as_immutable(fixed), _surface=self.surface_points)
+        return self._copy("materials", "immovable", fixed=as_immutable(fixed), _surface=self.surface_points)
 
     def with_rules(self, **rules: object) -> Mesh:
         """Return the mesh with rules of motion by names of sets: fields of `hexmend.mesh.rules.MotionRules`.

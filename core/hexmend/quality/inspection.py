@@ -178,7 +178,7 @@ def describe_node(mesh: Mesh, number: int) -> NodeDetails:
     kind = "boundary" if mesh.topology.boundary[number] else "free"
     if mesh.fixed[number] and kind == "free":
         between = mesh.interfaces is not None and mesh.interfaces.interface_nodes[number]
-        kind = "interface" if between and not mesh.held[number] else "pinned"
+        kind = "interface" if between and not mesh.immovable[number] else "pinned"
     pinned = mesh.pinned is not None and bool(mesh.pinned[number])
     return NodeDetails(number, mesh.points[number], kind, ring, energy, downhill, pinned)
 

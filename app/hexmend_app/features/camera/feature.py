@@ -12,7 +12,6 @@ from hexmend_app.feature import Action, ChangeTracker, Feature, Host, StatePart
 from hexmend_app.features.camera.cameras_dialog import CamerasDialog
 from hexmend_app.features.camera.cameras_menu import CamerasMenu
 from hexmend_app.picture import Camera, camera_from, camera_text
-from hexmend_app.picture.cut_planes import PlaneClip
 from hexmend_app.state.view.camera_request import CameraData, PoseHistoryData
 from hexmend_app.translation import tr
 from hexmend_app.widgets.dialogs.questions import ask_camera_name
@@ -162,7 +161,7 @@ class FeatureCamera(Feature):
         if self.session.camera_request.wanted is not None and self._draws:
             self._apply(self.session.camera_request.wanted, self.session.camera_request.pose_history)
             self.session.camera_request.wanted, self.session.camera_request.pose_history = None, PoseHistoryData()
-        isolated = self.session.view.look.isolation is not None
+        isolated = self.session.view.look.show.isolate is not None
         if self.canvas is not None and self._seen.changed("isolated", isolated):
             if isolated:
                 self.canvas.remember_pose()
@@ -266,14 +265,14 @@ class FeatureCamera(Feature):
     @property
     def _plane(self) -> object:
         """Selected cutting plane; None if the cut is off or by a box."""
-        clip = self.session.view.look.clip
-        return clip.planes[self.session.view.plane_at] if isinstance(clip, PlaneClip) else None
+        planes = self.session.view.look.cut.planes
+        return planes[self.session.view.plane_at] if planes else None
 
     def _face(self) -> None:
         self.canvas.face(self._plane)
 
     def _fly(self, hexes: tuple[int, ...]) -> None:
         if self.canvas is not None and self.session.document.is_open:
-            if self.session.view.look.isolation is not None:
+            if self.session.view.look.show.isolate is not None:
                 self.canvas.remember_pose()
             self.canvas.fly_to(*hexes)

@@ -9,7 +9,7 @@ from hexmend.quality import METRICS
 from hexmend_app.features.histogram.axis import Axis
 from hexmend_app.features.histogram.bins import Distribution
 from hexmend_app.features.histogram.outline import Series
-from hexmend_app.picture.appearance import ValueRange
+from hexmend_app.picture.visibility import Show
 from hexmend_app.translation import tr
 from hexmend_app.widgets.metric_texts import in_sentence
 from hexmend_app.widgets.wording import counted
@@ -77,7 +77,7 @@ def _bin_ends(shown: Distribution, index: int) -> tuple[str, str]:
     return tuple(f"{end:.{decimals}f}" for end in ends)
 
 
-def range_summary(now: Distribution | None, range: ValueRange | None) -> str:
+def range_summary(now: Distribution | None, range: Show | None) -> str:
     """Describe the number of hexes in a range of their metric, or of all hexes if the range is None."""
     if now is None:
         return tr("No mesh is open.")
@@ -86,7 +86,7 @@ def range_summary(now: Distribution | None, range: ValueRange | None) -> str:
     return f"{now.within(range):,} of {counted(now.total, 'hex')}{_description(now, range)}"
 
 
-def _description(now: Distribution, range: ValueRange) -> str:
+def _description(now: Distribution, range: Show) -> str:
     if range.high == -math.inf:
         return tr(", inverted only")
     values = _values(now.axis, range)
@@ -101,7 +101,7 @@ def _description(now: Distribution, range: ValueRange) -> str:
     )
 
 
-def _values(axis: Axis, range: ValueRange) -> str:
+def _values(axis: Axis, range: Show) -> str:
     """Describe the bounds of a range; "" if it has none."""
     minimum, maximum = METRICS[axis.metric].full_range
     low, high = axis.end_text(range.low), axis.end_text(range.high)

@@ -82,7 +82,7 @@ class FeatureStructure(Feature):
         """Classify the boundary nodes for the next run if the result is visible."""
         session = self.session
         now, smoother = session.document.now, session.run_setup.smoother
-        visible = self.panel.isVisible() or self._view.look.structure.kinds
+        visible = self.panel.isVisible() or self._view.look.structure.is_on("kinds")
         if visible and smoother is not None and not session.run.busy:
             session.boundary_classifier.ask(
                 now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE)

@@ -10,7 +10,7 @@ from hexmend.boundary import NodeClass
 from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.picture.layer_switch import EDGE_LAYERS, ordered_layers
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -26,7 +26,6 @@ from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryCl
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
-_EDGES = ("irregular", "boundary", "sharp")
 #: Texts of the classes of boundary nodes.
 _KIND_TEXT = {
     NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
@@ -85,7 +84,7 @@ class StructurePanel(QWidget):
     def set_found(self, found: MeshStructure | None) -> None:
         """Show the counts of edges; None while they are being found."""
         if found is None:
-            for name in _EDGES:
+            for name in EDGE_LAYERS:
                 self.layers[name].set_entries(None)
             return
         nodes: list[Entry] = []

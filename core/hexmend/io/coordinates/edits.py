@@ -69,12 +69,12 @@ def write_edited(file: BinaryIO, data: bytes, edits: Edits, window: int = WINDOW
         shift = len(given) + len(blanks) - text_begin[low]
         starts = [before - begin, np.full(high - low, len(given)), text_begin[here] + shift]
         sizes = [edits.begin[here] - before, edits.padding[here], lengths[here]]
-        file.write(_gather(pool, np.column_stack(starts).ravel(), np.column_stack(sizes).ravel()).tobytes())
+        file.write(gather(pool, np.column_stack(starts).ravel(), np.column_stack(sizes).ravel()).tobytes())
         at = end
     file.write(view[at:])
 
 
-def _gather(pool: np.ndarray, starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """Concatenate pieces of an array, each of a start and a size."""
+def gather(pool: np.ndarray, starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Concatenate pieces of an array, (k,) starts and sizes each."""
     offsets = np.cumsum(sizes) - sizes
     return pool[np.repeat(starts - offsets, sizes) + np.arange(int(sizes.sum()))]

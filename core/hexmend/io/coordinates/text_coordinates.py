@@ -7,9 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from hexmend.io.coordinates.edits import Edits, text_lengths, write_edited
+from hexmend.io.base.decimals import parse_numbers
+from hexmend.io.coordinates.edits import Edits, gather, text_lengths, write_edited
+from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.number_texts import number_texts, replace_lines, scientific_style
 
+#: Fields that are checked at a time, which limits the memory.
+_CHUNK = 1 << 17
 #: Numbers of the file that tell its style.
 _SAMPLE = 300
 
@@ -92,8 +96,25 @@ class TextCoordinates:
     def edits(self, points: np.ndarray) -> Edits:
         """Return the edits that replace the coordinates that differ from `points`, (n, 3) float64."""
         changed = ~(points == self.points)  # not a number differs from everything
+        self._check(changed)
         changed |= changed.any(axis=1)[:, None] & self.fields.absent
         return self.fields.edits(changed, number_texts(points[changed], self._style(), self.width))
+
+    def _check(self, changed: np.ndarray) -> None:
+        """Raise `CoordinatesError` unless the fields to be replaced hold the numbers that the reader has found."""
+        begin, end, values = self.fields.begin[changed], self.fields.end[changed], self.points[changed]
+        blank, data = begin == end, np.frombuffer(self.data, np.uint8)
+        good = not values[blank].any()
+        begin, end, values = begin[~blank], end[~blank], values[~blank]
+        for low in range(0, len(begin), _CHUNK):
+            part = slice(low, low + _CHUNK)
+            sizes = end[part] - begin[part]
+            text = gather(data, begin[part], sizes)
+            text = np.insert(text, np.cumsum(sizes), ord(" ")).tobytes().replace(b"D", b"e").replace(b"d", b"e")
+            found = parse_numbers(text, np.float64)
+            good &= found is not None and np.array_equal(found, values[part], equal_nan=True)
+        if not good:
+            raise CoordinatesError("its layout is not one in which coordinates can be replaced")
 
     def _style(self) -> str | None:
         begin, end = self.fields.begin.ravel(), self.fields.end.ravel()

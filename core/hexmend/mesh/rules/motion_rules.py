@@ -61,8 +61,8 @@ class MotionRules:
         for one in fields(self):
             value = getattr(self, one.name)
             if value != one.default:
-                plain = [list(name) if isinstance(name, tuple) else name for name in value]
-                answer[one.name] = value if isinstance(value, str) else plain
+                names = [list(name) if isinstance(name, tuple) else name for name in value]
+                answer[one.name] = value if isinstance(value, str) else names
         return answer
 
     def merge(self, other: MotionRules) -> MotionRules:
@@ -105,7 +105,7 @@ class NodeRules:
 
     @property
     def interfaces(self) -> str:
-        """What happens to interfaces; see `MotionRules`."""
+        """Choice for the interfaces; see `MotionRules`."""
         return self.rules.interfaces
 
 

@@ -88,7 +88,7 @@ def _with_node_marks(mesh: Mesh, motion: LinearMotion, pairs: list[PeriodicPair]
     moves = mask(np.concatenate([motion.nodes, motion.tied, motion.master]), mesh.n_nodes)
     rules, materials = mesh.node_rules, mesh.interfaces
     if materials is not None:
-        between = moves & materials.interface_nodes & ~mesh.held
+        between = moves & materials.interface_nodes & ~mesh.immovable
         rules = replace(rules, free=between if rules.free is None else rules.free | between)
     stays = mask(np.concatenate([np.empty(0, np.int64), *(end for pair in pairs for end in pair[:2])]), mesh.n_nodes)
     stays &= ~moves
@@ -106,7 +106,7 @@ def _marks(mesh: Mesh, names: Iterable[str]) -> np.ndarray | None:
 
 
 def _check_freed(mesh: Mesh, name: str) -> None:
-    """Raise for a set of which freeing sets no node free: those of the boundary are held by the surface."""
+    """Raise for a set of which freeing sets no node free: those of the boundary are bound to the surface."""
     nodes = nodes_in_set(mesh, name)
     pinned = mesh.pinned is not None and mesh.pinned[nodes].any()
     if nodes.size and mesh.topology.boundary[nodes].all() and not pinned:

@@ -10,8 +10,10 @@ import hexmend as hx
 from hexmend import io
 from hexmend.errors import FileError
 from hexmend.io import Original, write_as_given
+from hexmend.io.coordinates.located import CoordinatesError
 from hexmend.io.coordinates.original import difference
 from hexmend.io.coordinates.replacement import ChangedFileError
+from hexmend.io.coordinates.text_coordinates import TextCoordinates, fields_of_words
 from tests.core.io.kept import assert_same, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
@@ -196,8 +198,7 @@ def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
 
 
 def test_coordinates_of_32_bits_stay_so_and_it_is_said(tmp_path):
-    import h5py
-
+    h5py = pytest.importorskip("h5py")
     io.write(tmp_path / "a.med", with_everything())
     with h5py.File(tmp_path / "a.med", "r+") as file:
         group = next(iter(next(iter(file["ENS_MAA"].values())).values()))["NOE"]
@@ -213,3 +214,15 @@ def test_coordinates_of_32_bits_stay_so_and_it_is_said(tmp_path):
     again = io.read(tmp_path / "b.med")
     np.testing.assert_allclose(again.points, mesh.points, atol=1e-6 * np.abs(mesh.points).max())
     assert_same(again.with_points(mesh.points), mesh)
+
+
+def test_fields_that_hold_other_numbers_than_were_read_are_never_replaced():
+    begin = np.array([[0, 4, 8]])
+    fields = fields_of_words(begin, begin + 3)
+    points = np.array([[1.0, 2.0, 3.0]])
+    good = TextCoordinates(b"1.0 2.0 3D0", points, fields)
+    assert len(good.edits(points + 1)) == 3
+    with pytest.raises(CoordinatesError, match="layout"):
+        TextCoordinates(b"1.0 2.5 3D0", points, fields).edits(points + 1)
+    with pytest.raises(CoordinatesError, match="layout"):
+        TextCoordinates(b"1.0 2.x 3D0", points, fields).edits(points + 1)

@@ -152,8 +152,8 @@ def node_fields(data: bytes, begin: int, end: int) -> TextFields:
         low[:, k] = np.where(absent[:, k], last, commas[first + k] + 1)
         high[:, k] = np.where(absent[:, k], last, np.where(count > k + 1, commas[first + k + 1], last))
     begins, ends = _trimmed(letters, low, np.maximum(low, high))
-    begins = np.where(begins == ends, low, begins)  # a blank field is written at its begin
-    ends = np.maximum(begins, np.where(absent, last[:, None], ends))
+    blank = begins == ends
+    begins, ends = np.where(blank, low, begins), np.where(blank, low, ends)  # a blank field is written at its begin
     inner = ~absent[:, :2] & (count[:, None] > np.arange(1, 3))
     widths = (high - low)[:, :2][inner]
     aligned = len(start) > 1 and not absent.any() and widths.size > 0 and bool((widths == widths[0]).all())

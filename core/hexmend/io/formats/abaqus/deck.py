@@ -16,8 +16,9 @@ from hexmend.io.formats.abaqus.deck_file import Piece
 _KEYWORD = re.compile(rb"^[ \t]*\*(?!\*)[^\n]*", re.MULTILINE)
 _COMMENT = re.compile(rb"^[ \t]*\*\*[^\n]*", re.MULTILINE)
 _FIELD = re.compile(r'(?:[^,"]|"[^"]*"?)+')
-#: Blank fields, and exponents with the letter D, which NumPy does not parse.
-_BLANK_FIELD = re.compile(rb",[ \t]*,|^[ \t]*,|[dD]", re.MULTILINE)
+_BLANKS = b" \t\r\v\f"
+#: Blank fields, and exponents with the letter D, which NumPy does not parse; in data lines without blanks.
+_IRREGULAR = (b",,", b"\n,", b"d", b"D")
 
 
 @dataclass(frozen=True)
@@ -121,11 +122,13 @@ class Deck:
     def nodes(self, card: Card) -> tuple[np.ndarray, np.ndarray]:
         """Return the numbers, (k,) int64, and coordinates, (k, 3) float64, of a *NODE card; blank fields are 0."""
         text = self.data[card.begin : card.end]
-        first = text.lstrip().split(b"\n", 1)[0].strip().removesuffix(b",")
+        bare = text.translate(None, _BLANKS)
+        first = bare.lstrip(b"\n").split(b"\n", 1)[0].removesuffix(b",")
         width = first.count(b",") + 1 if first else 0
-        lines = len(text.split()) and sum(1 for line in text.split(b"\n") if line.strip())
+        breaks = np.frombuffer(b"\n" + bare, np.uint8) == ord("\n")
+        lines = int(np.count_nonzero(breaks[:-1] & ~breaks[1:]))
         values = None
-        if width >= 4 and not _BLANK_FIELD.search(text):
+        if width >= 4 and not bare.startswith(b",") and not any(mark in bare for mark in _IRREGULAR):
             values = self.numbers(card, "*NODE", np.float64)
         if values is not None and values.size == lines * width:
             rows = values.reshape(lines, width)[:, :4]
