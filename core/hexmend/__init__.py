@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from hexmend.interop import from_meshio, from_pyvista, to_meshio, to_pyvista
     from hexmend.io import read, read_surface, write
     from hexmend.iteration import Iteration, Outcome, Result, Step
+    from hexmend.layers import find_layers
     from hexmend.mesh.cells import Cells
     from hexmend.mesh.mesh import Mesh
     from hexmend.notebook import view
@@ -34,10 +35,14 @@ if TYPE_CHECKING:
     from hexmend.run.recipe_files import read_recipe, write_recipe
     from hexmend.smoothers import METHODS, Smoother, method
     from hexmend.study.compare import Comparison, compare
+    from hexmend.target import make_target
 
 aliases.install()
 hooks.register_hooks(
-    html="hexmend.notebook:html", quality="hexmend.quality:metric_values", worst_hexes="hexmend.quality:worst_hexes"
+    html="hexmend.notebook:html",
+    quality="hexmend.quality:metric_values",
+    with_rules="hexmend.mesh.rules.resolution:with_rules",
+    worst_hexes="hexmend.quality:worst_hexes",
 )
 
 _HOMES = {
@@ -46,6 +51,7 @@ _HOMES = {
     "interop": ("from_meshio", "from_pyvista", "to_meshio", "to_pyvista"),
     "io": ("read", "read_surface", "write"),
     "iteration": ("Iteration", "Outcome", "Result", "Step"),
+    "layers": ("find_layers",),
     "mesh": ("Mesh",),
     "mesh.cells": ("Cells",),
     "notebook": ("view",),
@@ -56,6 +62,7 @@ _HOMES = {
     "run.recipe_files": ("read_recipe", "write_recipe"),
     "smoothers": ("METHODS", "Smoother", "method"),
     "study.compare": ("Comparison", "compare"),
+    "target": ("make_target",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -82,10 +89,12 @@ __all__ = [
     "advise",
     "compare",
     "energy",
+    "find_layers",
     "from_meshio",
     "from_pyvista",
     "gallery",
     "iterate",
+    "make_target",
     "measure",
     "method",
     "parameter",

@@ -106,6 +106,8 @@ class Parameter:
             return f"one of {', '.join(self.choices)}"
         if self.type is bool:
             return "true or false"
+        if self.type is str:
+            return "a text"
         words = self._kind
         if self.low is not None and self.high is not None:
             words += f" from {self.low:g} to {self.high:g}"

@@ -21,5 +21,14 @@ def count_phrase(number: int, singular: str, plural: str | None = None) -> str:
     return f"{number:,} {singular if number == 1 else plural or f'{singular}s'}"
 
 
+def capitalised(sentence: str) -> str:
+    """Begin a sentence with a capital, and end it with a full stop; "" stays.
+
+    >>> capitalised("the layers are kept"), capitalised("")
+    ('The layers are kept.', '')
+    """
+    return f"{sentence[0].upper()}{sentence[1:].rstrip('.')}." if sentence else ""
+
+
 class WorsenedText(str):
     """Text of a value that is worse than it was; tables with colours show it in red."""

@@ -8,7 +8,7 @@
 namespace nb = nanobind;
 
 #define HEXMEND_FAMILIES(family)                                                                                   \
-    family(hex_mesh) family(line_search) family(assembly) family(binning) family(closest_point)                    \
+    family(hex_mesh) family(line_search) family(target) family(assembly) family(binning) family(closest_point)     \
         family(conjugate_gradients) family(corner_values) family(sparsity) family(decimals) family(element_step)   \
             family(elements) family(faces) family(getme) family(incidence) family(laplacian) family(patches)       \
                 family(local) family(metrics) family(objective) family(occlusion) family(ordering)                 \

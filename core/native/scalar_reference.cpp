@@ -7,25 +7,41 @@
 namespace hexmend {
 
 void scalar::energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted,
-                      std::span<double> eta) {
-    (delta != 0 ? energies_of<true, double> : energies_of<false, double>)(points, hexes, delta, offset, omitted, eta);
+                      std::span<double> eta, const TargetMatrices *target) {
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0 ? energies_of<true, double, Target> : energies_of<false, double, Target>)(points, hexes, delta,
+                                                                                              offset, omitted, eta, w);
+    });
 }
 
 void scalar::gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
-                      CornerVectors shares) {
-    (delta != 0 ? gradient_of<true, double> : gradient_of<false, double>)(points, hexes, delta, norm, omitted, shares);
+                      CornerVectors shares, const TargetMatrices *target) {
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0 ? gradient_of<true, double, Target> : gradient_of<false, double, Target>)(points, hexes, delta,
+                                                                                              norm, omitted, shares, w);
+    });
 }
 
 void scalar::hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                             OmittedCorners omitted, CornerVectors shares) {
-    (delta != 0 ? hessian_product_of<true, double> : hessian_product_of<false, double>)(points, hexes, slots, values,
-                                                                                        delta, norm, omitted, shares);
+                             OmittedCorners omitted, CornerVectors shares, const TargetMatrices *target) {
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0 ? hessian_product_of<true, double, Target>
+                    : hessian_product_of<false, double, Target>)(points, hexes, slots, values, delta, norm, omitted,
+                                                                 shares, w);
+    });
 }
 
 std::int64_t scalar::local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                                  const NodeStepSettings &settings) {
-    return (settings.delta != 0 ? local_sweep_of<true, double> : local_sweep_of<false, double>)(points, mesh, groups,
-                                                                                                nodes, settings);
+    return with_target(settings.target, [&](const auto &target) {
+        using Target = std::remove_cvref_t<decltype(target)>;
+        return (settings.delta != 0
+                    ? local_sweep_of<true, double, Target>
+                    : local_sweep_of<false, double, Target>)(points, mesh, groups, nodes, settings, target);
+    });
 }
 
 }  // namespace hexmend

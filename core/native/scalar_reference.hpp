@@ -7,13 +7,14 @@
 
 namespace hexmend::scalar {
 
-void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta);
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta,
+              const TargetMatrices *target = nullptr);
 
 void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
-              CornerVectors shares);
+              CornerVectors shares, const TargetMatrices *target = nullptr);
 
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                     OmittedCorners omitted, CornerVectors shares);
+                     OmittedCorners omitted, CornerVectors shares, const TargetMatrices *target = nullptr);
 
 std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                          const NodeStepSettings &settings);

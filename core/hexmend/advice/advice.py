@@ -11,6 +11,7 @@ from hexmend.advice.situation import Situation
 from hexmend.advice.suggestion import Suggestion
 from hexmend.aliases import reads_old_names
 from hexmend.iteration import Outcome, Result
+from hexmend.layers import describe_losses
 from hexmend.quality import describe_regressions
 from hexmend.run.messages import kept_message
 from hexmend.terminal_text import count_phrase
@@ -70,11 +71,12 @@ def advise(result: Result) -> Advice:
     if result.outcome is Outcome.NOTHING_FREE:
         suggestions = [one for one in suggestions if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
+    worse = describe_regressions(result.before, result.after), describe_losses(result.layers)
     limits, none = result.active, np.empty(0, dtype=np.int64)
     return Advice(
         reason=_reason(now),
         state=_state(now),
-        regressions=describe_regressions(result.before, result.after),
+        regressions=" ".join(filter(None, worse)),
         locked=now.locked,
         unlocked=now.unlocked,
         surface="" if result.surface is None else result.surface.sentence,

@@ -12,6 +12,8 @@ from hexmend.mesh.linear_motion import LinearMotion
 
 #: Largest distance of nodes from the plane of a flat patch or the line of a straight curve, in mean edge lengths.
 FLATNESS_TOLERANCE = 1e-9
+#: The same for nodes that slide: files may hold seven digits. A node keeps its distance.
+_SLIDING_TOLERANCE = 1e-7
 
 
 class FlatPart(NamedTuple):
@@ -29,7 +31,9 @@ class FlatPart(NamedTuple):
     directions: np.ndarray
 
 
-def flat_parts(points: np.ndarray, boundary: Boundary, mean_edge: float) -> list[FlatPart]:
+def flat_parts(
+    points: np.ndarray, boundary: Boundary, mean_edge: float, tolerance: float = FLATNESS_TOLERANCE
+) -> list[FlatPart]:
     """Find the flat patches and straight curves of a boundary.
 
     Parameters
@@ -39,6 +43,8 @@ def flat_parts(points: np.ndarray, boundary: Boundary, mean_edge: float) -> list
     boundary : Boundary
     mean_edge : float
         Mean edge length of the mesh.
+    tolerance : float
+        Largest distance of nodes from a plane or line, in mean edge lengths.
 
     Returns
     -------
@@ -54,7 +60,7 @@ def flat_parts(points: np.ndarray, boundary: Boundary, mean_edge: float) -> list
             nodes = np.unique(of_part)
             x = points[nodes] - points[nodes].mean(axis=0)
             directions = np.linalg.eigh(x.T @ x)[1]  # by ascending extent
-            if np.abs(x @ directions[:, : 3 - dimensions]).max() <= FLATNESS_TOLERANCE * mean_edge:
+            if np.abs(x @ directions[:, : 3 - dimensions]).max() <= tolerance * mean_edge:
                 found.append(FlatPart(nodes, directions[:, 3 - dimensions :]))
     return found
 
@@ -74,7 +80,7 @@ def flat_motion(points: np.ndarray, boundary: Boundary, sliding: np.ndarray, mea
     LinearMotion
     """
     slides, nodes, projectors = mask(sliding, len(points)), [], []
-    for part in flat_parts(points, boundary, mean_edge):
+    for part in flat_parts(points, boundary, mean_edge, _SLIDING_TOLERANCE):
         own_class = NodeClass.PATCH if part.directions.shape[1] == 2 else NodeClass.CURVE
         own = part.nodes[slides[part.nodes] & (boundary.node_class[part.nodes] == own_class)]
         nodes.append(own)

@@ -17,6 +17,7 @@ from hexmend.boundary.corner_detection import boundary_with_kept_corners
 from hexmend.boundary.features import FEATURE_ANGLE, marked_corners
 from hexmend.boundary.flat_parts import flat_motion
 from hexmend.boundary.normals import unit_vectors, vertex_normals
+from hexmend.boundary.restrictions import fixed_on_surface, freed_by_rules, interface_nodes
 from hexmend.boundary.surface import PartitionedSurface
 from hexmend.errors import MeshError
 from hexmend.kernels import sliding_surface as kernels
@@ -34,7 +35,9 @@ _INTERIOR_WEIGHT = 1e-3
 class SlidingBoundary(Band):
     """A mesh whose boundary nodes slide on a surface: nodes of curves along curves, nodes of patches on patches.
 
-    Corners and pinned nodes stay. Nodes with a linear motion do not slide: they move as that says.
+    Interfaces between materials are patches of the surface too, and nodes on them slide as the rules of the mesh say.
+    Corners and pinned nodes stay. On a target surface interfaces stay. Nodes with a linear motion do not slide: they
+    move as that says.
 
     Parameters
     ----------
@@ -44,29 +47,38 @@ class SlidingBoundary(Band):
         Dihedral angle beyond which an edge is a feature; see `boundary_of`.
     max_deviation : float
         Largest distance of the boundary's edge and face midpoints from the surface, in the mesh's unit.
+    outer : bool
+        Let the nodes of the boundary slide; else only those do for which the rules of the mesh say so.
 
     Attributes
     ----------
     boundary : Boundary
+        With nodes that stay as corners.
     surface : Surface
     node_class : (n,) uint8
         `NodeClass` of each node with respect to the surface.
     releasable : (n,) bool
         True for corners found by angle, which may be made to slide; false for those that are marked or pinned.
+    confined : (n,) bool
+        True for nodes that never leave the surface: those of interfaces.
     mesh : Mesh
         The given mesh with only corners, pinned nodes and unused nodes fixed; its sliding nodes lie on the target.
     nodes : (k,) int64
         Sliding nodes, ascending.
     """
 
-    def __init__(self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf):
-        self.boundary = boundary_with_kept_corners(mesh, feature_angle)
+    def __init__(
+        self, mesh: Mesh, feature_angle: float = FEATURE_ANGLE, max_deviation: float = np.inf, outer: bool = True
+    ):
+        whole = boundary_with_kept_corners(mesh, feature_angle)
+        stays = fixed_on_surface(mesh, outer)
+        self.boundary = whole.with_corners(np.flatnonzero(stays)).without_nodes(freed_by_rules(mesh))
         target, start = mesh.target, mesh.surface_points
         if target is None:
             self.surface = PartitionedSurface(start, self.boundary)
         else:
-            whole = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
-            self.surface = whole.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
+            given = PartitionedSurface(target.points, classify(target.points, target.faces, feature_angle))
+            self.surface = given.attached(start, self.boundary, MAX_TARGET_DISTANCE * mesh.mean_edge_length)
         self.node_class = self.surface.node_class
         slides = self.node_class >= NodeClass.CURVE
         if mesh.linear_motion is not None:
@@ -74,6 +86,8 @@ class SlidingBoundary(Band):
         self.nodes = np.flatnonzero(slides)
         self.releasable = self.boundary.node_class == NodeClass.CORNER
         self.releasable[marked_corners(mesh)] = False
+        self.confined = interface_nodes(mesh)
+        self.releasable &= ~(stays | self.confined)
         self._group = self.surface.group_of(self.nodes)
         self._number = index_of(self.nodes, mesh.n_nodes)
         if target is not None:

@@ -8,11 +8,17 @@ from hexmend.aliases import old_keywords
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.errors import MeshError
 from hexmend.kernels import objective as kernels
+from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.validation import as_hexes, as_points
 
 
 def energies(
-    points: np.ndarray, hexes: np.ndarray, delta: float = 0.0, omitted: np.ndarray | None = None, offset: float = 1.0
+    points: np.ndarray,
+    hexes: np.ndarray,
+    delta: float = 0.0,
+    omitted: np.ndarray | None = None,
+    offset: float = 1.0,
+    target: TargetMatrices | None = None,
 ) -> np.ndarray:
     """Compute the energy of every hex, the mean of eta(T) over its corners minus `offset`.
 
@@ -21,16 +27,19 @@ def energies(
     points : (n, 3) float64
     hexes : (m, 8) int32
     delta : float
-        Regularisation parameter in the unit of sigma, the cube of the points' unit of length.
+        Regularisation parameter in the unit of sigma, the cube of the points' unit of length; with a target it has no
+        unit, as sigma is that of S W^-1.
     omitted : (m,) uint8, optional
         Corner tetrahedron t of a hex is left out, as if it were perfect, if bit t is set.
     offset : float
         See `ObjectiveNorm`.
+    target : TargetMatrices, optional
+        Of these hexes, in the points' unit of length; see `hexmend.mesh.element_target`.
 
     Returns
     -------
     (m,) float64
-        0 for a cube if the offset is 1; +inf for an inverted hex at delta = 0.
+        0 for a cube, or a block as the target wants it, if the offset is 1; +inf for an inverted hex at delta = 0.
 
     Raises
     ------
@@ -47,7 +56,7 @@ def energies(
     hexes = as_hexes(hexes, len(points))
     eta = np.empty(len(hexes))
     out = as_omitted_corners(omitted, len(hexes))
-    kernels.energies(points, hexes, float(delta), float(offset), out, eta)
+    kernels.energies(points, hexes, float(delta), float(offset), out, eta, target)
     return eta
 
 

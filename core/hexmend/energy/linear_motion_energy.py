@@ -53,6 +53,7 @@ class LinearMotionEnergy(MeshEnergy):
 
     def __init__(self, energy: MeshEnergy):
         super().__init__(energy.mesh, energy.norm, energy.omitted)
+        self.unit, self._lengths, self.target = energy.unit, energy._lengths, energy.target
         self.energy, self.reduction = energy, Reduction(energy.mesh)
         self.nodes, self.faceted = self.reduction.nodes, energy.faceted
         self.slides = isinstance(energy, SlidingEnergy)
@@ -107,7 +108,7 @@ class LinearMotionHessian(Hessian):
         product = energy.reduction.contract(along) + energy.reduction.inadmissible(v)
         return (product + self.shift * v).ravel()
 
-    def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
+    def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
         energy, storage = self.energy, None if reuse is None else reuse.unreduced or reuse
         full = energy.energy.hessian(self.x, self.delta).assembled(dtype, storage)
         matrix = energy.reduction.reduced(full)

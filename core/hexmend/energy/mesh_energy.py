@@ -17,15 +17,22 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
 from hexmend.kernels import assembly, step_limits, threads
 from hexmend.kernels import objective as kernels
+from hexmend.kernels.target import TargetMatrices
+from hexmend.mesh.element_target import wanted_lengths
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
+
+#: Longest over shortest target length of a hex up to which single precision is enough for the Hessian: the terms of its
+#: directions differ by the square.
+_MAX_SINGLE_ASPECT = 30.0
 
 
 @reads_old_names
 class MeshEnergy:
     """Sum of eta(H)^p over all hexes, which has the same minimisers as (3.3).
 
-    The unit of length is the mean edge length of the given mesh, so that delta means the same on every mesh.
+    The unit of length is the mean edge length of the given mesh, so that delta means the same on every mesh. With a
+    target (`Mesh.element_target`) eta is that of S W^-1, and delta is relative to the volume that each hex is to have.
 
     Parameters
     ----------
@@ -41,6 +48,8 @@ class MeshEnergy:
         Mean edge length of the mesh.
     nodes : (k,) int32
         Free nodes; row i of a gradient belongs to node nodes[i].
+    target : TargetMatrices or None
+        Of the mesh, in the energy's unit of length.
 
     Examples
     --------
@@ -61,6 +70,9 @@ class MeshEnergy:
         self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
+        self._lengths = wanted_lengths(mesh)
+        weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
+        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, weight)
         self._scratch = threading.local()
 
     @cached_property
@@ -73,10 +85,57 @@ class MeshEnergy:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
         return BlockSparsity(self.mesh)
 
+    @cached_property
+    def hex_sizes(self) -> np.ndarray | float:
+        """Lengths, in the mesh's unit, to whose cubes sigma and delta of the hexes are relative: `unit`, or (m,)."""
+        return self.unit if self._lengths is None else np.cbrt(self._lengths.prod(axis=1))
+
+    @cached_property
+    def node_lengths(self) -> np.ndarray | None:
+        """Lengths of the targets at the free nodes, in mean edge lengths, (k, 1); None without a target.
+
+        Root mean squares of the inverse lengths are inverted: the shortest decide how far a node can move.
+        """
+        if self._lengths is None:
+            return None
+        squares, corners = np.square(self.unit / self._lengths).mean(axis=1), self.mesh.topology.node_corners
+        sums = np.bincount(self.mesh.hexes.ravel(), np.repeat(squares, 8), self.mesh.n_nodes)
+        return np.sqrt(np.diff(corners.start)[self.nodes] / sums[self.nodes])[:, None]
+
+    @cached_property
+    def precision(self) -> type:
+        """Precision in which the Hessian keeps its small terms: double where hexes are to be thin."""
+        if self._lengths is None:
+            return np.float32
+        aspect = (self._lengths.max(axis=1) / self._lengths.min(axis=1)).max(initial=1.0)
+        return np.float64 if aspect > _MAX_SINGLE_ASPECT else np.float32
+
     @property
     def cube_value(self) -> float:
-        """Value of the energy if all hexes are cubes and delta is 0."""
+        """Value of the energy if all hexes are cubes, or as the target wants them, and delta is 0."""
         return self.norm.cube_value * self.mesh.n_hexes
+
+    def on_part(self, part: Mesh, hexes: np.ndarray) -> MeshEnergy:
+        """Return the energy of a part of the mesh, as a function of the free nodes of the part.
+
+        Parameters
+        ----------
+        part : Mesh
+            Its hexes are some of this mesh.
+        hexes : (k,) int
+            Their numbers in this mesh.
+
+        Returns
+        -------
+        MeshEnergy
+            Of positions in mean edge lengths of this mesh, with its norm, omitted corners and target.
+        """
+        energy = MeshEnergy(part, self.norm, self.omitted[hexes])
+        energy.unit = self.unit
+        if self._lengths is not None:
+            lengths, weight = self._lengths[hexes], self.mesh.element_target.size_weight
+            energy._lengths, energy.target = lengths, TargetMatrices(self.unit / lengths, weight)
+        return energy
 
     def with_objective(self, norm: ObjectiveNorm, omitted: np.ndarray) -> MeshEnergy:
         """Return a copy with another norm and other omitted corners; the data that depend on the mesh alone are shared.
@@ -109,16 +168,21 @@ class MeshEnergy:
         step_limits.displaced(x, self.nodes, points_like(step, (self.nodes.size, 3), "steps"), alpha, moved)
         return moved
 
+    def hex_energies(self, x: np.ndarray, delta: float = 0.0, offset: float = 1.0) -> np.ndarray:
+        """Compute eta(H) of every hex at points x (n, 3), (m,); +inf at delta = 0 for an inverted hex."""
+        return energies(self._as_points(x), self.mesh.hexes, delta, self.omitted, offset, self.target)
+
     def value(self, x: np.ndarray, delta: float = 0.0) -> float:
         """Compute the sum of eta(H)^p at points x (n, 3); +inf at delta = 0 if any hex is inverted."""
         p, offset = self.norm
-        eta = energies(self._as_points(x), self.mesh.hexes, delta, self.omitted, offset)
+        eta = self.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):  # near the barrier, or with a node far away, it is infinite
             return float((np.square(eta) if p == 2 else np.power(eta, p)).sum())
 
     def gradient(self, x: np.ndarray, delta: float = 0.0) -> np.ndarray:
         """Compute the gradient with respect to the free nodes at points x (n, 3), (k, 3): (B.3), (B.21), (C.2)."""
-        kernels.gradient(self._as_points(x), self.mesh.hexes, delta, self.norm, self.omitted, self._corner_buffer)
+        x, shares = self._as_points(x), self._corner_buffer
+        kernels.gradient(x, self.mesh.hexes, delta, self.norm, self.omitted, shares, self.target)
         return self._sum_at_nodes()
 
     def hessian(self, x: np.ndarray, delta: float = 0.0) -> Hessian:
@@ -173,21 +237,29 @@ class Hessian(SymmetricOperator):
     def _product(self, v: np.ndarray) -> np.ndarray:
         energy, v = self.energy, v.reshape(-1, 3)
         kernels.hessian_product(
-            self.x, energy.mesh.hexes, energy.slots, v, self.delta, energy.norm, energy.omitted, energy._corner_buffer
+            self.x,
+            energy.mesh.hexes,
+            energy.slots,
+            v,
+            self.delta,
+            energy.norm,
+            energy.omitted,
+            energy._corner_buffer,
+            energy.target,
         )
         product = energy._sum_at_nodes()
         if self.shift:
             product += self.shift * v
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
+    def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
         """Assemble the matrix, for many products or for a linear system.
 
         Parameters
         ----------
-        dtype : numpy.float32 or numpy.float64
-            Precision of the blocks. A matrix too small for single precision (near the optimum of a high p) is
-            assembled in double precision and scaled before it is rounded.
+        dtype : numpy.float32 or numpy.float64, optional
+            Precision of the blocks; `MeshEnergy.precision` by default. A matrix too small for single precision (near
+            the optimum of a high p) is assembled in double precision and scaled before it is rounded.
         reuse : AssembledHessian, optional
             Matrix that is no longer needed: its storage is used if pattern and precision agree, as memory that has
             been touched before is faster.
@@ -196,7 +268,7 @@ class Hessian(SymmetricOperator):
         -------
         AssembledHessian
         """
-        sparsity = self.energy.sparsity
+        sparsity, dtype = self.energy.sparsity, dtype or self.energy.precision
         fits = reuse is not None and reuse.sparsity is sparsity and reuse.off_diagonal.dtype == dtype
         matrix = reuse.reset() if fits else AssembledHessian.zero(sparsity, dtype)
         self._assemble(matrix)
@@ -209,5 +281,6 @@ class Hessian(SymmetricOperator):
     def _assemble(self, matrix: AssembledHessian) -> None:
         """Add this Hessian to a matrix of zeros."""
         energy, shares = self.energy, self.energy.sparsity.shares(threads())
-        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, matrix.off_diagonal, matrix.diagonal)
+        blocks = matrix.off_diagonal, matrix.diagonal
+        assembly.assemble(self.x, self.delta, energy.norm, energy.omitted, shares, *blocks, energy.target)
         matrix.diagonal += self.shift * np.array([1, 0, 0, 1, 0, 1], matrix.diagonal.dtype)

@@ -45,6 +45,7 @@ class Reduction:
         self._own, self._tied = np.flatnonzero(root[free] == free), np.flatnonzero(root[free] != free)
         self._turn = turn[free]
         self._bent = np.flatnonzero((self._turn != np.eye(3)).any(axis=(1, 2)))
+        self._turned: dict[np.dtype, tuple] = {}
         own_turn = turn[self.nodes]
         self._restricted = np.flatnonzero((own_turn != np.eye(3)).any(axis=(1, 2)))
         self._projectors = own_turn[self._restricted]
@@ -97,12 +98,12 @@ class Reduction:
         -------
         AssembledHessian
         """
-        dtype, slot_turn = full.off_diagonal.dtype, np.empty_like(self._turn, dtype=full.off_diagonal.dtype)
-        slot_turn[full.order] = self._turn
-        slots, at, row, column = self._bent_blocks(full)
-        blocks = full.off_diagonal[at].reshape(-1, 3, 3)
-        full.off_diagonal[at] = (slot_turn[row].transpose(0, 2, 1) @ blocks @ slot_turn[column]).reshape(-1, 9)
-        own = slot_turn[slots].transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ slot_turn[slots]
+        dtype = full.off_diagonal.dtype
+        turn, (scaled, scale), (turned, row, column), slots = self._turned_blocks(full)
+        full.off_diagonal[scaled] *= scale
+        blocks = full.off_diagonal[turned].reshape(-1, 3, 3)
+        full.off_diagonal[turned] = (turn[row].transpose(0, 2, 1) @ blocks @ turn[column]).reshape(-1, 9)
+        own = turn[slots].transpose(0, 2, 1) @ unpack_symmetric(full.diagonal[slots]) @ turn[slots]
         full.diagonal[slots] = own.reshape(-1, 9)[:, _UPPER]
         matrix = self._merged(full) if self.has_ties else full
         slots, admitted = matrix.order[self._restricted], self._projectors.astype(dtype)
@@ -112,14 +113,28 @@ class Reduction:
         matrix.diagonal[slots] += size[:, None] * (np.eye(3, dtype=dtype) - admitted).reshape(-1, 9)[:, _UPPER]
         return matrix
 
-    def _bent_blocks(self, full: AssembledHessian) -> tuple[np.ndarray, ...]:
-        """Slots whose T is not the identity, the blocks in their rows and columns, and the slots of these."""
-        sparsity = full.sparsity
-        row = np.repeat(np.arange(sparsity.nodes.size), np.diff(sparsity.row_start))
-        bent = np.zeros(sparsity.nodes.size, dtype=bool)
-        bent[full.order[self._bent]] = True
-        at = np.flatnonzero(bent[row] | bent[sparsity.columns])
-        return np.flatnonzero(bent), at, row[at], sparsity.columns[at]
+    def _turned_blocks(self, full: AssembledHessian) -> tuple:
+        """T of each slot, and the blocks above the diagonal and the slots that it changes; it depends on the pattern.
+
+        Blocks of nodes in planes and lines of the axes are only scaled: their numbers and factors, (b,) and (b, 9),
+        first. Then there are the numbers of the others with the slots of their rows and columns.
+        """
+        dtype = full.off_diagonal.dtype
+        if dtype not in self._turned:
+            sparsity = full.sparsity
+            turn = np.empty(self._turn.shape, dtype)
+            turn[full.order] = self._turn
+            row = np.repeat(np.arange(sparsity.nodes.size), np.diff(sparsity.row_start))
+            column, diagonal = sparsity.columns, np.einsum("kii->ki", turn)
+            bent = (turn != np.eye(3)).any(axis=(1, 2))
+            skew = bent & (turn != diagonal[:, :, None] * np.eye(3)).any(axis=(1, 2))
+            turned = skew[row] | skew[column]
+            scaled = np.flatnonzero((bent[row] | bent[column]) & ~turned)
+            turned = np.flatnonzero(turned)
+            scale = (diagonal[row[scaled], :, None] * diagonal[column[scaled], None]).reshape(-1, 9)
+            others = turned, row[turned], column[turned]
+            self._turned[dtype] = turn, (scaled, scale), others, np.flatnonzero(bent)
+        return self._turned[dtype]
 
     @cached_property
     def sparsity(self) -> BlockSparsity:
@@ -141,7 +156,7 @@ class Reduction:
         return matrix
 
     def _merge_map(self, full: AssembledHessian) -> tuple[np.ndarray, ...]:
-        """Where blocks of all free nodes go: see `_merged`. It depends on the patterns alone."""
+        """Map of the blocks of all free nodes to those of `sparsity`; it depends on the patterns alone."""
         if "_map" not in self.__dict__:
             part, whole = self.sparsity, full.sparsity
             slot_of = np.empty(whole.nodes.size, np.int64)

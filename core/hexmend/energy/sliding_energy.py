@@ -120,9 +120,10 @@ class SlidingHessian(Hessian):
         product[rows] = np.einsum("kij,kj->ki", along, product[rows]) + normal
         return product.ravel()
 
-    def assembled(self, dtype: type = np.float32, reuse: AssembledHessian | None = None) -> AssembledHessian:
-        matrix = super().assembled(dtype, reuse)
+    def assembled(self, dtype: type | None = None, reuse: AssembledHessian | None = None) -> AssembledHessian:
         energy = self.energy
+        dtype = dtype or energy.precision
+        matrix = super().assembled(dtype, reuse)
         slots = matrix.order[energy._rows]
         along = energy.projectors(self.x).astype(dtype)
         of_slot = np.broadcast_to(np.eye(3, dtype=dtype), (matrix.order.size, 3, 3)).copy()

@@ -39,7 +39,11 @@ class GalleryMesh(Parametrised, ABC):
         """Build the mesh."""
         mesh = self.regular()
         mesh = mesh.replace(name=f"{self.name}-{mesh.n_hexes}")
-        return scramble_nodes(mesh, self.scramble, self.seed) if self.scramble > 0 else mesh
+        return self.scrambled(mesh) if self.scramble > 0 else mesh
+
+    def scrambled(self, mesh: Mesh) -> Mesh:
+        """Displace the free nodes of the mesh at random."""
+        return scramble_nodes(mesh, self.scramble, self.seed)
 
 
 def scramble_nodes(mesh: Mesh, amplitude: float, seed: int) -> Mesh:

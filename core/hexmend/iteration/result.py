@@ -15,8 +15,10 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.hooks import hook
 from hexmend.iteration.step import ActiveSet, Outcome
 from hexmend.iteration.stopping import StoppingCriteria
+from hexmend.layers import LayerReport
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, Summary, objective, regressions
+from hexmend.quality.material_volumes import MaterialVolume
 
 
 @reads_old_names
@@ -141,8 +143,12 @@ class Result:
         One for each method that was run.
     surface : SurfaceChange or None
         Distance of the boundary from where it was; None where no method let it slide.
+    materials : mapping of str to MaterialVolume
+        Volumes of the materials by name; empty for a mesh of one material.
     active : ActiveSet or None
         Corners that let the last method go no further, if it has found them.
+    layers : tuple of LayerReport
+        Boundary layers before and after, one for each wall.
     """
 
     mesh: Mesh
@@ -159,12 +165,14 @@ class Result:
     history: tuple[dict[str, float | int | str | None], ...]
     stages: tuple[StageResult, ...]
     surface: SurfaceChange | None = None
+    materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
+    layers: tuple[LayerReport, ...] = ()
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before."""
-        return regressions(self.before, self.after)
+        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost."""
+        return regressions(self.before, self.after) + ("layers",) * any(wall.lost for wall in self.layers)
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

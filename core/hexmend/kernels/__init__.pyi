@@ -28,6 +28,7 @@ from hexmend.kernels import sliding_surface as sliding_surface
 from hexmend.kernels import sparsity as sparsity
 from hexmend.kernels import step_limits as step_limits
 from hexmend.kernels import structure as structure
+from hexmend.kernels import target as target
 from hexmend.kernels import wavefronts as wavefronts
 from hexmend.kernels import worst_first as worst_first
 

@@ -5,6 +5,8 @@ from typing import Annotated, overload
 import numpy
 from numpy.typing import NDArray
 
+import hexmend.kernels.target
+
 
 class HexShares:
     """
@@ -23,10 +25,10 @@ class HexShares:
         """
 
 @overload
-def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: HexShares, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu')], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')]) -> None: ...
+def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: HexShares, off_diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 9), order='C', device='cpu')], diagonal: Annotated[NDArray[numpy.float32], dict(shape=(None, 6), order='C', device='cpu')], target: hexmend.kernels.target.TargetMatrices | None = None) -> None: ...
 
 @overload
-def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: HexShares, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu')]) -> None:
+def assemble(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], delta: float, norm: tuple[float, float], omitted: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order='C', device='cpu', writable=False)], shares: HexShares, off_diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 9), order='C', device='cpu')], diagonal: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu')], target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
     """
     Add the Hessian of sum eta(H)^p to off_diagonal and diagonal, in their precision.
 

@@ -5,6 +5,8 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+import hexmend.kernels.target
+
 
 def measure(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], q: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], sigma: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], jacobian: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], eta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
     """
@@ -14,6 +16,14 @@ def measure(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), orde
     of the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner
     with an edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner
     whose determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.
+    """
+
+def measure_against(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], target: hexmend.kernels.target.TargetMatrices, q: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')], eta: Annotated[NDArray[numpy.float64], dict(shape=(None,), order='C', device='cpu')]) -> None:
+    """
+    Quality of every hex against its target at delta = 0; writes two arrays (m,) float64.
+
+    eta is eta(H) of S W^-1, the mean of eta(T) - 1, with the size beside the shape if it has a weight; q is
+    the mean of 1/eta(T). An inverted corner has eta(T) = +inf.
     """
 
 def mean_edge_length(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)]) -> float:

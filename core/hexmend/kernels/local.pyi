@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import hexmend.kernels.hex_mesh
 import hexmend.kernels.line_search
 import hexmend.kernels.sliding_surface
+import hexmend.kernels.target
 
 
 class Direction(enum.Enum):
@@ -44,9 +45,10 @@ class StepStatus(enum.Enum):
 class NodeStepSettings:
     """Settings of a step at a node."""
 
-    def __init__(self, direction: Direction, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
+    def __init__(self, direction: Direction, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch, target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
         """
-        delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.
+        delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)
+        of the objective.
         """
 
 def sweep(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu')], mesh: hexmend.kernels.hex_mesh.HexMesh, groups: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], nodes: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], settings: NodeStepSettings, surface: hexmend.kernels.sliding_surface.SlidingSurface | None = None, tangents: Annotated[NDArray[numpy.float64], dict(shape=(None, 6), order='C', device='cpu', writable=False)] | None = None) -> int:
@@ -78,11 +80,12 @@ class PatchEnergy:
     def hessian(self) -> list[float]:
         """xx, xy, xz, yy, yz, zz"""
 
-def patch_energy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, norm: tuple[float, float]) -> PatchEnergy:
+def patch_energy(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, delta: float, norm: tuple[float, float], target: hexmend.kernels.target.TargetMatrices | None = None) -> PatchEnergy:
     """
     Energy of the patch of the node whose corners are star (k,) int32, 8 * hex + corner each.
 
-    Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0.
+    Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0, with a target to unit
+    root mean square of the inverse lengths.
     """
 
 class RecordedStep:
@@ -124,7 +127,7 @@ def recorded_step(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3)
     The step that `sweep` takes at the node whose corners are star (k,) int32; moves nothing.
     """
 
-def energy_along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, norm: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')]) -> None:
+def energy_along(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', device='cpu', writable=False)], hexes: Annotated[NDArray[numpy.int32], dict(shape=(None, 8), order='C', device='cpu', writable=False)], star: Annotated[NDArray[numpy.int32], dict(shape=(None,), order='C', device='cpu', writable=False)], factor: float, direction: Sequence[float], delta: float, norm: tuple[float, float], curve: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', device='cpu')], target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
     """
     Energy of a patch along a direction (3,): writes the value at step length curve[:, 0] to curve[:, 1].
 

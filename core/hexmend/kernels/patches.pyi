@@ -7,14 +7,16 @@ from numpy.typing import NDArray
 
 import hexmend.kernels.hex_mesh
 import hexmend.kernels.line_search
+import hexmend.kernels.target
 
 
 class PatchStepSettings:
     """Settings of a step of a patch."""
 
-    def __init__(self, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch) -> None:
+    def __init__(self, delta: float, norm: tuple[float, float], search: hexmend.kernels.line_search.LineSearch, target: hexmend.kernels.target.TargetMatrices | None = None) -> None:
         """
-        delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.
+        delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)
+        of the objective. The target has a row for each of the partition's hexes.
         """
 
 class PatchPartition:

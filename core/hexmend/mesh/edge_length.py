@@ -1,4 +1,4 @@
-"""Mean edge length of a mesh, the unit of steps and tolerances, and the shortest edge at each node."""
+"""Lengths of edges: their mean, the unit of steps and tolerances; the shortest at each node; those of each hex."""
 
 from __future__ import annotations
 
@@ -58,6 +58,33 @@ def shortest_edges(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
     for side in ends.T:
         np.minimum.at(size, side, lengths)
     return size
+
+
+def hex_lengths(points: np.ndarray, hexes: np.ndarray) -> np.ndarray:
+    """Compute the lengths of hexes along x, y and z of their numbering: means of four parallel edges.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    hexes : (k, 8) int
+
+    Returns
+    -------
+    (k, 3) float64
+        In the unit of the points; 0 in a direction without extent, positive for inverted hexes too.
+
+    Examples
+    --------
+    >>> from hexmend.mesh.hexahedron import UNIT_CUBE
+    >>> hex_lengths(UNIT_CUBE * [1, 2, 3], np.arange(8)[None])
+    array([[1., 2., 3.]])
+    """
+    lengths = np.zeros((len(hexes), 3))
+    for number, (a, b) in enumerate(EDGES):
+        along = points[hexes[:, a]]
+        along -= points[hexes[:, b]]
+        lengths[:, number // 4] += np.sqrt(np.einsum("ij,ij->i", along, along))
+    return lengths / 4
 
 
 def _trimmed_mean(points: np.ndarray, hexes: np.ndarray) -> float:

@@ -12,13 +12,13 @@ from typing import TypeAlias
 import numpy as np
 
 from hexmend.arrays import index_of
-from hexmend.energy import LinearMotionEnergy, MeshEnergy, ObjectiveNorm, energies
+from hexmend.energy import LinearMotionEnergy, MeshEnergy
 from hexmend.energy.assembled_hessian import unpack_symmetric
 from hexmend.kernels.line_search import LineSearch
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.topology import Topology
 
-#: Function of energies (k,), gradients (k, 3) and Hessians (k, 3, 3) of single nodes that gives their directions (k, 3).
+#: Function of energies (k,), gradients (k, 3), Hessians (k, 3, 3) of single nodes and p; gives their directions (k, 3).
 NodeDirections: TypeAlias = Callable[[np.ndarray, np.ndarray, np.ndarray, float], np.ndarray]
 
 #: Share of the largest eigenvalue to which smaller ones are raised (A.4).
@@ -44,21 +44,19 @@ class ConstrainedSweeps:
 
     Parameters
     ----------
-    mesh : Mesh
-        With a linear motion.
+    energy : MeshEnergy
+        Of a mesh with a linear motion.
     chosen : (n,) bool
         Nodes that move; fixed ones stay.
-    norm : ObjectiveNorm
-    omitted : (m,) uint8, optional
-        Corners that are left out; see `MeshEnergy`.
     """
 
-    def __init__(self, mesh: Mesh, chosen: np.ndarray, norm: ObjectiveNorm, omitted: np.ndarray | None = None):
+    def __init__(self, energy: MeshEnergy, chosen: np.ndarray):
+        mesh = energy.mesh
         root = mesh.linear_motion.roots(mesh.n_nodes)
         moves = np.zeros(mesh.n_nodes, dtype=bool)
         moves[root[chosen & mesh.free]] = True
         colours = Topology(root[mesh.hexes], mesh.n_nodes).colouring(moves)
-        self._parts = [_Colour(mesh, root, colours[i], norm, omitted) for i in range(len(colours))]
+        self._parts = [_Colour(energy, root, colours[i]) for i in range(len(colours))]
 
     def __call__(self, x: np.ndarray, delta: float, directions: NodeDirections, search: LineSearch) -> None:
         """Sweep once.
@@ -66,9 +64,9 @@ class ConstrainedSweeps:
         Parameters
         ----------
         x : (n, 3) float64
-            Points; changed.
+            Points in mean edge lengths; changed.
         delta : float
-            In cubes of their unit of length.
+            In cubes of the mean edge length.
         directions : callable
             `steepest_descents` or `newton_steps`.
         search : LineSearch
@@ -80,9 +78,8 @@ class ConstrainedSweeps:
 class _Colour:
     """Independent nodes that share no hex, with the hexes at them and at the nodes tied to them."""
 
-    def __init__(
-        self, mesh: Mesh, root: np.ndarray, nodes: np.ndarray, norm: ObjectiveNorm, omitted: np.ndarray | None
-    ):
+    def __init__(self, energy: MeshEnergy, root: np.ndarray, nodes: np.ndarray):
+        mesh = energy.mesh
         index = index_of(nodes, mesh.n_nodes)
         hexes = np.flatnonzero((index[root[mesh.hexes]] >= 0).any(axis=1))
         self._nodes = np.union1d(mesh.hexes[hexes], nodes)
@@ -91,7 +88,7 @@ class _Colour:
         own = Mesh(mesh.points[self._nodes], number[mesh.hexes[hexes]])
         own = own.with_linear_motion(mesh.linear_motion.renumbered(number))
         own = own.with_fixed(index[root[self._nodes]] < 0)
-        self._energy = LinearMotionEnergy(MeshEnergy(own, norm, None if omitted is None else omitted[hexes]))
+        self._energy = LinearMotionEnergy(energy.on_part(own, hexes))
         # The one independent node at each hex, as a row of the gradient.
         rows = index_of(self._energy.nodes, own.n_nodes)[number[root[self._nodes]]]
         self._row = rows[own.hexes].max(axis=1)
@@ -122,6 +119,6 @@ class _Colour:
     def _values(self, x: np.ndarray, delta: float) -> np.ndarray:
         """Energy of the hexes at each node and its tied ones, (k,) float64."""
         p, offset = self._energy.norm
-        eta = energies(x, self._energy.mesh.hexes, delta, self._energy.omitted, offset)
+        eta = self._energy.hex_energies(x, delta, offset)
         with np.errstate(over="ignore"):
             return np.bincount(self._row, np.power(eta, p), self._energy.nodes.size)

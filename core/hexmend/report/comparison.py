@@ -169,13 +169,13 @@ def _display_name(own: str, names: Mapping[str, str] | None) -> str:
 
 
 def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:
-    fallen = {REGRESSION_KEYS[name] for name in record.get("worse", ())}
+    fallen = {REGRESSION_KEYS.get(name, name) for name in record.get("worse", ())}
     return (WorsenedText if figure.key in fallen else str)(figure.of(record))
 
 
 def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Return a note on methods after which figures are worse than before."""
-    labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()}
+    labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()} | {"layers": "layers"}
     fallen = {head: record["worse"] for head, record in columns.items() if record.get("worse")}
     worse = [f"{head} ({', '.join(map(labels.get, names))})" for head, names in fallen.items()]
     return [f"Worse than before: {'; '.join(worse)}."] if worse else []

@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import pairwise
+
+import numpy as np
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
+from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules.resolution import with_rules
 from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
+from hexmend.quality.material_volumes import MaterialVolume, volume_changes
+from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
+from hexmend.target import recovered_lengths
 from hexmend.terminal_text import count_phrase
 
 
@@ -34,7 +43,9 @@ class Run(Iterator[Iteration]):
     Attributes
     ----------
     mesh, smoother
-        As given.
+        As given; the mesh has the rules of motion of a recipe.
+    layers : Layers
+        Boundary layers of the mesh as given.
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
@@ -51,16 +62,19 @@ class Run(Iterator[Iteration]):
     """
 
     def __init__(self, mesh: Mesh, smoother: Smoother | Recipe, stop: StoppingCriteria | None = None):
+        if isinstance(smoother, Recipe) and smoother.rules:
+            mesh = with_rules(mesh, mesh.node_rules.rules.merge(smoother.rules))
         self.mesh = mesh
         self.smoother = smoother
         self._stages = _stages(smoother, stop)
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
+        self.layers = find_layers(mesh, quality)
         self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.norm)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
-        self._stage_runs = [StageRun(mesh, self._stages[0], 1, self.start, self.start)]
+        self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
         self._end_if_done()
 
     def __next__(self) -> Iteration:
@@ -105,7 +119,7 @@ class Run(Iterator[Iteration]):
         if new.smoother == old.smoother and old.outcome is None:
             old.set_limits(new.stop)
         else:
-            stage_run = StageRun(self.mesh, new, old.number, old.current, self.last, old)
+            stage_run = self._stage_of(new, old.number, old.current, self.last, old)
             if old.outcome is None:
                 old.end(Outcome.STOPPED)
             self._stage_runs.append(stage_run)
@@ -163,14 +177,24 @@ class Run(Iterator[Iteration]):
         changed = [one.as_stage(cut=later.number == one.number) for one, later in pairwise(self._stage_runs)]
         done = [stage for stage in changed if stage is not None]
         title = self.smoother.title if isinstance(self.smoother, Recipe) else ""
-        return Recipe.of(*done, self._stage_run.as_stage(), *self._remaining_stages, title=title)
+        stages = *done, self._stage_run.as_stage(), *self._remaining_stages
+        return Recipe.of(*stages, title=title, rules=self.mesh.node_rules.rules)
 
     @property
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
-        return self._message(*self._summaries())
+        before, after = self._summaries()
+        mesh = self.mesh.with_points(self.best.points)
+        return self._message(before, after, mesh, volume_changes(self.mesh, mesh), self._layer_reports())
 
-    def _message(self, before: Summary, after: Summary) -> str:
+    def _message(
+        self,
+        before: Summary,
+        after: Summary,
+        mesh: Mesh,
+        volumes: Mapping[str, MaterialVolume],
+        walls: Sequence[LayerReport],
+    ) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
         left = f"{count_phrase(inverted, 'hex', 'hexes')} still inverted" if inverted else "no hex is inverted"
@@ -181,8 +205,14 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
+        words.append(interface_message(self.mesh, mesh, volumes))
         instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead]))
+        grading = describe_losses(walls)
+        if not grading and walls and self._target is not None:
+            grading = self.layers_message
+        elif not grading and self.outcome is not None and self._target is None:
+            grading = grading_message(self.mesh, mesh, self.start.quality)
+        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, grading]))
 
     @property
     def _kept_last(self) -> bool:
@@ -192,7 +222,8 @@ class Run(Iterator[Iteration]):
         """Return the result so far."""
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
-        mesh = self.mesh.with_points(self.best.points)
+        mesh = self.mesh.with_points(self.best.points).with_element_target(self._target)
+        volumes, walls = volume_changes(self.mesh, mesh), self._layer_reports()
         return Result(
             mesh=mesh,
             before=before,
@@ -200,7 +231,7 @@ class Run(Iterator[Iteration]):
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self._message(before, after),
+            message=self._message(before, after, mesh, volumes, walls),
             iterations=self.last.number,
             kept=self.best.number,
             seconds=self.last.seconds,
@@ -208,18 +239,50 @@ class Run(Iterator[Iteration]):
             history=tuple(self.history),
             stages=tuple(one.result() for one in self._stage_runs),
             surface=self._surface_change(mesh),
+            materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
+            layers=walls,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
         """Return the change of the boundary from the mesh as given; None if no method let it slide."""
-        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides), None)
+        by_rule = self.mesh.node_rules.slides is not None
+        sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
+
+    @cached_property
+    def _given_lengths(self) -> np.ndarray:
+        """Lengths of the hexes as given, recovered where the mesh is noisy, (m, 3)."""
+        return recovered_lengths(self.mesh, self.start.quality)
+
+    def _layer_reports(self) -> tuple[LayerReport, ...]:
+        """Return the layers of the mesh as given and of the result."""
+        if not self.layers:
+            return ()
+        return layer_report(self.layers, self.mesh, self.mesh.with_points(self.best.points), self._given_lengths)
+
+    @property
+    def layers_message(self) -> str:
+        """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
+        if not self.layers:
+            return ""
+        kept = "kept" if self._target is not None else "not kept"
+        return f"Boundary layers at {self.layers.names} are {kept}."
+
+    @property
+    def _target(self) -> Target | None:
+        """Target of the current stage."""
+        return self._stage_run.target
 
     def _summaries(self) -> tuple[Summary, Summary]:
         """Return the summaries of the mesh as given and of the result."""
         mesh = self.mesh.with_points(self.best.points)
         return summarise(self.mesh, self.start.quality), summarise(mesh, self.best.quality)
+
+    def _stage_of(self, stage: Stage, number: int, start: Iteration, last: Iteration, *old: StageRun) -> StageRun:
+        """Begin a stage; its target is made from the mesh as given, whatever earlier stages have done."""
+        mesh = stage.smoother.with_target(self.mesh, self.layers, self.start.quality)
+        return StageRun(mesh, stage, number, start, last, *old)
 
     @property
     def _stage_run(self) -> StageRun:
@@ -234,7 +297,7 @@ class Run(Iterator[Iteration]):
         kept = f" Iteration {reached.number} of it was kept." if reached is not last else ""
         count = count_phrase(last.number - done.stage_start.number, "iteration")
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
-        self._stage_runs.append(StageRun(self.mesh, self._remaining_stages[0], done.number + 1, reached, last))
+        self._stage_runs.append(self._stage_of(self._remaining_stages[0], done.number + 1, reached, last))
         self._end_if_done()
 
     def _end_if_done(self) -> None:

@@ -58,6 +58,8 @@ class StageRun:
         The method's decision at its newest step, as a sentence.
     active : ActiveSet or None
         The constraints that stop the method, if it reports them.
+    target : Target or None
+        Target of the hexes.
     """
 
     def __init__(
@@ -76,6 +78,7 @@ class StageRun:
         self.outcome: Outcome | None = None
         self.decision = ""
         self.active: ActiveSet | None = None
+        self.target = mesh.element_target
         self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
         self._origin = start if predecessor is None else predecessor._origin
         self._best = start if predecessor is None else predecessor._best

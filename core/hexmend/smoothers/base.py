@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias, TypeVar
 
@@ -13,6 +13,7 @@ from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.iteration import Iteration, Outcome, Step
+from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
 from hexmend.quality import ElementQuality
@@ -21,6 +22,9 @@ from hexmend.registry import Registry, load_entry_points
 #: Type of the generator that `Smoother.steps` returns.
 Steps: TypeAlias = Generator[Step, None, Outcome | None]
 
+
+#: Function of the points (n, 3) that returns them with some nodes moved.
+Sweep: TypeAlias = Callable[[np.ndarray], np.ndarray]
 
 #: Least fall of q(H) that four decimals show: near its optimum an optimiser goes up and down by less.
 _VISIBLE_FALL = 0.5e-4
@@ -67,9 +71,32 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    def slides_on(self, mesh: Mesh) -> bool:
+        """Return True if nodes of a mesh slide: of its boundary, or those for which its rules say so."""
+        return self.slides
+
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
+
+    def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
+        """Return the mesh with the target of its hexes that the parameters name; the mesh itself by default.
+
+        Parameters
+        ----------
+        mesh : Mesh
+            As given to the run, not the result of an earlier stage.
+        layers : Layers
+            Its boundary layers.
+        quality : ElementQuality, optional
+            Of its hexes.
+
+        Raises
+        ------
+        ParameterError
+            For a target that the mesh cannot have.
+        """
+        return mesh
 
     @abstractmethod
     def steps(self, mesh: Mesh) -> Steps:
@@ -91,6 +118,23 @@ class Smoother(Parametrised, ABC):
         Outcome or None
             Outcome when the method has no further step; a run may close the generator earlier.
         """
+
+    def constrained_sweep(self, mesh: Mesh, linear: np.ndarray) -> Sweep | None:
+        """Make the sweep over nodes with a linear motion that follows each step of the method over the other nodes.
+
+        Parameters
+        ----------
+        mesh : Mesh
+        linear : (n,) bool
+            The nodes.
+
+        Returns
+        -------
+        callable or None
+            Function of points (n, 3) that returns them with these nodes moved. None for a method without such a
+            sweep: its steps are projected onto the admissible displacements.
+        """
+        return None
 
     def rank(self, start: ElementQuality, now: ElementQuality) -> tuple[float, ...]:
         """Sort key of an iterate: the smallest is kept, of equals the last.

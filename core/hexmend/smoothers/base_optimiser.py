@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from hexmend.energy import POLICIES, ObjectiveNorm
 from hexmend.kernels.line_search import LineSearch
 from hexmend.parameters import parameter
-from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.targeted_smoother import TargetedSmoother
 
 
 @dataclass(frozen=True)
-class ObjectiveSmoother(SlidingSmoother):
+class ObjectiveSmoother(TargetedSmoother):
     """Method that lowers (3.3)."""
 
     optimises = True

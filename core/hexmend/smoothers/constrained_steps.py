@@ -7,22 +7,13 @@ the admissible displacements.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import singledispatch
-
 import numpy as np
 
 from hexmend.iteration import Outcome, Step
-from hexmend.kernels import local
 from hexmend.mesh.linear_motion.constrained_points import admissible_displacements
 from hexmend.mesh.mesh import Mesh
-from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.base import Smoother, Steps
-from hexmend.smoothers.laplacian.constrained_means import ConstrainedMeans
-from hexmend.smoothers.laplacian.laplacian import Laplacian
-from hexmend.smoothers.laplacian.smart_laplacian import SmartLaplacian
-from hexmend.smoothers.local.base import LocalOptimiser
+from hexmend.smoothers.base import Smoother, Steps, Sweep
 
 #: Halvings of a projected step around hexes that it would invert, before their nodes stay.
 HALVINGS = 4
@@ -48,44 +39,10 @@ def constrained_steps(smoother: Smoother, mesh: Mesh) -> Steps:
     if motion is None or smoother.keeps_linear_motion:
         return smoother.steps(mesh)
     linear = mesh.free & motion.marks(mesh.n_nodes)
-    sweep = constrained_sweep(smoother, mesh, linear)
+    sweep = smoother.constrained_sweep(mesh, linear)
     if sweep is None:
         return _projected_steps(smoother, mesh.keeping_surface())
     return _steps_in_turns(smoother, mesh.keeping_surface(), linear, sweep)
-
-
-#: Function of the points (n, 3) that returns them with the constrained nodes moved.
-Sweep = Callable[[np.ndarray], np.ndarray]
-
-
-@singledispatch
-def constrained_sweep(smoother: Smoother, mesh: Mesh, linear: np.ndarray) -> Sweep | None:
-    """Make the sweep over the nodes with a linear motion, `linear` (n,) bool; None to project the method's steps."""
-    return None
-
-
-@constrained_sweep.register
-def _(smoother: Laplacian, mesh: Mesh, linear: np.ndarray) -> Sweep:
-    return ConstrainedMeans(mesh, linear)
-
-
-@constrained_sweep.register
-def _(smoother: SmartLaplacian, mesh: Mesh, linear: np.ndarray) -> Sweep:
-    return ConstrainedMeans(mesh, linear, smoother.guard)
-
-
-@constrained_sweep.register
-def _(smoother: LocalOptimiser, mesh: Mesh, linear: np.ndarray) -> Sweep:
-    sweeps, unit = ConstrainedSweeps(mesh, linear, smoother.norm), mesh.mean_edge_length or 1.0
-    direction = getattr(smoother, "direction", local.Direction.NEWTON)
-    find = steepest_descents if direction == local.Direction.STEEPEST_DESCENT else newton_steps
-
-    def sweep(points: np.ndarray) -> np.ndarray:
-        x = points / unit
-        sweeps(x, smoother.delta_at(mesh, points), find, smoother.line_search)
-        return np.where(linear[:, None], x * unit, points)
-
-    return sweep
 
 
 def _steps_in_turns(smoother: Smoother, mesh: Mesh, linear: np.ndarray, sweep: Sweep) -> Steps:

@@ -18,12 +18,13 @@ from hexmend.quality import measure
 from hexmend.smoothers.base import METHODS, Steps, method
 from hexmend.smoothers.constrained_steps import constrained_steps
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.smoothers.targeted_smoother import TargetedSmoother
 from hexmend.terminal_text import count_phrase
 
 
 @method
 @dataclass(frozen=True)
-class General(SlidingSmoother):
+class General(TargetedSmoother):
     """GETMe first; then, unless its result is good enough, the optimiser that suits the mesh."""
 
     name = "general"

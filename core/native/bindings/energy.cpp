@@ -7,7 +7,7 @@ namespace {
 
 template <class Real> void bind_assemble(nb::module_ m) {
     m.def("assemble", &assemble<Real>, "points"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a, "off_diagonal"_a,
-          "diagonal"_a, ReleaseGil(),
+          "diagonal"_a, "target"_a.none() = nb::none(), ReleaseGil(),
           "Add the Hessian of sum eta(H)^p to off_diagonal and diagonal, in their precision.\n\n"
           "Bit t of omitted (m,) uint8 is set where corner tetrahedron t of a hex is omitted. off_diagonal (blocks +\n"
           "1, 9): blocks above the diagonal, by rows, and an unused one. diagonal (k, 6): xx xy xz yy yz zz.");
@@ -43,20 +43,30 @@ void bind_assembly(nb::module_ m) {
 
 void bind_objective(nb::module_ m) {
     m.doc() = "Sum of eta(H)^p over a mesh: energies, gradient, Hessian product.";
-    m.def("energies", &energies, "points"_a, "hexes"_a, "delta"_a, "offset"_a, "omitted"_a, "eta"_a, ReleaseGil(),
+    m.def("energies", &energies, "points"_a, "hexes"_a, "delta"_a, "offset"_a, "omitted"_a, "eta"_a,
+          "target"_a.none() = nb::none(), ReleaseGil(),
           "eta(H), the mean of eta(T) minus offset, of every hex, with the barrier of (3.2) regularised by delta,\n"
           "in the unit of sigma; writes eta (m,).\n\n"
           "Bit t of omitted (m,) uint8 is set where corner tetrahedron t of the hex is omitted, that is, counts as\n"
-          "perfect.");
-    m.def("gradient", &gradient, "points"_a, "hexes"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a, ReleaseGil(),
+          "perfect. With a target, sigma and delta are in the cube of each hex's target lengths.");
+    m.def("gradient", &gradient, "points"_a, "hexes"_a, "delta"_a, "norm"_a, "omitted"_a, "shares"_a,
+          "target"_a.none() = nb::none(), ReleaseGil(),
           "Gradient of sum eta(H)^p by the corners of every hex, (B.3), (B.21); writes shares (m, 8, 3).");
     m.def("hessian_product", &hessian_product, "points"_a, "hexes"_a, "slots"_a, "values"_a, "delta"_a, "norm"_a,
-          "omitted"_a, "shares"_a, ReleaseGil(),
+          "omitted"_a, "shares"_a, "target"_a.none() = nb::none(), ReleaseGil(),
           "Hessian of sum eta(H)^p times a displacement of the free nodes, (B.19) corrected; writes shares (m, 8,\n"
           "3).\n\n"
           "slots is the number of each corner among the free nodes, -1 if it is fixed; values has a row for each.");
     m.def("gather", &gather, "shares"_a, "start"_a, "corners"_a, "nodes"_a, "rows"_a, ReleaseGil(),
           "Sum of the contributions, shares (m, 8, 3), over the corners at each of `nodes` (k,); writes rows (k, 3).");
+}
+
+void bind_target(nb::module_ m) {
+    m.doc() = "Targets of the hexes of a mesh.";
+    nb::class_<TargetMatrices>(m, "TargetMatrices", "Target matrices W = diag(lengths) along each hex's directions.")
+        .def(nb::init<Points, double>(), "inverse_lengths"_a, "size_weight"_a = 0.0, nb::keep_alive<1, 2>(),
+             "inverse_lengths (m, 3) float64, along x, y and z of each hex; not copied. size_weight is that of the\n"
+             "size beside the shape.");
 }
 
 }  // namespace hexmend

@@ -14,6 +14,10 @@ void bind_elements(nb::module_ m) {
           "of the eight corner determinants, (2.9). jacobian is the least of sigma/(|e1||e2||e3|), 0 at a corner\n"
           "with an edge of no length. eta is eta(H) = mean of eta(T) - 1, (B.20); +inf where sigma <= 0. A corner\n"
           "whose determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.");
+    m.def("measure_against", &measure_against, "points"_a, "hexes"_a, "target"_a, "q"_a, "eta"_a, ReleaseGil(),
+          "Quality of every hex against its target at delta = 0; writes two arrays (m,) float64.\n\n"
+          "eta is eta(H) of S W^-1, the mean of eta(T) - 1, with the size beside the shape if it has a weight; q is\n"
+          "the mean of 1/eta(T). An inverted corner has eta(T) = +inf.");
     m.def("mean_edge_length", &mean_edge_length, "points"_a, "hexes"_a, ReleaseGil(),
           "Mean length of the hexes' edges, each counted once a hex; 0 without hexes.");
     m.def("corner_qualities", &corner_qualities, "points"_a, "hexes"_a, "q"_a, ReleaseGil(),

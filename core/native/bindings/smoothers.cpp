@@ -101,8 +101,10 @@ void bind_local(nb::module_ m) {
         .value("FLAT", FLAT, "The gradient is 0, or the patch has no extent.")
         .value("INFINITE", INFINITE, "The energy is infinite.");
     nb::class_<NodeStepSettings>(m, "NodeStepSettings", "Settings of a step at a node.")
-        .def(nb::init<Direction, double, ObjectiveNorm, LineSearch>(), "direction"_a, "delta"_a, "norm"_a, "search"_a,
-             "delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.");
+        .def(nb::init<Direction, double, ObjectiveNorm, LineSearch, const TargetMatrices *>(), "direction"_a, "delta"_a,
+             "norm"_a, "search"_a, "target"_a.none() = nb::none(), nb::keep_alive<1, 6>(),
+             "delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)\n"
+             "of the objective.");
     m.def(
         "sweep",
         [](std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
@@ -125,9 +127,11 @@ void bind_local(nb::module_ m) {
         .def_ro("value", &PatchEnergy::value)
         .def_ro("gradient", &PatchEnergy::gradient)
         .def_ro("hessian", &PatchEnergy::hessian, "xx, xy, xz, yy, yz, zz");
-    m.def("patch_energy", &patch_energy, "points"_a, "hexes"_a, "star"_a, "factor"_a, "delta"_a, "norm"_a, ReleaseGil(),
+    m.def("patch_energy", &patch_energy, "points"_a, "hexes"_a, "star"_a, "factor"_a, "delta"_a, "norm"_a,
+          "target"_a.none() = nb::none(), ReleaseGil(),
           "Energy of the patch of the node whose corners are star (k,) int32, 8 * hex + corner each.\n\n"
-          "Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0.");
+          "Lengths are multiplied by `factor`, or scaled to mean edge length 1 where it is 0, with a target to unit\n"
+          "root mean square of the inverse lengths.");
     nb::class_<RecordedStep>(m, "RecordedStep", "A step at one node, in mean edge lengths of its patch.")
         .def_ro("status", &RecordedStep::status)
         .def_ro("direction", &RecordedStep::direction, "0 where the status is FLAT or INFINITE")
@@ -142,7 +146,7 @@ void bind_local(nb::module_ m) {
     m.def("recorded_step", &recorded_step, "points"_a, "hexes"_a, "star"_a, "settings"_a, ReleaseGil(),
           "The step that `sweep` takes at the node whose corners are star (k,) int32; moves nothing.\n");
     m.def("energy_along", &energy_along, "points"_a, "hexes"_a, "star"_a, "factor"_a, "direction"_a, "delta"_a,
-          "norm"_a, "curve"_a, ReleaseGil(),
+          "norm"_a, "curve"_a, "target"_a.none() = nb::none(), ReleaseGil(),
           "Energy of a patch along a direction (3,): writes the value at step length curve[:, 0] to curve[:, 1].\n\n"
           "star and factor: those of `patch_energy`.");
 }
@@ -150,8 +154,10 @@ void bind_local(nb::module_ m) {
 void bind_patches(nb::module_ m) {
     m.doc() = "Patches of several free nodes, and a Newton step of each.";
     nb::class_<PatchStepSettings>(m, "PatchStepSettings", "Settings of a step of a patch.")
-        .def(nb::init<double, ObjectiveNorm, LineSearch>(), "delta"_a, "norm"_a, "search"_a,
-             "delta applies to the patch scaled to mean edge length 1; norm is (p, offset) of the objective.\n");
+        .def(nb::init<double, ObjectiveNorm, LineSearch, const TargetMatrices *>(), "delta"_a, "norm"_a, "search"_a,
+             "target"_a.none() = nb::none(), nb::keep_alive<1, 5>(),
+             "delta applies to the patch scaled to mean edge length 1, with a target to S W^-1; norm is (p, offset)\n"
+             "of the objective. The target has a row for each of the partition's hexes.");
     nb::class_<PatchPartition>(m, "PatchPartition", "Patches, as `partition` makes them.")
         .def(
             "__init__",

@@ -60,9 +60,10 @@ void scatter(const Real *values, const Hex &slots, const std::array<std::int32_t
     }
 }
 
-template <bool soft, class Real>
+template <bool soft, class Real, class Target>
 void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-                 std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+                 std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+                 const Target &target) {
     parallel(static_cast<std::int64_t>(shared.bounds.size()) - 1, [&](std::int64_t share) {
         auto low = shared.bounds[share], high = shared.bounds[share + 1];
         auto sums = std::make_unique<HessianSums>();
@@ -70,6 +71,8 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
         for (auto first = shared.start[share]; first < shared.start[share + 1]; first += LANES) {
             int count = std::min(LANES, shared.start[share + 1] - first);
             auto x = gather_corners<Lanes>(points, shared.hexes, first, count);
+            auto scales =
+                scales_of<Lanes>(target, [&](int i) { return shared.numbers[first + (i < count ? i : count - 1)]; });
             std::uint8_t bits[LANES];
             for (int i = 0; i < count; ++i) bits[i] = omitted[shared.numbers[first + i]];
             CornerMask<Lanes> counted(bits, 0, count);
@@ -78,7 +81,7 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
                 for (auto s : shared.target[first + i])
                     if (s >= 0) __builtin_prefetch(&off_diagonal[s], 1), __builtin_prefetch(&off_diagonal[s][8], 1);
             *sums = HessianSums{};
-            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, delta, counted(t), *sums); });
+            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x, scales, delta, counted(t), *sums); });
             weigh_hessian<Real>(*sums, norm, values.get());
             for (int i = 0; i < count; ++i)
                 scatter<Real>(values[i], shared.slots[first + i], shared.target[first + i], low, high, off_diagonal,
@@ -91,17 +94,22 @@ void assemble_of(Points points, double delta, ObjectiveNorm norm, OmittedCorners
 
 template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal) {
+              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+              const TargetMatrices *matrices) {
+    expect_rows(matrices, omitted.size());
     // A copy that the compiler can keep in registers: the AVX-512 build then rounds the same sums as before.
     const auto [bounds, start, numbers, hexes, slots, target] = shared;
     const HexShares local{bounds, start, numbers, hexes, slots, target};
-    if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal);
-    else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal);
+    with_target(matrices, [&](const auto &w) {
+        if (delta != 0) assemble_of<true, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
+        else assemble_of<false, Real>(points, delta, norm, omitted, local, off_diagonal, diagonal, w);
+    });
 }
 
 #define FOR_REAL(Real)                                                                             \
     template void assemble<Real>(Points, double, ObjectiveNorm, OmittedCorners, const HexShares &, \
-                                 std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>);
+                                 std::span<std::array<Real, 9>>, std::span<std::array<Real, 6>>,   \
+                                 const TargetMatrices *);
 FOR_REAL(float)
 FOR_REAL(double)
 

@@ -4,6 +4,7 @@
 
 #include "energy/objective.hpp"
 #include "energy/objective_norm.hpp"
+#include "energy/target.hpp"
 #include "linear/sparsity.hpp"
 
 namespace hexmend {
@@ -23,6 +24,7 @@ struct HexShares {
 // all its hexes, so that each block is summed in one order for any number of shares.
 template <class Real>
 void assemble(Points points, double delta, ObjectiveNorm norm, OmittedCorners omitted, const HexShares &shared,
-              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal);
+              std::span<std::array<Real, 9>> off_diagonal, std::span<std::array<Real, 6>> diagonal,
+              const TargetMatrices *matrices = nullptr);
 
 }  // namespace hexmend

@@ -8,6 +8,8 @@
 // because a determinant is linear in each of its columns. A patch is therefore a table of coefficients for each
 // tetrahedron, computed once per step, from which value, gradient and trial values of the line search follow cheaply.
 //
+// With a target, S is S W^-1: g and b are scaled, and k is the sum of the squared scales of the columns that hold y.
+//
 // Every hex is rotated so that the node is its corner 0: all lanes then compute the same formulas. Unused lanes of the
 // last block repeat the last hex and are excluded from sums.
 //
@@ -44,16 +46,17 @@ struct ValueAndGradient {
 };
 
 // The hexes at one node in blocks of lanes. The methods with parameter `soft` are for delta > 0 if it is true.
-template <class T> class NodePatch {
+template <class T, class Target = Cubes> class NodePatch {
   public:
     // Allocate for at most `most` hexes.
-    explicit NodePatch(std::int64_t most) : blocks_((most + width<T> - 1) / width<T>) {}
+    NodePatch(std::int64_t most, const Target &target) : target_(target), blocks_((most + width<T> - 1) / width<T>) {}
 
     // Number of hexes.
     int size() const { return size_; }
 
     // Load the hexes at a node relative to it, scaled by `factor` or, if that is 0, to mean edge length 1 (each edge
-    // counted once per hex). Returns the factor; 0 if the patch has no extent.
+    // counted once per hex), with a target to unit root mean square of the inverse lengths: the shortest ones decide
+    // how far a node can move. Returns the factor; 0 if the patch has no extent.
     __attribute__((noinline)) double load(Points points, Hexes hexes, Star star, double factor = 0) {
         size_ = static_cast<int>(star.size());
         const Point &node = points[hexes[star[0] / 8][star[0] % 8]];
@@ -66,14 +69,18 @@ template <class T> class NodePatch {
                 std::int32_t corner = star[s < size_ ? s : size_ - 1];
                 hex[i] = rotated(hexes[corner / 8], corner % 8);
             }
+            if constexpr (scaled) total += load_scales(star, b);
             auto &x = blocks_[b].x;
             for (int c = 0; c < 8; ++c)
                 x.at[c] = load_lanes<T>([&](int i) -> const Point & { return points[hex[i][c]]; }) - origin;
-            if (factor == 0) total += sum(edge_lengths(x), b);
+            if (!scaled && factor == 0) total += sum(edge_lengths(x), b);
         }
-        if (factor == 0) factor = total > 0 ? 12 * size_ / total : 0.0;
-        for (int b = 0; b < blocks(); ++b)
+        if (scaled && factor == 0) factor = has_extent() ? std::sqrt(total / (3 * size_)) : 0.0;
+        else if (factor == 0) factor = total > 0 ? 12 * size_ / total : 0.0;
+        for (int b = 0; b < blocks(); ++b) {
             for (auto &corner : blocks_[b].x.at) corner = broadcast<T>(factor) * corner;
+            if constexpr (scaled) blocks_[b].scales.inverse = broadcast<T>(1 / factor) * blocks_[b].scales.inverse;
+        }
         return factor;
     }
 
@@ -83,13 +90,12 @@ template <class T> class NodePatch {
             auto &block = blocks_[b];
             const auto &x = block.x.at;
             // Corner tetrahedra as in CORNER_TETRAHEDRA; those of neighbours are rotated to begin with the node.
-            add_own_tetrahedron(block.incident[0], x[3], x[4], x[1]);
-            add_neighbour_tetrahedron(block.incident[1], x[1], x[5], x[2]);
-            add_neighbour_tetrahedron(block.incident[2], x[3], x[2], x[7]);
-            add_neighbour_tetrahedron(block.incident[3], x[4], x[7], x[5]);
-            block.constant =
-                constant_eta<soft>(x[2], x[1], x[6], x[3], delta) + constant_eta<soft>(x[5], x[4], x[6], x[1], delta) +
-                constant_eta<soft>(x[6], x[5], x[7], x[2], delta) + constant_eta<soft>(x[7], x[6], x[4], x[3], delta);
+            add_own_tetrahedron(block, x[3], x[4], x[1]);
+            add_neighbour_tetrahedron<1, 0, 5, 2>(block, block.incident[1]);
+            add_neighbour_tetrahedron<3, 0, 2, 7>(block, block.incident[2]);
+            add_neighbour_tetrahedron<4, 0, 7, 5>(block, block.incident[3]);
+            block.constant = constant_eta<soft, 2>(block, delta) + constant_eta<soft, 5>(block, delta) +
+                             constant_eta<soft, 6>(block, delta) + constant_eta<soft, 7>(block, delta);
         }
     }
 
@@ -110,8 +116,9 @@ template <class T> class NodePatch {
             T eta = block.constant;
             for (int j = 0; j < 4; ++j) {
                 const auto &t = block.incident[j];
-                T sigma = t.sigma + alpha * t.along_g, squared = (t.square + (j ? far : 3 * far)) + alpha * t.along_b;
+                T sigma = t.sigma + alpha * t.along_g, squared = (t.square + t.k(j) * far) + alpha * t.along_b;
                 eta += energy_at<soft>(sigma, squared, delta).eta();
+                if constexpr (scaled) eta += size_term<soft>(sigma, delta, block.scales.size_weight).value;
             }
             total += sum_of_powers(eta, norm, b);
         }
@@ -131,6 +138,11 @@ template <class T> class NodePatch {
                 eta += t.energy.eta();
                 // d eta = 2 eta [ (dS, S)/|S|^2 - d sigma/(3 r) ], the first of which is f b . y
                 g += t.energy.f * t.b - t.energy.eta() * (2.0 / 3.0) / t.energy.r * t.g;
+                if constexpr (scaled) {
+                    t.size = size_term<soft>(t.sigma, delta, block.scales.size_weight);
+                    eta += t.size.value;
+                    g += t.size.slope * t.g;
+                }
             }
             block.eta = eta * 0.125 - norm.offset;
             block.gradient = broadcast<T>(0.125) * g;
@@ -152,8 +164,9 @@ template <class T> class NodePatch {
             for (int j = 0; j < 4; ++j) {
                 const auto &t = block.incident[j];
                 T over_r = 1.0 / t.energy.r;
-                T a = (4.0 / 3.0) * t.energy.f * over_r, k = (j ? 2.0 : 6.0) * t.energy.f;
+                T a = (4.0 / 3.0) * t.energy.f * over_r, k = (2.0 * t.k(j)) * t.energy.f;
                 T c = (2.0 / 3.0) * t.energy.eta() * over_r * over_r * (2.0 / 3.0 + t.sigma * over_r);
+                if constexpr (scaled) c += t.size.curvature;
                 V3<T> s = broadcast<T>(0.5) * t.b, g = t.g;
                 xx += k - 2.0 * a * s.x * g.x + c * g.x * g.x;
                 yy += k - 2.0 * a * s.y * g.y + c * g.y * g.y;
@@ -175,21 +188,38 @@ template <class T> class NodePatch {
     }
 
   private:
-    struct TetTerms {
+    static constexpr bool scaled = !std::is_same_v<Target, Cubes>;
+
+    // What a target adds to the terms of a tetrahedron: k, and the size's share at the node's position.
+    struct Additional {
+        T squared_scales;
+        SizeTerm<T> size;
+    };
+    struct Nothing {};
+
+    struct TetTerms : std::conditional_t<scaled, Additional, Nothing> {
         T sigma, square;
         V3<T> g, b;
         T along_g, along_b;
         Energy<T> energy;
+
+        // Of tetrahedron j: 3 at the apex, else 1, without a target.
+        auto k(int j) const {
+            if constexpr (scaled) return this->squared_scales;
+            else return j ? 1.0 : 3.0;
+        }
     };
 
     struct Block {
         Corners<T> x;
+        [[no_unique_address]] ScalesOf<T, Target> scales;
         TetTerms incident[4];
         T constant, eta;
         V3<T> gradient;
         LanePowerDerivatives<T> weights;
     };
 
+    [[no_unique_address]] Target target_;
     std::vector<Block> blocks_;
     int size_ = 0;
     double squared_length_ = 0;
@@ -221,29 +251,75 @@ template <class T> class NodePatch {
         return {power_minus_two_thirds(h) * (1.0 / 3.0), squared, sigma, r};
     }
 
+    // Load the scales of block b, rotated as its hexes are; returns the sum of their squares.
+    double load_scales(Star star, int b) {
+        Point inverse[width<T>];
+        for (int i = 0; i < width<T>; ++i) {
+            int s = b * width<T> + i;
+            std::int32_t corner = star[s < size_ ? s : size_ - 1];
+            const auto &row = target_.inverse_lengths[corner / 8];
+            for (int k = 0; k < 3; ++k) inverse[i][k] = row[ROTATED_DIRECTIONS[corner % 8][k]];
+        }
+        auto &scales = blocks_[b].scales;
+        scales = {load_lanes<T>([&](int i) -> const Point & { return inverse[i]; }), target_.size_weight};
+        return sum(hexmend::square(scales.inverse), b);
+    }
+
+    // True if not all corners are at the node.
+    bool has_extent() const {
+        for (int b = 0; b < blocks(); ++b)
+            if (sum(edge_lengths(blocks_[b].x), b) > 0) return true;
+        return false;
+    }
+
     // The node's own tetrahedron: S = [u - y, v - y, w - y].
-    static void add_own_tetrahedron(TetTerms &t, const V3<T> &u, const V3<T> &v, const V3<T> &w) {
-        M3<T> s{u, v, w};
-        t.sigma = determinant(s);
-        t.g = -(cross(v, w) + cross(w, u) + cross(u, v));
-        t.square = square(s);
-        t.b = broadcast<T>(-2.0) * (u + v + w);
+    static void add_own_tetrahedron(Block &block, const V3<T> &u, const V3<T> &v, const V3<T> &w) {
+        auto &t = block.incident[0];
+        M3<T> edges{u, v, w};
+        if constexpr (scaled) {
+            auto by = block.scales.template columns<0>();
+            M3<T> s = scale(edges, by), of_node = scale(s, by), cof = scale(cofactors(s), by);
+            t.sigma = scale(determinant(edges), by);
+            t.g = -(cof.u + cof.v + cof.w);
+            t.square = square(s);
+            t.b = broadcast<T>(-2.0) * (of_node.u + of_node.v + of_node.w);
+            t.squared_scales = by.u * by.u + by.v * by.v + by.w * by.w;
+        } else {
+            t.sigma = determinant(edges);
+            t.g = -(cross(v, w) + cross(w, u) + cross(u, v));
+            t.square = square(edges);
+            t.b = broadcast<T>(-2.0) * (u + v + w);
+        }
     }
 
-    // A neighbour's tetrahedron: S = [y - a, b - a, c - a].
-    static void add_neighbour_tetrahedron(TetTerms &t, const V3<T> &a, const V3<T> &b, const V3<T> &c) {
-        V3<T> u = b - a, v = c - a;
-        t.g = cross(u, v);
-        t.sigma = -dot(a, t.g);
-        t.square = square(a) + square(u) + square(v);
-        t.b = broadcast<T>(-2.0) * a;
+    // The tetrahedron of the neighbour at corner `apex`: S = [y - a, b - a, c - a], from the node to the corners b, c.
+    template <int apex, int node, int b_corner, int c_corner>
+    static void add_neighbour_tetrahedron(Block &block, TetTerms &t) {
+        const auto &x = block.x.at;
+        const V3<T> &a = x[apex];
+        V3<T> u = x[b_corner] - a, v = x[c_corner] - a;
+        if constexpr (scaled) {
+            const auto &by = block.scales;
+            T d = by.template along<direction_of(apex, node)>();
+            u = by.template along<direction_of(apex, b_corner)>() * u;
+            v = by.template along<direction_of(apex, c_corner)>() * v;
+            t.g = d * cross(u, v);
+            t.sigma = -dot(a, t.g);
+            t.square = d * d * square(a) + square(u) + square(v);
+            t.b = (-2.0 * d * d) * a;
+            t.squared_scales = d * d;
+        } else {
+            t.g = cross(u, v);
+            t.sigma = -dot(a, t.g);
+            t.square = square(a) + square(u) + square(v);
+            t.b = broadcast<T>(-2.0) * a;
+        }
     }
 
-    // eta of a tetrahedron without the node.
-    template <bool soft>
-    static T constant_eta(const V3<T> &a, const V3<T> &b, const V3<T> &c, const V3<T> &d, double delta) {
-        M3<T> s{b - a, c - a, d - a};
-        return energy_at<soft>(determinant(s), square(s), delta).eta();
+    // eta of corner tetrahedron t, one without the node.
+    template <bool soft, int t> static T constant_eta(const Block &block, double delta) {
+        return hexmend::eta<soft>(block.x.template edges<t>(), block.scales.template columns<t>(), delta,
+                                  std::true_type{});
     }
 };
 

@@ -4,25 +4,41 @@
 
 namespace hexmend {
 
-void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta) {
+void energies(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta,
+              const TargetMatrices *target) {
     expect(omitted.size() == hexes.size() && eta.size() == hexes.size(),
            "omitted and eta: one for each hex is expected");
-    (delta != 0 ? energies_of<true, Lanes> : energies_of<false, Lanes>)(points, hexes, delta, offset, omitted, eta);
+    expect_rows(target, hexes.size());
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0 ? energies_of<true, Lanes, Target> : energies_of<false, Lanes, Target>)(points, hexes, delta,
+                                                                                            offset, omitted, eta, w);
+    });
 }
 
 void gradient(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
-              CornerVectors shares) {
+              CornerVectors shares, const TargetMatrices *target) {
     expect(omitted.size() == hexes.size() && shares.size() == hexes.size(),
            "omitted and shares: one for each hex is expected");
-    (delta != 0 ? gradient_of<true, Lanes> : gradient_of<false, Lanes>)(points, hexes, delta, norm, omitted, shares);
+    expect_rows(target, hexes.size());
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0 ? gradient_of<true, Lanes, Target> : gradient_of<false, Lanes, Target>)(points, hexes, delta, norm,
+                                                                                            omitted, shares, w);
+    });
 }
 
 void hessian_product(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                     OmittedCorners omitted, CornerVectors shares) {
+                     OmittedCorners omitted, CornerVectors shares, const TargetMatrices *target) {
     expect(omitted.size() == hexes.size() && slots.size() == hexes.size() && shares.size() == hexes.size(),
            "omitted, slots and shares: one for each hex is expected");
-    (delta != 0 ? hessian_product_of<true, Lanes> : hessian_product_of<false, Lanes>)(points, hexes, slots, values,
-                                                                                      delta, norm, omitted, shares);
+    expect_rows(target, hexes.size());
+    with_target(target, [&](const auto &w) {
+        using Target = std::remove_cvref_t<decltype(w)>;
+        (delta != 0
+             ? hessian_product_of<true, Lanes, Target>
+             : hessian_product_of<false, Lanes, Target>)(points, hexes, slots, values, delta, norm, omitted, shares, w);
+    });
 }
 
 void gather(std::span<const Point> shares, Indices start, Indices corners, Indices nodes, std::span<Point> rows) {

@@ -7,16 +7,16 @@
 
 namespace hexmend {
 
-template <bool soft, class T>
-void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted,
-                 std::span<double> eta) {
+template <bool soft, class T, class Target>
+void energies_of(Points points, Hexes hexes, double delta, double offset, OmittedCorners omitted, std::span<double> eta,
+                 const Target &target) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
+        auto scales = scales_of<T>(target, first, count);
         T sum{};
         with_corner_mask<T>(omitted, first, count, [&](auto counted) {
             unroll<8>([&](auto t) {
-                auto e = energy<soft>(x.template edges<t>(), delta, counted(t));
-                sum += counted(t) ? e.eta() : broadcast<T>(1.0);
+                sum += hexmend::eta<soft>(x.template edges<t>(), scales.template columns<t>(), delta, counted(t));
             });
         });
         sum = hex_energy(sum, offset);
@@ -24,20 +24,22 @@ void energies_of(Points points, Hexes hexes, double delta, double offset, Omitte
     });
 }
 
-template <bool soft, class T>
+template <bool soft, class T, class Target>
 void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, OmittedCorners omitted,
-                 CornerVectors shares) {
+                 CornerVectors shares, const Target &target) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
+        auto scales = scales_of<T>(target, first, count);
         CornerMask<T> counted(omitted, first, count);
         Corners<T> g;
         T sum{};
         unroll<8>([&](auto t) {
-            auto s = x.template edges<t>();
-            auto cof = cofactors(s);
-            auto d = derivatives<soft>(s, cof, delta, counted(t));
+            auto edges = x.template edges<t>();
+            auto by = scales.template columns<t>();
+            auto s = scale(edges, by), cof = cofactors(s);
+            auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
             sum += counted(t) ? d.eta : broadcast<T>(1.0);
-            g.template scatter<t>(gradient(d, s, cof));
+            g.template scatter<t>(scale(gradient(d, s, cof), by));
         });
         LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
         for (auto &corner : g.at) corner = by.first * corner;
@@ -45,24 +47,26 @@ void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, O
     });
 }
 
-template <bool soft, class T>
+template <bool soft, class T, class Target>
 void hessian_product_of(Points points, Hexes hexes, Hexes slots, Points values, double delta, ObjectiveNorm norm,
-                        OmittedCorners omitted, CornerVectors shares) {
+                        OmittedCorners omitted, CornerVectors shares, const Target &target) {
     for_each_block<T>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<T>(points, hexes, first, count);
         auto v = gather_corners_or_zero<T>(values, slots, first, count);
+        auto scales = scales_of<T>(target, first, count);
         CornerMask<T> counted(omitted, first, count);
         Corners<T> g, h;
         T sum{}, slope{};
         unroll<8>([&](auto t) {
-            auto s = x.template edges<t>(), a = v.template edges<t>();
-            auto cof = cofactors(s);
-            auto d = derivatives<soft>(s, cof, delta, counted(t));
+            auto edges = x.template edges<t>();
+            auto by = scales.template columns<t>();
+            auto s = scale(edges, by), a = scale(v.template edges<t>(), by), cof = cofactors(s);
+            auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
             DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
             sum += counted(t) ? d.eta : broadcast<T>(1.0);
             slope += along.slope(d);
-            g.template scatter<t>(gradient(d, s, cof));
-            h.template scatter<t>(product(d, s, cof, a, along));
+            g.template scatter<t>(scale(gradient(d, s, cof), by));
+            h.template scatter<t>(scale(product(d, s, cof, a, along), by));
         });
         LanePowerDerivatives<T> by(sum * 0.125 - norm.offset, norm.p);
         T along = by.second * slope;

@@ -10,10 +10,15 @@
 // The second is (B.19), corrected, with (B.3) substituted for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing
 // is divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
 //
+// With a target, S is S W^-1 throughout (column_scales.hpp), and beside the shape the size counts: weight g(h), g(h) =
+// (h + 1/h)/2 - 1, which is convex in sigma for any delta. With h' = h/r and h'' = 2 delta^2/r^3 its derivatives by
+// sigma are (h - 1/h)/(2 r) and 1/(h r^2) + (1 - 1/h^2) delta^2/r^3.
+//
 // A tetrahedron that is not `counted` is omitted: f, to which energy and derivatives are proportional, is 0. The
 // template parameter `soft` is true for delta > 0.
 #pragma once
 
+#include "energy/column_scales.hpp"
 #include "simd/vectors.hpp"
 
 namespace hexmend {
@@ -75,8 +80,27 @@ template <bool soft, class T> inline Energy<T> energy_of(const M3<T> &s, T sigma
     return {counted ? f : broadcast<T>(0.0), square(s), sigma, r};
 }
 
-template <bool soft, class T> inline Energy<T> energy(const M3<T> &s, double delta, auto counted) {
-    return energy_of<soft>(s, determinant(s), delta, counted);
+// The size's share of the energy of a tetrahedron, weight g(h), and its derivatives by sigma.
+template <class T> struct SizeTerm {
+    T value{}, slope{}, curvature{};
+};
+
+template <bool soft, class T> inline SizeTerm<T> size_term(T sigma, double delta, double weight) {
+    if (weight == 0) return {};
+    auto [h, r] = barrier<soft>(sigma, delta);
+    T over_h = 1.0 / h, over_r = 1.0 / r;
+    T curvature = over_h * over_r * over_r;
+    if constexpr (soft) curvature += (1.0 - over_h * over_h) * (delta * over_r) * (delta * over_r) * over_r;
+    return {weight * (0.5 * (h + over_h) - 1.0), (0.5 * weight) * (h - over_h) * over_r, weight * curvature};
+}
+
+// eta(T) with S = edges W^-1, and the size's share; 1, as of a perfect one, where it is not counted.
+template <bool soft, class T, class Scales>
+inline T eta(const M3<T> &edges, const Scales &scales, double delta, auto counted) {
+    T sigma = scale(determinant(edges), scales);
+    T value = energy_of<soft>(scale(edges, scales), sigma, delta, counted).eta();
+    if constexpr (Scales::scaled) value += size_term<soft>(sigma, delta, scales.size_weight).value;
+    return counted ? value : broadcast<T>(1.0);
 }
 
 // Coefficients of the first and second derivatives of eta/8; the mean of eight eta is eta(H).
@@ -87,14 +111,25 @@ template <class T> struct Derivatives {
     T eta, k, c, mixed, half;
 };
 
-template <bool soft, class T>
-inline Derivatives<T> derivatives(const M3<T> &s, const M3<T> &cof, double delta, auto counted) {
+// Of a tetrahedron with these edges; S = edges W^-1 and its cofactors.
+template <bool soft, class T, class Scales>
+inline Derivatives<T> derivatives(const M3<T> &edges, const Scales &scales, const M3<T> &s, const M3<T> &cof,
+                                  double delta, auto counted) {
     // For delta = 0 the sign of sigma decides: use the determinant that all kernels share.
-    T sigma = soft ? dot(s.u, cof.u) : determinant(s);
+    T sigma = soft ? dot(s.u, cof.u) : scale(determinant(edges), scales);
     auto e = energy_of<soft>(s, sigma, delta, counted);
     T over_r = counted ? 1.0 / e.r : broadcast<T>(0.0);
     T k = 0.25 * e.f, c = e.eta() * over_r * (1.0 / 12.0);
-    return {e.eta(), k, c, (-2.0 / 3.0) * k * over_r, c * over_r * (1.0 / 3.0 + 0.5 * sigma * over_r)};
+    Derivatives<T> d{e.eta(), k, c, (-2.0 / 3.0) * k * over_r, c * over_r * (1.0 / 3.0 + 0.5 * sigma * over_r)};
+    if constexpr (Scales::scaled) {
+        if (scales.size_weight != 0) {
+            auto size = size_term<soft>(sigma, delta, scales.size_weight);
+            d.eta += size.value;
+            d.c -= counted ? 0.125 * size.slope : broadcast<T>(0.0);
+            d.half += counted ? 0.0625 * size.curvature : broadcast<T>(0.0);
+        }
+    }
+    return d;
 }
 
 // The gradient of eta/8 by the columns of S: (B.3).

@@ -73,6 +73,25 @@ void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> 
     });
 }
 
+void measure_against(Points points, Hexes hexes, const TargetMatrices &target, std::span<double> q,
+                     std::span<double> eta) {
+    expect_rows(&target, hexes.size());
+    for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
+        auto x = gather_corners<Lanes>(points, hexes, first, count);
+        auto scales = scales_of<Lanes>(target, first, count);
+        Lanes quality{}, energy{};
+        unroll<8>([&](auto t) {
+            Lanes corner =
+                hexmend::eta<false>(x.template edges<t>(), scales.template columns<t>(), 0, std::true_type{});
+            energy += corner;
+            quality += corner > 0.0 ? 1.0 / corner : broadcast<Lanes>(0.0);
+        });
+        Lanes value = hex_energy(energy, 1);
+        store(quality * 0.125, first, count, q);
+        store(value, first, count, eta);
+    });
+}
+
 void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q) {
     for_each_block<Lanes>(hexes.size(), [&](std::int64_t first, int count) {
         auto x = gather_corners<Lanes>(points, hexes, first, count);

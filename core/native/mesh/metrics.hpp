@@ -3,6 +3,7 @@
 // Stimpson, Ernst, Knupp, Pébay and Thompson: The Verdict Geometric Quality Library, SAND2007-1751.
 #pragma once
 
+#include "energy/target.hpp"
 #include "mesh/array_views.hpp"
 
 namespace hexmend {
@@ -12,6 +13,10 @@ namespace hexmend {
 // q = 0 and eta = INF.
 void measure(Points points, Hexes hexes, std::span<double> q, std::span<double> sigma, std::span<double> jacobian,
              std::span<double> eta);
+
+// q(H) and eta(H) of hexes with a target: q(T) = 1/eta(T), in which the size counts too.
+void measure_against(Points points, Hexes hexes, const TargetMatrices &target, std::span<double> q,
+                     std::span<double> eta);
 
 // q(T), (2.8), and sigma, (2.9), of the corner tetrahedra.
 void corner_qualities(Points points, Hexes hexes, ArrayView<double, 8> q);

@@ -5,14 +5,14 @@
 namespace hexmend {
 namespace {
 
-NodePatch<Lanes> patch_of(Star star) {
+template <class Target> NodePatch<Lanes, Target> patch_of(Star star, const Target &target) {
     expect(!star.empty(), "a node that no hex uses has no patch");
-    return NodePatch<Lanes>(star.size());
+    return {static_cast<std::int64_t>(star.size()), target};
 }
 
-template <bool soft> ValueAndGradient evaluated(NodePatch<Lanes> &patch, double delta, ObjectiveNorm norm) {
-    patch.tabulate<soft>(delta);
-    return patch.value_and_gradient<soft>(delta, norm);
+template <bool soft, class Patch> ValueAndGradient evaluated(Patch &patch, double delta, ObjectiveNorm norm) {
+    patch.template tabulate<soft>(delta);
+    return patch.template value_and_gradient<soft>(delta, norm);
 }
 
 // Observer that records the step at one node.
@@ -41,34 +41,51 @@ class StepRecorder {
 
 std::int64_t local_sweep(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                          const NodeStepSettings &settings) {
-    return (settings.delta != 0 ? local_sweep_of<true, Lanes> : local_sweep_of<false, Lanes>)(points, mesh, groups,
-                                                                                              nodes, settings);
+    expect_rows(settings.target, mesh.hexes.size());
+    return with_target(settings.target, [&](const auto &target) {
+        using Target = std::remove_cvref_t<decltype(target)>;
+        return (settings.delta != 0
+                    ? local_sweep_of<true, Lanes, Target>
+                    : local_sweep_of<false, Lanes, Target>)(points, mesh, groups, nodes, settings, target);
+    });
 }
 
-PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm) {
-    auto patch = patch_of(star);
-    factor = patch.load(points, hexes, star, factor);
-    ValueAndGradient at = delta != 0 ? evaluated<true>(patch, delta, norm) : evaluated<false>(patch, delta, norm);
-    SymmetricMatrix h = patch.hessian();
-    return {factor, at.value, point(at.gradient), {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
+PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm,
+                         const TargetMatrices *target) {
+    expect_rows(target, hexes.size());
+    return with_target(target, [&](const auto &matrices) -> PatchEnergy {
+        auto patch = patch_of(star, matrices);
+        double scaled_by = patch.load(points, hexes, star, factor);
+        ValueAndGradient at = delta != 0 ? evaluated<true>(patch, delta, norm) : evaluated<false>(patch, delta, norm);
+        SymmetricMatrix h = patch.hessian();
+        return {scaled_by, at.value, point(at.gradient), {h.xx, h.xy, h.xz, h.yy, h.yz, h.zz}};
+    });
 }
 
 RecordedStep recorded_step(Points points, Hexes hexes, Indices star, const NodeStepSettings &settings) {
-    NodePatch<Lanes> patch[]{patch_of(star)};
+    expect_rows(settings.target, hexes.size());
     StepRecorder recorder;
-    settings.delta != 0 ? step_nodes<true>(patch, points, hexes, {star}, settings, recorder)
-                        : step_nodes<false>(patch, points, hexes, {star}, settings, recorder);
+    with_target(settings.target, [&](const auto &target) {
+        decltype(patch_of(star, target)) patch[]{patch_of(star, target)};
+        settings.delta != 0 ? step_nodes<true>(patch, points, hexes, {star}, settings, recorder)
+                            : step_nodes<false>(patch, points, hexes, {star}, settings, recorder);
+    });
     return std::move(recorder.step);
 }
 
 void energy_along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction,
-                  double delta, ObjectiveNorm norm, std::span<std::array<double, 2>> curve) {
-    auto patch = patch_of(star);
-    patch.load(points, hexes, star, factor);
-    delta != 0 ? patch.tabulate<true>(delta) : patch.tabulate<false>(delta);
-    patch.set_direction(vector(direction));
-    for (auto &[alpha, value] : curve)
-        value = delta != 0 ? patch.value_along<true>(alpha, delta, norm) : patch.value_along<false>(alpha, delta, norm);
+                  double delta, ObjectiveNorm norm, std::span<std::array<double, 2>> curve,
+                  const TargetMatrices *target) {
+    expect_rows(target, hexes.size());
+    with_target(target, [&](const auto &matrices) {
+        auto patch = patch_of(star, matrices);
+        patch.load(points, hexes, star, factor);
+        delta != 0 ? patch.template tabulate<true>(delta) : patch.template tabulate<false>(delta);
+        patch.set_direction(vector(direction));
+        for (auto &[alpha, value] : curve)
+            value = delta != 0 ? patch.template value_along<true>(alpha, delta, norm)
+                               : patch.template value_along<false>(alpha, delta, norm);
+    });
 }
 
 }  // namespace hexmend

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "energy/objective_norm.hpp"
+#include "energy/target.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "smoothers/line_search.hpp"
 
@@ -14,12 +15,14 @@ enum Direction { STEEPEST_DESCENT, NEWTON, MODIFIED_NEWTON };
 // energy is infinite.
 enum StepStatus { MOVED, NO_DESCENT, FLAT, INFINITE };
 
-// Settings of a step at a node. Lengths are in mean edge lengths of the node's patch.
+// Settings of a step at a node. Lengths are in mean edge lengths of the node's patch, those of delta with a target in
+// lengths of each hex's target.
 struct NodeStepSettings {
     Direction direction;
     double delta;
     ObjectiveNorm norm;
     LineSearch search;
+    const TargetMatrices *target = nullptr;
 };
 
 // Move each of `nodes` once, in place: one pass of Algorithm 3.2. Group k, nodes[groups[k]] to nodes[groups[k + 1] -
@@ -36,7 +39,8 @@ struct PatchEnergy {
 };
 
 // Energy of the patch of the node whose corners are `star`; factor = 0 scales it to mean edge length 1.
-PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm);
+PatchEnergy patch_energy(Points points, Hexes hexes, Indices star, double factor, double delta, ObjectiveNorm norm,
+                         const TargetMatrices *target = nullptr);
 
 // A step at one node, in mean edge lengths of its patch.
 struct RecordedStep {
@@ -55,6 +59,7 @@ RecordedStep recorded_step(Points points, Hexes hexes, Indices star, const NodeS
 
 // Energy of a patch along a direction: writes the value at step length curve[k][0] to curve[k][1].
 void energy_along(Points points, Hexes hexes, Indices star, double factor, std::array<double, 3> direction,
-                  double delta, ObjectiveNorm norm, std::span<std::array<double, 2>> curve);
+                  double delta, ObjectiveNorm norm, std::span<std::array<double, 2>> curve,
+                  const TargetMatrices *target = nullptr);
 
 }  // namespace hexmend

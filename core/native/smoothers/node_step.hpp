@@ -66,8 +66,8 @@ inline Node node_of(Hexes hexes, Star star) { return hexes[star[0] / 8][star[0] 
 // Stages are interleaved: while the roots and quotients of one node are pending, the processor works on another. The
 // observer is called with each trial of the line search, on_trial(hexes, alpha, value, bound), and with the end of each
 // step: on_rejected(status, direction) or on_moved(node, point, direction, alpha).
-template <bool soft, class T, int nodes, class Observer>
-inline void step_nodes(NodePatch<T> (&patch)[nodes], Points points, Hexes hexes, const Star (&star)[nodes],
+template <bool soft, class T, class Target, int nodes, class Observer>
+inline void step_nodes(NodePatch<T, Target> (&patch)[nodes], Points points, Hexes hexes, const Star (&star)[nodes],
                        const NodeStepSettings &settings, Observer &&observer) {
     double scale[nodes];
     ValueAndGradient at[nodes];
@@ -144,12 +144,12 @@ template <class Body> std::int64_t sum_over_groups(Indices groups, Indices nodes
 }
 
 // `local_sweep`, for delta > 0 if `soft`: with vectors for T = Lanes, one hex after another for T = double.
-template <bool soft, class T>
+template <bool soft, class T, class Target>
 std::int64_t local_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
-                            const NodeStepSettings &settings) {
+                            const NodeStepSettings &settings, const Target &target) {
     std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
-        NodePatch<T> alone[1]{NodePatch<T>(most)}, several[INTERLEAVED]{NodePatch<T>(most), NodePatch<T>(most)};
+        NodePatch<T, Target> alone[1]{{most, target}}, several[INTERLEAVED]{{most, target}, {most, target}};
         auto star = [&](std::size_t k) { return mesh.star(chunk[k]); };
         NodeMover mover{points};
         std::size_t k = 0;

@@ -66,12 +66,12 @@ class SlidingNode {
 
 // Take a step at a node that slides: Algorithms A.2 to A.5 in the tangent space, every trial projected onto the
 // surface. A trial that flips a boundary quad is rejected.
-template <bool soft>
-void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star star, const NodeStepSettings &settings,
+template <bool soft, class Patch>
+void slide(Patch &patch, std::span<Point> points, Hexes hexes, Star star, const NodeStepSettings &settings,
            const SlidingSurface &surface, std::span<const Tangents> tangents, NodeMover &mover) {
     double scale = patch.load(points, hexes, star);
-    patch.tabulate<soft>(settings.delta);
-    ValueAndGradient at = patch.value_and_gradient<soft>(settings.delta, settings.norm);
+    patch.template tabulate<soft>(settings.delta);
+    ValueAndGradient at = patch.template value_and_gradient<soft>(settings.delta, settings.norm);
     if (scale == 0 || at.value == 0 || !(at.value < INF)) return;
     Node i = node_of(hexes, star);
     SlidingNode node(surface, points, i, scale, tangents[surface.slots[i]]);
@@ -86,20 +86,20 @@ void slide(NodePatch<Lanes> &patch, std::span<Point> points, Hexes hexes, Star s
         place = node.trial_point(chosen.d, alpha);
         if (node.flips_quad(place)) return INF;
         patch.set_direction(node.displacement(place));
-        double value = patch.value_along<soft>(1, settings.delta, settings.norm);
+        double value = patch.template value_along<soft>(1, settings.delta, settings.norm);
         mover.on_trial(patch.size(), alpha, value, bound);
         return value;
     });
     if (alpha > 0) points[i] = place;
 }
 
-template <bool soft>
+template <bool soft, class Target>
 std::int64_t sliding_sweep_of(std::span<Point> points, const HexMesh &mesh, Indices groups, Indices nodes,
                               const NodeStepSettings &settings, const SlidingSurface &surface,
-                              std::span<const Tangents> tangents) {
+                              std::span<const Tangents> tangents, const Target &target) {
     std::int64_t most = largest_star(mesh, nodes);
     return sum_over_groups(groups, nodes, [&](Indices chunk) {
-        NodePatch<Lanes> patch[1]{NodePatch<Lanes>(most)};
+        NodePatch<Lanes, Target> patch[1]{{most, target}};
         NodeMover mover{points};
         for (Node i : chunk) {
             Star star = mesh.star(i);
@@ -116,8 +116,13 @@ std::int64_t sliding_sweep(std::span<Point> points, const HexMesh &mesh, Indices
                            const NodeStepSettings &settings, const SlidingSurface &surface,
                            std::span<const Tangents> tangents) {
     expect(tangents.size() == surface.roots.size(), "tangents: two for each sliding node are expected");
-    return (settings.delta != 0 ? sliding_sweep_of<true> : sliding_sweep_of<false>)(points, mesh, groups, nodes,
-                                                                                    settings, surface, tangents);
+    expect_rows(settings.target, mesh.hexes.size());
+    return with_target(settings.target, [&](const auto &target) {
+        using Target = std::remove_cvref_t<decltype(target)>;
+        return (settings.delta != 0 ? sliding_sweep_of<true, Target>
+                                    : sliding_sweep_of<false, Target>)(points, mesh, groups, nodes, settings, surface,
+                                                                       tangents, target);
+    });
 }
 
 void flipped_quads(Points before, Points after, std::span<const Quad> quads, Points outward, std::span<bool> flipped) {

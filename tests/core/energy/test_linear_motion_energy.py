@@ -18,6 +18,7 @@ INNER = np.flatnonzero(~BLOCK.topology.boundary)
 PLANES = planes(BLOCK)
 MOTIONS = {
     "planes": PLANES,
+    "axes and skew planes": PLANES.merge(LinearMotion.in_planes(INNER, [0.3, 1.0, 0])),
     "skew plane inside": LinearMotion.in_planes(INNER[:1], [1.0, 2, 3]).merge(
         LinearMotion.along_lines(X1, [1.0, 1, 0])
     ),
@@ -71,6 +72,8 @@ def test_the_assembled_hessian_has_the_same_products(name, seed, p):
     for _ in range(2):  # then in the storage of the first
         np.testing.assert_allclose(matrix @ step.ravel(), product, rtol=1e-8, atol=1e-8 * np.abs(product).max())
         assert np.linalg.matrix_rank(matrix.matrix().toarray()) == matrix.shape[0]
+        single = hessian.assembled(np.float32)
+        np.testing.assert_allclose(single @ step.ravel(), product, atol=1e-4 * np.abs(product).max())
         matrix = hessian.assembled(np.float64, matrix)
 
 

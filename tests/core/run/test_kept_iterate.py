@@ -35,7 +35,7 @@ def meshes():
     """Gallery meshes, from sound to badly tangled, some with an inverted hex that fixed nodes lock."""
     made = st.builds(
         lambda name, scramble, seed: make(name, size=200, scramble=scramble, seed=seed),
-        st.sampled_from(list(GALLERY)),
+        st.sampled_from(sorted(set(GALLERY) - {"layered"})),  # of which layers have targets of their own
         st.sampled_from([0.0, 0.1, 0.3, 0.6, 1.0]),
         st.integers(0, 99),
     )

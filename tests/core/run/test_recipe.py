@@ -24,6 +24,8 @@ def values(one):
         return st.sampled_from(one.choices)
     if one.type is bool:
         return st.booleans()
+    if one.type is str:
+        return st.text(st.characters(codec="utf-8"))
     if one.type is int:
         return st.integers(one.low, one.high)
     numbers = st.floats(one.low, one.high)

@@ -72,7 +72,7 @@ class HexPanel(QWidget):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self._stack = QStackedLayout(self)
-        hint = note(_HINT)
+        hint = note(tr(_HINT))
         hint.setAlignment(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop)
         hint.setMargin(24)
         self._stack.addWidget(hint)
@@ -138,7 +138,7 @@ class HexPanel(QWidget):
         corners = QGridLayout()
         corners.setVerticalSpacing(2)
         corners.setHorizontalSpacing(14)
-        for column, text in enumerate(("Node", "", "q(T)")):
+        for column, text in enumerate((tr("Node"), "", "q(T)")):
             title = QLabel(text)
             title.setAlignment(Qt.AlignmentFlag.AlignRight)
             tint(title, MUTED)
@@ -189,8 +189,8 @@ class HexPanel(QWidget):
         self._stack.setCurrentIndex(0 if details is None else 1)
         if details is None:
             return
-        self._title.setText(f"Hex {details.number:,}" + (f": {', '.join(tags)}" if tags else ""))
-        locked = "inverted, locked by its fixed nodes"
+        self._title.setText(tr("Hex {number:,}", number=details.number) + (f": {', '.join(tags)}" if tags else ""))
+        locked = tr("inverted, locked by its fixed nodes")
         self._state.setText(locked if details.locked else tr("inverted") if details.inverted else "")
         for name, label in self._values.items():
             value = details.values[name]
@@ -226,12 +226,16 @@ class HexPanel(QWidget):
             self._about_node.setText(tr("Click near a corner or on a node number to select a node."))
             return
         kind = f"{details.kind}, pinned" if details.pinned and details.kind == "boundary" else details.kind
-        parts = [f"Node {details.number:,}: {kind}", boundary_class, counted(details.ring.size, "hex")]
+        parts = [
+            tr("Node {number:,}: {kind}", number=details.number, kind=kind),
+            boundary_class,
+            counted(details.ring.size, "hex"),
+        ]
         if np.isfinite(details.energy):
             gradient = float(np.linalg.norm(details.downhill))
             parts.append(f"energy {figure(details.energy)}, gradient {figure(gradient)}")
         else:
-            parts.append("infinite energy (inverted hex)")
+            parts.append(tr("infinite energy (inverted hex)"))
         self._about_node.setText(", ".join(filter(None, parts)))
         self._pin.setChecked(details.pinned)
         self._pin.setEnabled(details.kind != "unused" and not busy)

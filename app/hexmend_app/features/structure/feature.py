@@ -67,7 +67,7 @@ class FeatureStructure(Feature):
         if self._seen.changed("found", session.structure_finder.structure, session.document.start):
             self.panel.set_found(session.structure_finder.structure)
         now = session.document.now
-        if self._seen.changed("legends", session.document.start, now.mesh.cells):
+        if self._seen.changed("legends", session.document.start, now.mesh.cells, now.mesh.materials):
             for layer in ordered_layers():
                 if layer.drawn_by is not None:
                     self.panel.set_legend(layer.name, layer.drawn_by.legend(now.mesh))
@@ -82,7 +82,7 @@ class FeatureStructure(Feature):
         """Classify the boundary nodes for the next run if the result is visible."""
         session = self.session
         now, smoother = session.document.now, session.run_setup.smoother
-        visible = self.panel.isVisible() or self._view.look.structure.kinds
+        visible = self.panel.isVisible() or self._view.look.structure.is_on("kinds")
         if visible and smoother is not None and not session.run.busy:
             session.boundary_classifier.ask(
                 now.mesh, now.figures, smoother.values().get("feature_angle", FEATURE_ANGLE)

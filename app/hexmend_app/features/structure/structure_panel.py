@@ -10,7 +10,7 @@ from hexmend.boundary import NodeClass
 from hexmend.mesh.structure import Structure as MeshStructure
 from hexmend_app.features.structure.layer_row import Entry, LayerRow
 from hexmend_app.picture.appearance import Structure
-from hexmend_app.picture.layer_switch import ordered_layers
+from hexmend_app.picture.layer_switch import EDGE_LAYERS, ordered_layers
 from hexmend_app.scene.layers.optional.structure import (
     BOUNDARY,
     FREE,
@@ -26,7 +26,6 @@ from hexmend_app.state.tasks.boundary_classifier import PIN, WHISKER, BoundaryCl
 from hexmend_app.translation import tr
 from hexmend_app.widgets.wording import counted
 
-_EDGES = ("irregular", "boundary", "sharp")
 #: Texts of the classes of boundary nodes.
 _KIND_TEXT = {
     NodeClass.CORNER: "corners", NodeClass.CURVE: "on curves", NodeClass.PATCH: "on patches",
@@ -85,7 +84,7 @@ class StructurePanel(QWidget):
     def set_found(self, found: MeshStructure | None) -> None:
         """Show the counts of edges; None while they are being found."""
         if found is None:
-            for name in _EDGES:
+            for name in EDGE_LAYERS:
                 self.layers[name].set_entries(None)
             return
         nodes: list[Entry] = []
@@ -118,7 +117,9 @@ class StructurePanel(QWidget):
         entries: list[Entry] | None = None
         if classes is not None:
             counts = {kind: classes.count(kind) for kind in _KIND_TEXT}
-            entries = [(KINDS[kind], False, f"{count:,} {_KIND_TEXT[kind]}") for kind, count in counts.items() if count]
+            entries = [
+                (KINDS[kind], False, f"{count:,} {tr(_KIND_TEXT[kind])}") for kind, count in counts.items() if count
+            ]
         self.layers["kinds"].set_entries(entries, error)
         self._show_locked()
 
@@ -127,7 +128,7 @@ class StructurePanel(QWidget):
         locked, classes = self._counts[-1] if self._counts else 0, self._classes
         entries = [(LOCKED, False, f"of {counted(locked, 'hex')}")] if locked else []
         if locked and classes is not None and classes.locked == locked:
-            entries.append((None, False, f"{classes.freed:,} freed by sliding"))
+            entries.append((None, False, tr("{freed:,} freed by sliding", freed=classes.freed)))
         self.layers["locked"].set_entries(entries)
 
     def _switch(self, name: str, on: bool) -> None:

@@ -19,6 +19,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--method", metavar="NAME", help="see `hexmend methods`")
     add_repeated(parser, "--set", "KEY=VALUE", "a parameter of the method")
     _add_boundary(parser)
+    _add_target(parser)
     text = "run the methods of this recipe one after another; limits hold for each of them"
     parser.add_argument("--recipe", metavar="FILE.toml", help=text)
     _add_limits(parser)
@@ -29,6 +30,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     text = "a parameter of the one method, or of every method that has it"
     add_repeated(parser, "--set", "[METHOD.]KEY=VALUE", text)
     _add_boundary(parser)
+    _add_target(parser)
     _add_limits(parser)
     add_force(parser)
 
@@ -52,6 +54,34 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
         help="largest distance of the boundary from the surface in mean edge lengths: 0 to stay on it, or the word "
         "unlimited; the same as --set surface_tolerance=X",
     )
+
+
+def add_motion(parser: argparse.ArgumentParser) -> None:
+    """Declare the options for interfaces between materials and for the nodes of named sets."""
+    parser.add_argument(
+        "--interfaces",
+        choices=("keep", "slide", "free"),
+        help="nodes between materials: keep them like the boundary (default), let them slide on the interface, or let "
+        "them move freely",
+    )
+    add_repeated(parser, "--fix", "SET", "fix the nodes of this set")
+    add_repeated(parser, "--slide", "SET", "let the nodes of this set slide even if the boundary is fixed")
+    add_repeated(parser, "--free", "SET", "free the pinned nodes, and those of interfaces, of this set")
+    add_repeated(parser, "--plane", "SET", "let the nodes of this flat set move in its plane")
+    parser.add_argument(
+        "--periodic",
+        nargs=2,
+        metavar=("SET", "OTHER"),
+        action="append",
+        default=[],
+        help="move the nodes of two sets as one, such as the two sides of a periodic cell",
+    )
+
+
+def add_rewrite(parser: argparse.ArgumentParser) -> None:
+    """Declare the option that writes a file anew where coordinates could be replaced in a copy of the given one."""
+    text = "write the file anew; else, in the format of MESH, only the coordinates change and all else is kept"
+    parser.add_argument("--rewrite", action="store_true", help=text)
 
 
 def add_force(parser: argparse.ArgumentParser) -> None:
@@ -84,6 +114,18 @@ def _add_boundary(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--boundary", choices=("fixed", "slide"), help=text)
     text = "optimum of shape (default), greatest least scaled Jacobian, or greatest smallest explicit time step"
     parser.add_argument("--goal", choices=("shape", "scaled-jacobian", "time-step"), help=text)
+
+
+def _add_target(parser: argparse.ArgumentParser) -> None:
+    """Declare the short forms of `--set target=...` and `--set layers=...`."""
+    parser.add_argument(
+        "--target",
+        metavar="ideal|given-shape|given-size|given|FIELD",
+        help="what hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        "file or a formula in x, y, z (default: ideal, or given-shape for a mesh with boundary layers)",
+    )
+    text = "keep the heights of boundary layers (default unless --target is given) or leave them free"
+    parser.add_argument("--layers", choices=("keep", "free", "off"), help=text)
 
 
 def _add_limits(parser: argparse.ArgumentParser) -> None:

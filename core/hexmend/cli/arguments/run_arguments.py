@@ -4,20 +4,28 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from hexmend.cli.arguments.options import parse_settings
 from hexmend.errors import ParameterError
 from hexmend.io import read_surface
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.rules import MotionRules
 from hexmend.parameters import declared, from_strings
 from hexmend.run import StoppingCriteria
 from hexmend.run.recipe import Recipe
 from hexmend.run.recipe_files import read_recipe
 from hexmend.smoothers import DEFAULT_METHOD, METHODS, Smoother
 
-#: Parameters of methods that have an option of their own, such as --surface-tolerance.
-_SHORT_FORMS = "boundary", "goal", "surface_tolerance"
+#: Parameters with an option of their own, and what is said of methods that do not have them.
+_WITHOUT = {
+    "boundary": "the boundary stays fixed in",
+    "goal": "only mend has goals, not",
+    "surface_tolerance": "the boundary stays fixed in",
+    "target": "there are no targets in",
+    "layers": "there are no targets, which keep layers, in",
+}
 
 
 def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, StoppingCriteria | None]:
@@ -37,10 +45,10 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
         For a recipe that cannot be read.
     """
     if args.recipe:
-        if args.method or args.set or any(getattr(args, name, None) for name in _SHORT_FORMS):
+        if args.method or args.set or _given_options(args):
             raise ParameterError(
-                "--recipe names its methods and their values: leave out --method, --set, --boundary, --goal and "
-                "--surface-tolerance, or change the recipe"
+                "--recipe names its methods and their values: leave out --method, --set, --boundary, --goal, "
+                "--surface-tolerance, --target and --layers, or change the recipe"
             )
         return read_recipe(args.recipe).limited(**given_limits(args)), None
     name = args.method or DEFAULT_METHOD
@@ -48,7 +56,7 @@ def method_and_limits(args: argparse.Namespace) -> tuple[Smoother | Recipe, Stop
 
 
 def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[str, str]:
-    """Return the settings of --set together with those of --boundary, --goal, --surface and --surface-tolerance.
+    """Return the settings of --set together with those of options that set a parameter, such as --boundary.
 
     Parameters
     ----------
@@ -62,19 +70,24 @@ def method_settings(args: argparse.Namespace, methods: Iterable[str]) -> dict[st
         For methods without these parameters, and where --set gives them too.
     """
     settings = parse_settings(args.set)
-    options = {name: getattr(args, name, None) for name in _SHORT_FORMS}
+    options = _given_options(args)
     if getattr(args, "surface", None) is not None and args.boundary is None and "boundary" not in settings:
         options["boundary"] = "slide"
-    options = {key: value for key, value in options.items() if value is not None}
     for key, value in options.items():
         option = f"--{key.replace('_', '-')}"
         if key in settings:
             raise ParameterError(f"{option} and --set {key}=... set the same value: leave out one of them")
         without = [name for name in methods if key not in {one.name for one in declared(METHODS[name])}]
         if without:
-            where = "only mend has goals, not" if key == "goal" else "the boundary stays fixed in"
-            raise ParameterError(f"{option} {value}: {where} {', '.join(without)}")
+            raise ParameterError(f"{option} {value}: {_WITHOUT[key]} {', '.join(without)}")
     return settings | options
+
+
+def _given_options(args: argparse.Namespace) -> dict[str, str]:
+    """Values of the options that set a parameter, by the parameter."""
+    values = {name: getattr(args, name, None) for name in _WITHOUT}
+    values["layers"] = {"off": "free"}.get(values["layers"], values["layers"])
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def stopping_criteria(args: argparse.Namespace) -> StoppingCriteria:
@@ -91,6 +104,15 @@ def given_limits(args: argparse.Namespace) -> dict[str, Any]:
 def _given_words(args: argparse.Namespace) -> dict[str, str]:
     words = {limit.name: getattr(args, limit.name) for limit in declared(StoppingCriteria)}
     return {name: text for name, text in words.items() if text is not None}
+
+
+def motion_rules(args: argparse.Namespace) -> MotionRules:
+    """Return the rules of motion of the options of `add_motion`; those of a recipe come first."""
+    given = MotionRules(args.interfaces or "keep", args.fix, args.slide, args.free, args.plane, args.periodic)
+    if not args.recipe:
+        return given
+    rules = read_recipe(args.recipe).rules.merge(given)
+    return replace(rules, interfaces=args.interfaces or rules.interfaces)
 
 
 def with_surface(args: argparse.Namespace, mesh: Mesh, method: Smoother | Recipe) -> Mesh:

@@ -195,7 +195,7 @@ class MaxMinOptimiser:
         if sliding is None or not envelope.max_deviation > 0:
             return False
         holding = np.unique(self.corners.nodes_of(8 * active.hexes + active.corners))
-        nodes = holding[envelope.slides(holding)]
+        nodes = holding[envelope.slides(holding) & ~sliding.confined[holding]]
         if not nodes.size and active.least <= 0:
             nodes = holding[sliding.releasable[holding] & ~mesh.free[holding]]
             fixed = mesh.fixed.copy()

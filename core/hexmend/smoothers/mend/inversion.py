@@ -33,7 +33,7 @@ def recentre_far_nodes(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
     size = shortest_edges(mesh.points, mesh.hexes[quality.inverted])
     far = np.isfinite(size) & (size > FAR_NODE_FACTOR * mesh.mean_edge_length)
     points, motion = mesh.points, mesh.linear_motion
-    movable = mesh.free & ~mesh.topology.boundary
+    movable = mesh.free & mesh.interior
     if motion is not None:
         movable |= mesh.free & motion.marks(mesh.n_nodes)
     for node in np.flatnonzero(far & movable):

@@ -55,11 +55,11 @@ def local_sweeps(
     near[mesh.hexes[omitted != 0]] = False
     motion = mesh.linear_motion
     linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
-    colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary & ~linear)
+    colours = mesh.topology.colouring(near & mesh.free & mesh.interior & ~linear)
     settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH)
     constrained = None
     if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
-        constrained = ConstrainedSweeps(mesh, near & linear, energy.norm, omitted)
+        constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)
     swept = x.copy()
     for _ in range(sweeps):
         local.sweep(swept, mesh.topology.hex_mesh, colours.start, colours.items, settings)

@@ -85,10 +85,11 @@ class Mend(ObjectiveSmoother):
         if mesh.linear_motion is not None:
             mesh = mesh.with_points(mesh.constrained(mesh.points))
         yield Step(mesh.points)
-        norm, intermediate = ObjectiveNorm(self.p, self.offset), self.slides or self.maximises_minimum
+        slides, norm = self.slides_on(mesh), ObjectiveNorm(self.p, self.offset)
+        intermediate = slides or self.maximises_minimum
         quality = measure(mesh.points, mesh.hexes)
         locked_at_start = locked_corners(mesh, quality)
-        if self.slides and mesh.target is not None:  # the boundary begins on the surface
+        if slides and mesh.target is not None:  # the boundary begins on the surface
             mesh = mesh.keeping_surface().with_points(self.sliding(mesh).mesh.points)
             quality = measure(mesh.points, mesh.hexes)
         energy = energy_of(mesh, norm)
@@ -97,9 +98,9 @@ class Mend(ObjectiveSmoother):
             return shape.outcome
         fixed_optimum, sliding, max_deviation = shape.points, None, 0.0  # the optimum with the boundary fixed
         candidates = [mesh.points, fixed_optimum]
-        if self.slides:
+        if slides:
             max_deviation = self.absolute_tolerance(mesh)
-            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation)
+            sliding = SlidingBoundary(mesh, self.feature_angle, MAXMIN.surface_share * max_deviation, self.slides)
             mesh = sliding.mesh
             optimiser = MaxMinOptimiser(mesh, fixed_optimum, sliding)
             yield from maximise_minimum(optimiser, MAXMIN.barrier_safe)  # by sliding, until the barrier can be used
@@ -116,7 +117,7 @@ class Mend(ObjectiveSmoother):
         if self.maximises_minimum:
             active = active_set(result.optimiser, result.active)
             sentences.append(limit_message(result.optimiser, result.active))
-        if self.slides:
+        if slides:
             quality = measure(points, mesh.hexes)
             sentences.append(freed_message(locked_at_start, inverted_corners(points, mesh.hexes, quality)))
         decision = " ".join(filter(None, sentences))
@@ -133,7 +134,7 @@ class Mend(ObjectiveSmoother):
         config = UntanglingConfig(self.initial_epsilon, newton=newton)
         untangled = yield from untangle(mesh, energy, quality, locked, config)
         points, omitted = untangled.points, untangled.omitted
-        if omitted.any() and not self.slides:
+        if omitted.any() and not self.slides_on(mesh):
             decision = omission_message(omitted, locked)
             yield Step(points, decision=decision, intermediate=True, quality=untangled.quality, norm=energy.norm)
         energy = energy.with_objective(energy.norm, omitted)

@@ -16,17 +16,22 @@ constexpr int MAX_SHIFTS = 10;
 constexpr double INITIAL_SHIFT = 0.001, SHIFT_FACTOR = 4;
 
 // A patch during its step. The coordinates x_ of its hexes are relative to the patch's first node and scaled so that
-// the mean edge, each edge counted once a hex, has length 1.
-class MultiNodePatch {
+// the mean edge, each edge counted once a hex, has length 1; with a target, so that the root mean square of the inverse
+// target lengths, of which row `first` on are those of the patch, is 1.
+template <class Target> class MultiNodePatch {
   public:
-    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const PatchStepSettings &settings)
+    MultiNodePatch(std::span<Point> points, Hexes hexes, Hexes slots, Indices nodes, const PatchStepSettings &settings,
+                   const Target &target, std::int64_t first)
         : points_(points),
           hexes_(hexes),
           slots_(slots),
           nodes_(nodes),
           settings_(settings),
           x_(blocks()),
-          step_(nodes.size()) {}
+          step_(nodes.size()) {
+        for (std::int64_t b = 0; b < blocks(); ++b)
+            scales_.push_back(scales_of<Lanes>(target, first + b * LANES, count(b)));
+    }
 
     // Take a Newton step with line search: moves the nodes.
     template <bool soft> EvaluationCount take_step() {
@@ -56,6 +61,7 @@ class MultiNodePatch {
     Indices nodes_;
     const PatchStepSettings &settings_;
     std::vector<Corners<Lanes>> x_;
+    std::vector<ScalesOf<Lanes, Target>> scales_;
     std::vector<Point> step_;
 
     std::int64_t blocks() const { return (static_cast<std::int64_t>(hexes_.size()) + LANES - 1) / LANES; }
@@ -74,9 +80,22 @@ class MultiNodePatch {
             for (int i = 0; i < count(b); ++i) total += lengths[i];
         }
         double factor = total > 0 ? 12 * static_cast<double>(hexes_.size()) / total : 0.0;
+        if constexpr (!std::is_same_v<Target, Cubes>) {
+            if (factor > 0) factor = root_mean_square_of_scales();
+            for (auto &scales : scales_) scales.inverse = broadcast<Lanes>(1 / factor) * scales.inverse;
+        }
         for (auto &x : x_)
             for (auto &corner : x.at) corner = broadcast<Lanes>(factor) * corner;
         return factor;
+    }
+
+    double root_mean_square_of_scales() const {
+        double total = 0;
+        for (std::int64_t b = 0; b < blocks(); ++b) {
+            Lanes squares = square(scales_[b].inverse);
+            for (int i = 0; i < count(b); ++i) total += squares[i];
+        }
+        return std::sqrt(total / (3 * static_cast<double>(hexes_.size())));
     }
 
     double sum_of_powers(Lanes sum_of_eta, int count) const {
@@ -93,7 +112,7 @@ class MultiNodePatch {
         auto rows = std::make_unique<double[][HEX_STRIDE]>(LANES);
         for (std::int64_t b = 0; b < blocks(); ++b) {
             *sums = HessianSums{};
-            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x_[b], settings_.delta, ~Bits{}, *sums); });
+            unroll<8>([&](auto t) { add_tetrahedron<soft, t>(x_[b], scales_[b], settings_.delta, ~Bits{}, *sums); });
             value += sum_of_powers(sums->eta, count(b));
             LanePowerDerivatives<Lanes> by(sums->eta * 0.125 - settings_.norm.offset, settings_.norm.p);
             weigh_hessian<double>(*sums, settings_.norm, rows.get());
@@ -123,8 +142,10 @@ class MultiNodePatch {
             auto x = gather_corners_or_zero<Lanes>(step_, slots_, b * LANES, count(b));
             for (int c = 0; c < 8; ++c) x.at[c] = x_[b].at[c] + broadcast<Lanes>(alpha) * x.at[c];
             Lanes eta{};
-            unroll<8>(
-                [&](auto t) { eta += energy<soft>(x.template edges<t>(), settings_.delta, std::true_type{}).eta(); });
+            unroll<8>([&](auto t) {
+                eta += hexmend::eta<soft>(x.template edges<t>(), scales_[b].template columns<t>(), settings_.delta,
+                                          std::true_type{});
+            });
             total += sum_of_powers(eta, count(b));
         }
         return total;
@@ -136,16 +157,20 @@ class MultiNodePatch {
 EvaluationCount patch_sweep(std::span<Point> points, const PatchPartition &partition, Indices groups, Indices patches,
                             const PatchStepSettings &settings) {
     const Indices hex_start = partition.hex_start;
+    expect_rows(settings.target, partition.hexes.size());
     std::vector<EvaluationCount> counts(patches.size());
-    for (std::size_t g = 0; g + 1 < groups.size(); ++g)
-        parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {
-            const auto at = groups[g] + i;
-            const auto k = patches[at];
-            const auto h = hex_start[k], count = hex_start[k + 1] - h, from = partition.node_start[k];
-            MultiNodePatch patch(points, partition.hexes.subspan(h, count), partition.slots.subspan(h, count),
-                                 partition.nodes.subspan(from, partition.node_start[k + 1] - from), settings);
-            counts[at] = settings.delta != 0 ? patch.take_step<true>() : patch.take_step<false>();
-        });
+    with_target(settings.target, [&](const auto &target) {
+        for (std::size_t g = 0; g + 1 < groups.size(); ++g)
+            parallel(groups[g + 1] - groups[g], [&](std::int64_t i) {
+                const auto at = groups[g] + i;
+                const auto k = patches[at];
+                const auto h = hex_start[k], count = hex_start[k + 1] - h, from = partition.node_start[k];
+                MultiNodePatch patch(points, partition.hexes.subspan(h, count), partition.slots.subspan(h, count),
+                                     partition.nodes.subspan(from, partition.node_start[k + 1] - from), settings,
+                                     target, h);
+                counts[at] = settings.delta != 0 ? patch.template take_step<true>() : patch.template take_step<false>();
+            });
+    });
     EvaluationCount total;
     for (auto &one : counts) total.energies += one.energies, total.derivatives += one.derivatives;
     return total;

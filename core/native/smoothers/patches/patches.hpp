@@ -4,17 +4,20 @@
 #include <tuple>
 
 #include "energy/objective_norm.hpp"
+#include "energy/target.hpp"
 #include "mesh/hex_mesh.hpp"
 #include "mesh/incidence.hpp"
 #include "smoothers/line_search.hpp"
 
 namespace hexmend {
 
-// Settings of a step of a patch. Lengths are in mean edge lengths of the patch.
+// Settings of a step of a patch. Lengths are in mean edge lengths of the patch, those of delta with a target in lengths
+// of each hex's target. The target has a row for each row of the partition's hexes.
 struct PatchStepSettings {
     double delta;
     ObjectiveNorm norm;
     LineSearch search;
+    const TargetMatrices *target = nullptr;
 };
 
 // Evaluations of a hex's energy in line searches, and of its energy with derivatives.

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
 
 from hexmend.cli.output.mesh_messages import print_notes
 from hexmend.cli.output.text_tables import print_spreads, print_summaries
 from hexmend.doctor import examine
 from hexmend.io import read
+from hexmend.layers import describe_layers, find_layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import (
     ElementQuality,
@@ -21,6 +25,8 @@ from hexmend.quality import (
     summarise,
     summarise_second_order,
 )
+from hexmend.quality.material_volumes import material_volumes
+from hexmend.terminal_text import printable
 
 #: Places of a problem that are printed.
 _MAX_PLACES = 10
@@ -35,14 +41,19 @@ def run(args: argparse.Namespace) -> int:
     summary = summarise(mesh, quality)
     metrics = metric_statistics(mesh, quality) if args.metrics else {}
     second_order = summarise_second_order(mesh)
+    layers = describe_layers(find_layers(mesh, quality), mesh, quality)
     if args.json:
-        _print_json(args, mesh, summary, metrics, second_order, quality)
+        _print_json(args, mesh, summary, metrics, second_order, quality, layers)
         return 0
     print_summaries(args.mesh, [""], [summary])
     if summary.locked_inverted:
         _print_locked(mesh, quality, summary.locked_inverted)
+    if mesh.materials is not None:
+        _print_materials(mesh)
     if second_order is not None:
         print(f"Second order: {second_order.phrase}.")
+    for wall in layers:
+        print(_layer_line(wall))
     if args.metrics:
         print_spreads(metrics)
     if solver is not None:
@@ -58,19 +69,39 @@ def _print_json(
     metrics: Mapping[str, MetricStatistics],
     second_order: SecondOrder | None,
     quality: ElementQuality,
+    layers: list[dict[str, Any]],
 ) -> None:
     from hexmend.report import to_json  # not loaded for a report in words
 
     answer = summary.to_dict()
     if args.metrics:
         answer["metrics"] = {name: spread.to_dict() for name, spread in metrics.items()}
+    if mesh.materials is not None:
+        counts, volumes = np.bincount(mesh.materials.of_hex).tolist(), material_volumes(mesh).items()
+        pairs = zip(volumes, counts, strict=True)
+        answer["materials"] = {name: {"hexes": count, "volume": volume} for (name, volume), count in pairs}
+        answer["interface_nodes"] = int(np.count_nonzero(mesh.materials.interface_nodes))
     if second_order is not None:
         answer["second_order"] = second_order.to_dict()
+    if layers:
+        answer["layers"] = layers
     if args.solver is not None:
         answer |= _checks(mesh, args.solver, quality)
     if args.doctor:
         answer["doctor"] = [finding.to_dict(_MAX_PLACES) for finding in examine(mesh)]
     print(to_json(answer))
+
+
+def _print_materials(mesh: Mesh) -> None:
+    """Print the materials with their numbers of hexes, and what happens to the interfaces between them."""
+    from hexmend.run.interface_messages import describe_interfaces  # loaded only for a mesh of several materials
+
+    materials = mesh.materials
+    counts = np.bincount(materials.of_hex).tolist()
+    named = [f"{name} ({count:,})" for name, count in zip(materials.names, counts, strict=True)]
+    more = len(named) - _MAX_PLACES
+    listed = ", ".join(named[:_MAX_PLACES]) + (f" and {more:,} more" if more > 0 else "")
+    print(f"{describe_interfaces(mesh)} Hexes: {printable(listed)}.")
 
 
 def _known_solver(name: str) -> str:
@@ -94,6 +125,14 @@ def _print_checks(mesh: Mesh, solver: str, quality: ElementQuality) -> None:
     from hexmend.solver_checks import check_mesh
 
     print_checks(check_mesh(mesh, solver, quality))
+
+
+def _layer_line(wall: dict[str, Any]) -> str:
+    return (
+        f"Layers at '{wall['wall']}': {wall['layers']} on {wall['faces']:,} faces, first height "
+        f"{wall['first_height_mean']:.4g} (least {wall['first_height_min']:.4g}), growth {wall['growth']:.3f}, "
+        f"{wall['angle_mean']:.1f}° from the wall's normal."
+    )
 
 
 def _print_locked(mesh: Mesh, quality: ElementQuality, n_locked: int) -> None:

@@ -48,7 +48,7 @@ def read(path: Path) -> Mesh:
     while not source.at_end:
         key = source.next_line()
         if key == "$MeshFormat":
-            version, order = _read_format(source)
+            version, order = read_format(source)
         elif key in _READERS[version or 1]:  # the first version has no $MeshFormat
             version = version or 1
             _READERS[version][key](source, order, sections)
@@ -57,7 +57,7 @@ def read(path: Path) -> Mesh:
         elif version and key in DATA:
             read_data(source, order, key, sections)
         elif key.startswith("$") and not key.startswith("$End"):
-            _skip_section(source, key)
+            skip_section(source, key)
             skipped[quoted(key)[1:-1]] = None
         elif not version:
             raise source.error("does not begin with $MeshFormat", "Is it a Gmsh file? Check its suffix.")
@@ -70,7 +70,7 @@ def read(path: Path) -> Mesh:
     return to_mesh(path, sections)
 
 
-def _read_format(source: ByteCursor) -> tuple[int, str]:
+def read_format(source: ByteCursor) -> tuple[int, str]:
     """Version, 2 or 4, and byte order, "<" or ">", of a binary file or "" of a text."""
     words = source.next_line().split()
     if len(words) != 3:
@@ -105,7 +105,8 @@ def _read_physical_names(source: ByteCursor, sections: Sections) -> None:
         raise source.error(f"$PhysicalNames holds {len(sections.names)} names: expected {count}")
 
 
-def _skip_section(source: ByteCursor, key: str) -> None:
+def skip_section(source: ByteCursor, key: str) -> None:
+    """Skip the rest of a section, of its keyword."""
     end = f"$End{key[1:]}".encode()
     at = source.data.find(end, source.pos)
     if at < 0:

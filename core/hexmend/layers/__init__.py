@@ -1,0 +1,22 @@
+"""Boundary layers: stacks of thin hexes on a wall, found from their heights, kept by targets, and reported."""
+
+from hexmend.layers.detection import find_layers
+from hexmend.layers.grading import grading_message
+from hexmend.layers.report import LayerReport, LayerState, describe_layers, describe_losses, layer_report
+from hexmend.layers.targets import KEEP_LAYERS, keeps_layers, run_target
+from hexmend.layers.walls import Layers, Wall
+
+__all__ = [
+    "KEEP_LAYERS",
+    "LayerReport",
+    "LayerState",
+    "Layers",
+    "Wall",
+    "describe_layers",
+    "describe_losses",
+    "find_layers",
+    "grading_message",
+    "keeps_layers",
+    "layer_report",
+    "run_target",
+]

@@ -1,0 +1,115 @@
+"""Detection of boundary layers: stacks of thin hexes whose heights grow steadily from a wall."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.layers.columns import Columns, Lengths, lateral_lengths, walk_columns
+from hexmend.layers.walls import Layers, Wall
+from hexmend.mesh.components import components_of_cells
+from hexmend.mesh.hexahedron import EDGES, FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure
+from hexmend.target.edge_lengths import given_lengths
+from hexmend.target.sheets import DISTORTED, recovered_lengths
+
+#: Lateral length over height of a wall's first hex from which on it is thin, and for one beside thin ones.
+THIN, RATHER_THIN = 3.0, 1.5
+#: Least number of layers; that of very thin ones, and how thin these are.
+MIN_LAYERS, MIN_VERY_THIN_LAYERS, VERY_THIN = 5, 3, 10.0
+#: Least mean ratio of successive heights, and greatest mean change of its logarithm from layer to layer.
+MIN_GROWTH, MAX_UNSTEADINESS = 1.02, 0.1
+#: Least number of thin faces of a wall, and their least share of its faces.
+MIN_FACES, MIN_SHARE = 9, 1 / 3
+#: Share of a wall's faces that a side set has if the wall gets its name.
+_NAMED = 0.9
+
+
+def find_layers(mesh: Mesh, quality: ElementQuality | None = None) -> Layers:
+    """Find the boundary layers of a mesh by the heights of its hexes.
+
+    A layer begins at a connected set of boundary faces on which thin hexes stand, with heights that grow inwards by a
+    steady ratio. Where the mesh is noisy or tangled, lengths are recovered along dual sheets first. Without thin hexes
+    on the boundary nothing else is looked at.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    quality : ElementQuality, optional
+        Of the mesh's hexes, if it is measured already.
+
+    Returns
+    -------
+    Layers
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> bool(find_layers(make("cube", size=64))), [wall.depth for wall in find_layers(make("layered")).walls]
+    (False, [20])
+    """
+    neighbours = mesh.topology.face_neighbours
+    hexes, faces = np.nonzero(neighbours < 0)
+    thin = _may_be_thin(mesh, hexes, faces)
+    if np.count_nonzero(thin) < MIN_FACES:
+        return Layers()
+    lengths = _lengths(mesh, quality)
+    first = lengths(hexes)
+    height = first[np.arange(len(hexes)), faces // 2]
+    aspect = lateral_lengths(first, faces, neighbours[hexes]) / height
+    candidates = np.flatnonzero(aspect >= RATHER_THIN)
+    if np.count_nonzero(aspect >= THIN) < MIN_FACES:
+        return Layers()
+    columns = walk_columns(neighbours, lengths, hexes[candidates], faces[candidates])
+    aspect, layers = aspect[candidates], columns.layers
+    stacked = (layers >= MIN_LAYERS) | (aspect >= VERY_THIN) & (layers >= MIN_VERY_THIN_LAYERS)
+    stacked &= (columns.growth >= MIN_GROWTH) & (columns.unsteadiness <= MAX_UNSTEADINESS)
+    return _walls(mesh, columns.rows(stacked).separated(mesh.n_hexes), aspect[stacked] >= THIN)
+
+
+def _may_be_thin(mesh: Mesh, hexes: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Mark faces on which the shortest edge of the height is short against the longest beside it, (k,) bool."""
+    ends = mesh.hexes[hexes][:, EDGES]
+    along = mesh.points[ends[..., 1]] - mesh.points[ends[..., 0]]
+    squares = np.einsum("kei,kei->ke", along, along).reshape(-1, 3, 4)
+    rows = np.arange(len(hexes))
+    height = squares.min(axis=2)[rows, faces // 2]
+    longest = squares.max(axis=2)
+    longest[rows, faces // 2] = 0
+    return height * THIN**2 < longest.max(axis=1)
+
+
+def _lengths(mesh: Mesh, quality: ElementQuality | None) -> Lengths:
+    """Lengths of some hexes; of a distorted mesh they are recovered."""
+    quality = quality or measure(mesh.points, mesh.hexes)
+    if not (quality.scaled_jacobian < DISTORTED).any():
+        return lambda which: given_lengths(mesh, which)
+    lengths = recovered_lengths(mesh, quality)
+    return lambda which: lengths[which]
+
+
+def _walls(mesh: Mesh, columns: Columns, thin: np.ndarray) -> Layers:
+    """Group columns into walls by common nodes of their faces, and name them."""
+    if not len(columns.hexes):
+        return Layers()
+    quads = mesh.hexes[columns.hexes[:, :1], FACES[columns.faces[:, 0]]]
+    component = components_of_cells(mesh.n_nodes, quads)
+    count, strong = np.bincount(component), np.bincount(component, thin)
+    kept = np.flatnonzero((strong >= MIN_FACES) & (strong >= MIN_SHARE * count))
+    kept = kept[np.argsort(-count[kept], kind="stable")]
+    walls: list[Wall] = []
+    for number, which in enumerate(kept, 1):
+        rows = columns.rows(component == which)
+        name = _name(mesh, rows) or f"wall {number}"
+        walls.append(Wall(name, rows.hexes, rows.faces))
+    return Layers(tuple(walls))
+
+
+def _name(mesh: Mesh, columns: Columns) -> str:
+    """Name of the smallest side set that has nearly all faces of a wall; "" for none."""
+    keys = 6 * columns.hexes[:, 0].astype(np.int64) + columns.faces[:, 0]
+    for name, sides in sorted(mesh.side_sets.items(), key=lambda one: len(one[1])):
+        there = np.isin(keys, 6 * sides[:, 0].astype(np.int64) + sides[:, 1])
+        if there.mean() >= _NAMED:
+            return name
+    return ""

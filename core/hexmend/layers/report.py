@@ -1,0 +1,169 @@
+"""Report on layers: heights, growth and angles at each wall before and after a run."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hexmend.layers.walls import Layers, Wall
+from hexmend.mesh.hexahedron import FACES
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality
+from hexmend.target.edge_lengths import given_lengths
+from hexmend.target.sheets import recovered_lengths
+from hexmend.terminal_text import capitalised
+
+#: Factor by which heights of the first layer may change in the mean before the layers count as lost.
+LOST_FACTOR = 1.25
+
+
+@dataclass(frozen=True)
+class LayerState:
+    """Figures of the layers on a wall.
+
+    Parameters
+    ----------
+    first_height_min, first_height_mean : float
+        Of the hexes at the wall, in the mesh's unit of length.
+    growth : float
+        Median over the columns of the mean ratio of successive heights.
+    angle_mean, angle_max : float
+        Angle between the edges that leave the wall and its normal, in degrees.
+    """
+
+    first_height_min: float
+    first_height_mean: float
+    growth: float
+    angle_mean: float
+    angle_max: float
+
+
+@dataclass(frozen=True)
+class LayerReport:
+    """Layers on a wall before and after a run.
+
+    Parameters
+    ----------
+    wall : str
+    faces, layers : int
+        Number of the wall's faces and of the layers on most of them.
+    before, after : LayerState
+        Where the mesh as given is noisy or tangled, the heights before are those recovered along its dual sheets.
+    change : float
+        Mean factor by which first heights differ from those before: 1 where all are kept.
+    """
+
+    wall: str
+    faces: int
+    layers: int
+    before: LayerState
+    after: LayerState
+    change: float
+
+    @property
+    def lost(self) -> bool:
+        """True if the first layer is no longer as high as it was."""
+        return self.change > LOST_FACTOR
+
+    @property
+    def loss(self) -> str:
+        """The loss of the layers as a sentence; "" where they are kept."""
+        if not self.lost:
+            return ""
+        heights = f"{self.before.first_height_mean:.3g} → {self.after.first_height_mean:.3g}"
+        return (
+            f"the layers at '{self.wall}' lose their grading: first height {heights}; --target given-shape keeps them"
+        )
+
+    @property
+    def sentence(self) -> str:
+        """The layers before and after, in a line."""
+        was, now = self.before, self.after
+        return (
+            f"Layers at '{self.wall}' ({self.layers} layers on {self.faces:,} faces): first height "
+            f"{was.first_height_mean:.4g} → {now.first_height_mean:.4g} (least {now.first_height_min:.4g}), growth "
+            f"{was.growth:.3f} → {now.growth:.3f}, {now.angle_mean:.1f}° from the wall's normal (at most "
+            f"{now.angle_max:.1f}°)."
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Convert it to values that JSON can hold."""
+        return dataclasses.asdict(self) | {"lost": self.lost}
+
+
+def layer_report(layers: Layers, before: Mesh, after: Mesh, lengths: np.ndarray) -> tuple[LayerReport, ...]:
+    """Compare the layers of a mesh before and after a run.
+
+    Parameters
+    ----------
+    layers : Layers
+    before, after : Mesh
+        Meshes of the same hexes.
+    lengths : (m, 3) float64
+        Lengths of the hexes before, of `hexmend.target.recovered_lengths`.
+
+    Returns
+    -------
+    tuple of LayerReport
+        One for each wall.
+    """
+    new = given_lengths(after)
+    reports = []
+    for wall in layers.walls:
+        was, now = _state(wall, before, lengths), _state(wall, after, new)
+        change = np.exp(np.abs(np.log(wall.of(new)[:, 0] / wall.of(lengths)[:, 0])).mean())
+        reports.append(LayerReport(wall.name, wall.count, wall.depth, was, now, float(change)))
+    return tuple(reports)
+
+
+def describe_losses(reports: Iterable[LayerReport]) -> str:
+    """Tell which layers have lost their grading, in a sentence for each wall; "" if all have kept it."""
+    return " ".join(capitalised(report.loss) for report in reports if report.lost)
+
+
+def describe_layers(layers: Layers, mesh: Mesh, quality: ElementQuality | None = None) -> list[dict[str, Any]]:
+    """Return the figures of the layers of a mesh, one dict for each wall.
+
+    Parameters
+    ----------
+    layers : Layers
+    mesh : Mesh
+    quality : ElementQuality, optional
+        Of the mesh's hexes, if it is measured already.
+    """
+    lengths = recovered_lengths(mesh, quality) if layers else np.zeros((0, 3))
+    return [
+        {
+            "wall": wall.name,
+            "faces": wall.count,
+            "layers": wall.depth,
+            **dataclasses.asdict(_state(wall, mesh, lengths)),
+        }
+        for wall in layers.walls
+    ]
+
+
+def _state(wall: Wall, mesh: Mesh, lengths: np.ndarray) -> LayerState:
+    """Figures of a wall's layers, with heights from the lengths (m, 3) of hexes."""
+    heights = wall.of(lengths)
+    count = (wall.hexes >= 0).sum(axis=1)
+    last = heights[np.arange(len(heights)), count - 1]
+    growth = (last / heights[:, 0]) ** (1 / np.maximum(count - 1, 1))
+    angles = _angles(wall, mesh)
+    first = heights[:, 0]
+    return LayerState(*map(float, (first.min(), first.mean(), np.median(growth), angles.mean(), angles.max())))
+
+
+def _angles(wall: Wall, mesh: Mesh) -> np.ndarray:
+    """Angle between the wall's normal and the mean of the edges that leave each face, in degrees, (w,)."""
+    near = mesh.points[mesh.hexes[wall.hexes[:, :1], FACES[wall.faces[:, 0]]]]
+    far = mesh.points[mesh.hexes[wall.hexes[:, :1], FACES[wall.faces[:, 0] ^ 1]]]
+    normal = -np.cross(near[:, 2] - near[:, 0], near[:, 3] - near[:, 1])
+    along = far.mean(axis=1) - near.mean(axis=1)
+    sizes = np.linalg.norm(normal, axis=1) * np.linalg.norm(along, axis=1)
+    cosines = np.einsum("ij,ij->i", normal, along) / np.maximum(sizes, np.finfo(float).tiny)
+    return np.degrees(np.arccos(np.clip(cosines, -1, 1)))

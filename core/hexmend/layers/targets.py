@@ -1,0 +1,97 @@
+"""Target of a run: the one that is asked for, with the layers of the mesh kept."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.layers.profile import fitted_lengths
+from hexmend.layers.walls import Layers
+from hexmend.mesh.element_target import Target
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure
+from hexmend.target.builders import make_target
+from hexmend.target.sheets import DISTORTED, recovered_lengths
+
+#: Treatments of layers: kept unless a target is asked for; kept; treated as the other hexes.
+KEEP_LAYERS = ("auto", "keep", "free")
+#: Target that was not asked for; see `run_target`.
+AUTO = "auto"
+
+#: Targets in which hexes have their shape as given.
+_AS_THEY_ARE = ("given-shape", "given")
+
+#: Aspect ratios between which the target of hexes outside of layers goes from a cube to the shape as given.
+_CUBE, _AS_GIVEN = 2.0, 4.0
+#: Share of distorted hexes in layers beyond which their heights as given are no measure.
+_MAX_DISTORTED = 0.01
+
+
+def keeps_layers(specification: str, layers: str) -> bool:
+    """Return True if a run with this target and treatment of layers keeps the layers."""
+    return layers == "keep" or (layers == "auto" and specification in (AUTO, *_AS_THEY_ARE))
+
+
+def run_target(
+    mesh: Mesh,
+    specification: str,
+    layers: Layers,
+    size_weight: float = 1.0,
+    quality: ElementQuality | None = None,
+) -> Target | None:
+    """Make the target of a run.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh as given.
+    specification : str
+        As of `hexmend.target.make_target`, or "auto": the mesh's own target; or else given-shape for a mesh with
+        layers, and ideal for one without.
+    layers : Layers
+        Layers that are kept: their hexes get their own lengths as target. With "given-shape" and "given", and with
+        "auto" where they are tangled, heights are fitted to one first height of each wall; see `fitted_lengths`.
+    size_weight : float
+        Weight of the size relative to the shape, where the target has one.
+    quality : ElementQuality, optional
+        Of the mesh's hexes, if it is measured already.
+
+    Returns
+    -------
+    Target or None
+        None if all hexes are to be cubes.
+
+    Raises
+    ------
+    ParameterError
+        For a target that does not exist.
+    """
+    quality = quality or measure(mesh.points, mesh.hexes)
+    fits = True
+    if specification == AUTO:
+        if mesh.element_target is not None:
+            return mesh.element_target
+        specification = "given-shape" if layers else "ideal"
+        fits = bool(layers) and np.mean(quality.scaled_jacobian[layers.hexes] < DISTORTED) > _MAX_DISTORTED
+    target = make_target(mesh, specification, size_weight, quality)
+    if not layers or (specification in _AS_THEY_ARE and not fits):
+        return target
+    own = recovered_lengths(mesh, quality)
+    if target is None:
+        lengths, weight, name = _towards_cubes(own), 0.0, "ideal"
+    else:
+        lengths, weight, name = target.lengths.copy(), target.size_weight, target.name
+    kept = layers.hexes
+    lengths[kept] = (fitted_lengths(own, layers) if specification in _AS_THEY_ARE else own)[kept]
+    return Target(lengths, weight, name if specification in _AS_THEY_ARE else f"{name}, layers as given")
+
+
+def _towards_cubes(lengths: np.ndarray) -> np.ndarray:
+    """Lengths (m, 3) of cubes for compact hexes and as given for long or flat ones, with a transition between.
+
+    Long and flat hexes beside layers, such as in a wake, continue them; cubes there would work against the layers.
+    """
+    logs = np.log(lengths)
+    middle = logs.mean(axis=1, keepdims=True)
+    aspect = np.ptp(logs, axis=1, keepdims=True)
+    share = np.clip((aspect - np.log(_CUBE)) / np.log(_AS_GIVEN / _CUBE), 0, 1)
+    return np.exp(middle + share * (logs - middle))

@@ -1,0 +1,1 @@
+"""Metrics of hexes against the target of their mesh."""

@@ -1,0 +1,40 @@
+"""Base of methods whose hexes have a target: the lengths that each is to have, and the layers that are kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexmend.layers import KEEP_LAYERS, Layers, keeps_layers, run_target
+from hexmend.layers.targets import AUTO
+from hexmend.mesh.mesh import Mesh
+from hexmend.parameters import parameter
+from hexmend.quality import ElementQuality
+from hexmend.smoothers.sliding_smoother import SlidingSmoother
+
+
+@dataclass(frozen=True)
+class TargetedSmoother(SlidingSmoother):
+    """Method that takes the target of the hexes from the mesh; a run gives it the one that the parameters name."""
+
+    target: str = parameter(
+        AUTO,
+        help="Shape of hexes to aim at: ideal, given-shape, given-size, given, or lengths: data of the file or a "
+        "formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
+    )
+    size_weight: float = parameter(
+        1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."
+    )
+    layers: str = parameter(
+        "auto",
+        choices=KEEP_LAYERS,
+        help="Boundary layers: keep their heights, or leave them free; auto: keep them unless a target is named.",
+    )
+
+    @property
+    def keeps_layers(self) -> bool:
+        """True if layers keep their heights by targets of their own."""
+        return keeps_layers(self.target, self.layers)
+
+    def with_target(self, mesh: Mesh, layers: Layers, quality: ElementQuality | None = None) -> Mesh:
+        kept = layers if self.keeps_layers else Layers()
+        return mesh.with_element_target(run_target(mesh, self.target, kept, self.size_weight, quality))

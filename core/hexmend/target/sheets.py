@@ -1,0 +1,164 @@
+"""Lengths that a noisy or tangled mesh was meant to have, recovered along its dual sheets.
+
+The edges that are parallel to each other in a hex, those parallel to them in its neighbours, and so on, belong to one
+dual sheet. Lengths change little from one edge of a sheet to the next, while they may change fast across sheets, as in
+a boundary layer. Where edges are noisy, their lengths are therefore filled in from sound edges of the same sheet:
+edges between fixed nodes, such as those of the boundary, and edges away from inverted hexes and noise.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexmend.arrays import mask
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure
+from hexmend.target.edge_lengths import edge_numbers, given_lengths
+
+#: Scaled Jacobian below which a hex is distorted: elsewhere lengths are sound.
+DISTORTED = 0.2
+#: Mean difference of the logarithm of an edge's length from its neighbours' in the sheet beyond which it is noisy.
+NOISE = 0.1
+#: Passes by which that difference is averaged over the neighbours.
+_NOISE_PASSES = 3
+#: Rings of hexes around distorted ones in which edges may be noisy.
+_RINGS = 2
+#: Passes of averaging over the edges that were filled in.
+_PASSES = 8
+
+
+class _Sheets:
+    """Averaging over the edges of dual sheets: a hex has three groups of four parallel edges.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    hexes : (k,) int
+        Hexes whose edges are concerned.
+
+    Attributes
+    ----------
+    groups : (3 k, 4) int32
+        Numbers of the parallel edges of each hex and direction; `count` stands for no edge.
+    count : int
+        Number of edges of the mesh.
+    """
+
+    def __init__(self, mesh: Mesh, hexes: np.ndarray):
+        self.count = len(mesh.topology.edges)
+        numbers = edge_numbers(mesh.topology)[hexes]
+        self.groups = np.where(numbers < 0, self.count, numbers).reshape(-1, 4)
+
+    def averages(self, values: np.ndarray, known: np.ndarray, groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Average the known values over the edges in the groups around each edge.
+
+        Parameters
+        ----------
+        values, known : (count + 1,) float64, (count + 1,) bool
+            Of the edges; the last stands for none and is not known.
+        groups : (g, 4) int32
+            Rows of `groups` that count.
+
+        Returns
+        -------
+        (count + 1,) float64, (count + 1,) bool
+            The averages, and True for the edges that have one.
+        """
+        marks = known[groups]
+        number = marks.sum(axis=1)
+        some = number > 0
+        groups, number = groups[some], number[some]
+        means = np.einsum("ij,ij->i", values[groups], marks[some]) / number
+        edges = groups.ravel()
+        total = np.bincount(edges, np.repeat(means, 4), minlength=self.count + 1)
+        number = np.bincount(edges, minlength=self.count + 1)
+        return total / np.maximum(number, 1), number > 0
+
+
+def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.ndarray:
+    """Compute the lengths of hexes along their own directions, with those of noisy edges recovered along dual sheets.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    quality : ElementQuality, optional
+        Of the mesh's hexes, if it is measured already.
+
+    Returns
+    -------
+    (m, 3) float64
+        In the mesh's unit of length, positive; those of `given_lengths` where the mesh is sound.
+
+    Examples
+    --------
+    >>> from hexmend.gallery import make
+    >>> lengths = recovered_lengths(make("cube", size=512, scramble=0.7))
+    >>> bool(abs(lengths * 8 - 1).max() < 0.02)
+    True
+    """
+    lengths = given_lengths(mesh)
+    quality = quality or measure(mesh.points, mesh.hexes)
+    distorted = np.flatnonzero(quality.scaled_jacobian < DISTORTED)
+    if not distorted.size:
+        return lengths
+    region = np.flatnonzero(mesh.topology.hexes_around(distorted, _RINGS))
+    sheets = _Sheets(mesh, region)
+    logs = _log_edge_lengths(mesh)
+    noisy = _noisy_edges(mesh, sheets, logs, quality, region)
+    affected = noisy[sheets.groups].any(axis=1)
+    if affected.any():
+        groups = sheets.groups[affected]
+        filled = _filled(sheets, logs, noisy, groups)
+        there = groups < sheets.count
+        means = np.einsum("ij,ij->i", filled[groups], there) / there.sum(axis=1)
+        local = lengths[region].ravel()
+        local[affected] = np.exp(means)
+        lengths[region] = local.reshape(-1, 3)
+    return lengths
+
+
+def _log_edge_lengths(mesh: Mesh) -> np.ndarray:
+    """Logarithms of the lengths of all edges, (e + 1,); 0 for the one that stands for none."""
+    low, high = mesh.topology.edges.T
+    along = mesh.points[high] - mesh.points[low]
+    lengths = np.sqrt(np.einsum("ij,ij->i", along, along))
+    return np.append(np.log(np.maximum(lengths, 1e-12 * (mesh.mean_edge_length or 1.0))), 0.0)
+
+
+def _noisy_edges(
+    mesh: Mesh, sheets: _Sheets, logs: np.ndarray, quality: ElementQuality, region: np.ndarray
+) -> np.ndarray:
+    """Mark edges whose ends are not both fixed, near inverted hexes or unlike their neighbours, (e + 1,) bool."""
+    some = np.append(np.ones(sheets.count, dtype=bool), False)
+    average, _ = sheets.averages(logs, some, sheets.groups)
+    noise = np.abs(logs - average)
+    for _ in range(_NOISE_PASSES):
+        noise, found = sheets.averages(noise, some, sheets.groups)
+    noisy = found & (noise > NOISE)
+    near = mask(mesh.hexes[quality.inverted], mesh.n_nodes)[mesh.hexes[region]].any(axis=1)
+    noisy[sheets.groups.reshape(-1, 12)[near]] = True
+    low, high = mesh.topology.edges.T
+    noisy[:-1] &= ~(mesh.fixed[low] & mesh.fixed[high])
+    noisy[-1] = False
+    return noisy
+
+
+def _filled(sheets: _Sheets, logs: np.ndarray, noisy: np.ndarray, groups: np.ndarray) -> np.ndarray:
+    """Fill in the values of noisy edges from the others of their sheet, front by front, and average them."""
+    values, known = logs.copy(), ~noisy
+    known[-1] = False
+    unfinished = groups
+    while unfinished.size:
+        average, found = sheets.averages(values, known, unfinished)
+        front = found & ~known
+        front[-1] = False
+        if not front.any():
+            break
+        values[front] = average[front]
+        known |= front
+        unfinished = unfinished[~known[unfinished].all(axis=1)]
+    some = np.append(np.ones(sheets.count, dtype=bool), False)
+    for _ in range(_PASSES):
+        average, found = sheets.averages(values, some, groups)
+        values[noisy] = average[noisy]
+    return values

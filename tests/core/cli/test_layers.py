@@ -1,0 +1,70 @@
+"""Targets and layers on the command line: options, report and messages."""
+
+import json
+
+import pytest
+
+from hexmend import gallery, io
+from hexmend.cli.main import main
+
+
+@pytest.fixture
+def cylinder(tmp_path):
+    path = tmp_path / "cylinder.vtu"
+    io.write(path, gallery.make("layered", size=2000))
+    return str(path)
+
+
+def test_info_lists_layers(cylinder, capsys):
+    assert main(["info", cylinder]) == 0
+    assert "Layers at 'wall 1': 20 on " in capsys.readouterr().out
+    assert main(["info", cylinder, "--json"]) == 0
+    (wall,) = json.loads(capsys.readouterr().out)["layers"]
+    assert wall["wall"] == "wall 1"
+    assert wall["first_height_mean"] == pytest.approx(1e-4)
+    assert wall["growth"] == pytest.approx(1.2)
+    assert wall["angle_max"] == pytest.approx(0, abs=1e-3)
+
+
+def test_smooth_keeps_layers_and_says_so(cylinder, tmp_path, capsys):
+    report = tmp_path / "report.json"
+    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), "--json", str(report)]) == 0
+    printed = capsys.readouterr()
+    assert "Boundary layers at 'wall 1' are kept." in printed.err
+    assert "Layers at 'wall 1' (20 layers on " in printed.out
+    values = json.loads(report.read_text())
+    assert values["target"] == "given-shape"
+    assert values["layers"][0]["after"]["first_height_mean"] == pytest.approx(1e-4, rel=0.01)
+    assert values["layers"][0]["lost"] is False
+
+
+@pytest.mark.parametrize("options", [["--target", "ideal"], ["--layers", "free"], ["--layers", "off"]])
+def test_smooth_says_that_layers_are_lost(cylinder, tmp_path, capsys, options):
+    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), *options]) == 0
+    printed = capsys.readouterr()
+    assert "Boundary layers at 'wall 1' are not kept." in printed.err
+    assert "The layers at 'wall 1' lose their grading: first height 0.0001 → " in printed.out
+    assert "--target given-shape keeps them." in printed.out
+
+
+def test_a_recipe_keeps_the_target(cylinder, tmp_path):
+    recipe, out = tmp_path / "recipe.toml", str(tmp_path / "out.vtu")
+    options = ["--target", "given", "--set", "size_weight=0.5", "--max-iterations", "1"]
+    assert main(["smooth", cylinder, "-o", out, *options, "--save-recipe", str(recipe)]) == 0
+    assert 'target = "given"' in recipe.read_text()
+    assert "size_weight = 0.5" in recipe.read_text()
+    assert main(["smooth", cylinder, "-o", out, "--recipe", str(recipe)]) == 0
+
+
+@pytest.mark.parametrize(("options", "complaint"), [
+    (["--target", "given-shap"], "there is no target 'given-shap': expected ideal, given-shape, given-size, given"),
+    (["--target", "x - 5"], "target 'x - 5' is "),
+    (["--target", "ideal", "--set", "target=given"], "--target and --set target=... set the same value"),
+    (["--target", "ideal", "--method", "laplacian"], "--target ideal: there are no targets in laplacian"),
+    (["--layers", "keep", "--method", "getme"], "--layers keep: there are no targets, which keep layers, in getme"),
+])  # fmt: skip
+def test_what_is_wrong_is_said_before_the_run(cylinder, tmp_path, capsys, options, complaint):
+    assert main(["smooth", cylinder, "-o", str(tmp_path / "out.vtu"), *options]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert complaint in line
+    assert not (tmp_path / "out.vtu").exists()

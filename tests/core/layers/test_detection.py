@@ -1,0 +1,92 @@
+"""Detection of layers: on stacks of any growth, whatever the numbering, tangled or not; and in no other mesh."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hexmend.gallery import GALLERY, make
+from hexmend.io import read
+from hexmend.layers import find_layers
+from hexmend.mesh.mesh import Mesh
+from hexmend.target import given_lengths
+from tests.core.grids import grid, scrambled
+from tests.core.layers.stacks import renumbered, scrambled_in_layers, stack
+
+STACKS = {"growth": st.floats(1.03, 2.3), "layers": st.integers(5, 12)}
+
+
+def made(growth, layers, thin=4.0):
+    """A stack whose last layer is thin still."""
+    return stack(5, 4, layers, first=1 / (thin * growth**layers), growth=growth, lateral=1.0)
+
+
+@given(**STACKS)
+def test_a_stack_is_found_with_its_heights(growth, layers):
+    mesh = made(growth, layers)
+    (wall,) = find_layers(mesh).walls
+    assert (wall.name, wall.count, wall.depth) == ("plate", 20, layers)
+    np.testing.assert_array_equal(wall.hexes[:, 0], np.arange(20))
+    heights = wall.of(given_lengths(mesh))
+    np.testing.assert_allclose(heights[:, 1:] / heights[:, :-1], growth)
+    np.testing.assert_array_equal(find_layers(mesh).hexes, np.arange(mesh.n_hexes))
+
+
+@given(**STACKS, seed=st.integers(0, 100))
+def test_the_numbering_of_hexes_does_not_matter(growth, layers, seed):
+    mesh = made(growth, layers)
+    turned, directions = renumbered(mesh, seed)
+    (wall,), (plain,) = find_layers(turned).walls, find_layers(mesh).walls
+    np.testing.assert_array_equal(wall.hexes, plain.hexes)
+    assert (np.take_along_axis(directions[wall.hexes], (wall.faces // 2)[..., None].astype(int), axis=2) == 2).all()
+
+
+@settings(max_examples=10)
+@given(growth=st.floats(1.1, 1.6), seed=st.integers(0, 100))
+def test_a_tangled_stack_is_found(growth, seed):
+    mesh = stack(layers=7, first=2e-3, growth=growth)
+    (wall,) = find_layers(scrambled_in_layers(mesh, 0.7, seed)).walls
+    assert (wall.name, wall.count, wall.depth) == ("plate", 100, 7)
+
+
+def test_layers_on_opposite_walls_are_two():
+    lower = made(1.4, 6)
+    mirror = lower.points * [1, 1, -1] + [0, 0, 2 * lower.points[:, 2].max()]
+    points = np.concatenate([lower.points, mirror])
+    upper = lower.hexes[:, [4, 5, 6, 7, 0, 1, 2, 3]] + lower.n_nodes
+    points, index = np.unique(points.round(12), axis=0, return_inverse=True)
+    mesh = Mesh(points, index.ravel()[np.concatenate([lower.hexes, upper])])
+    layers = find_layers(mesh)
+    assert [(wall.name, wall.count, wall.depth) for wall in layers.walls] == [("wall 1", 20, 6), ("wall 2", 20, 6)]
+    assert layers.names == "'wall 1' and 'wall 2'"
+    assert layers.hexes.size == mesh.n_hexes
+
+
+def test_the_span_of_a_two_dimensional_mesh_is_no_lateral_length():
+    mesh = stack(20, 1, 8, first=0.01, growth=1.2, lateral=0.2)
+    (wall,) = find_layers(mesh.with_points(mesh.points * [1, 1e-3, 1])).walls
+    assert (wall.name, wall.count, wall.depth) == ("plate", 20, 8)
+
+
+@pytest.mark.parametrize("mesh", [
+    grid(6), stack(growth=1.0), stack(layers=4, first=0.05, growth=1.2), scrambled(grid(8), 0.5),
+    *(make(name, size=600) for name in GALLERY if name != "layered"),
+], ids=str)  # fmt: skip
+def test_other_meshes_have_no_layers(mesh):
+    assert not find_layers(mesh)
+
+
+@pytest.mark.parametrize("name", [
+    "1000hex-block-internal-bias.vtk", "CAD4.vtk", "CAD4Per.vtk", "bone.vtk", "bunny.vtk", "bunnyPer.vtk", "can.vtu",
+    "cap_in.mesh", "impeller.vtk", "impellerPer.vtk", "jet.exo", "pave1.e.vtk", "pierrot_32735.mesh", "sphere_r9.msh",
+    "swivel2_7494.mesh", "teaport_14941.mesh",
+])  # fmt: skip
+def test_real_meshes_without_layers_have_none(name, real_mesh):
+    assert not find_layers(read(real_mesh(name)))
+
+
+def test_layers_of_an_aerofoil_are_found(real_mesh):
+    mesh = read(real_mesh("naca_viscous.cgns"))
+    wall = find_layers(mesh).walls[0]
+    assert (wall.count, wall.depth) == (512, 12)
+    assert np.median(wall.of(given_lengths(mesh))[:, 0]) == pytest.approx(2.51, rel=0.01)

@@ -1,0 +1,84 @@
+"""Targets of elements: their checks, and the meshes that carry them."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+from hexmend.errors import MeshError
+from hexmend.gallery import make
+from hexmend.mesh.element_target import Target
+
+
+@pytest.fixture
+def mesh():
+    return make("cube", size=8)
+
+
+@pytest.mark.parametrize(
+    ("lengths", "message"),
+    [
+        (np.ones(3), "shape"),
+        (np.ones((2, 2)), "shape"),
+        (np.zeros((2, 3)), "is 0 at hex 0"),
+        ([[1, 1, 1], [1, np.nan, 1]], "is nan at hex 1, direction 1"),
+        ([[1, 1, np.inf]], "positive finite"),
+        (np.ones((2, 3), bool), "type bool"),
+    ],
+)
+def test_impossible_lengths_are_named(lengths, message):
+    with pytest.raises(MeshError, match=message):
+        Target(lengths)
+
+
+@pytest.mark.parametrize("weight", [-1, np.nan, np.inf])
+def test_impossible_weights_are_named(weight):
+    with pytest.raises(MeshError, match="weight of the size"):
+        Target(np.ones((1, 3)), weight)
+
+
+def test_lengths_are_read_only_and_independent_of_the_callers():
+    lengths = np.ones((2, 3))
+    target = Target(lengths)
+    lengths[:] = 2
+    assert (target.lengths == 1).all()
+    assert not target.lengths.flags.writeable
+
+
+def test_a_mesh_has_no_target_unless_told(mesh):
+    assert mesh.element_target is None
+
+
+def test_derived_meshes_keep_the_target(mesh):
+    target = Target(np.ones((mesh.n_hexes, 3)), 0.5, "given")
+    aimed = mesh.with_element_target(target)
+    derived = {
+        "points": aimed.with_points(mesh.points + 1),
+        "fixed": aimed.with_fixed(mesh.fixed),
+        "surface": aimed.keeping_surface(),
+        "field": aimed.replace(name="other"),
+        "deep copy": copy.deepcopy(aimed),
+    }
+    assert {name for name, one in derived.items() if one.element_target is not target} == set()
+    assert mesh.element_target is None
+    assert aimed.topology is mesh.topology
+
+
+def test_a_rebuilt_mesh_and_one_without_target_have_none(mesh):
+    aimed = mesh.with_element_target(Target(np.ones((mesh.n_hexes, 3))))
+    assert aimed.rebuilt(name="other").element_target is None
+    assert aimed.with_element_target(None).element_target is None
+
+
+def test_a_target_of_other_hexes_is_refused(mesh):
+    with pytest.raises(MeshError, match="target is for 1 hexes: the mesh has 8"):
+        mesh.with_element_target(Target(np.ones((1, 3))))
+
+
+def test_a_pickled_mesh_has_its_target(mesh):
+    aimed = mesh.with_element_target(Target(np.full((mesh.n_hexes, 3), 2.0), 0.5, "given"))
+    target = pickle.loads(pickle.dumps(aimed)).element_target
+    assert (target.lengths == 2).all()
+    assert not target.lengths.flags.writeable
+    assert (target.size_weight, target.name) == (0.5, "given")
