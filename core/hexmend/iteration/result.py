@@ -42,6 +42,8 @@ class Iteration:
     norm : ObjectiveNorm
         p and offset of the recorded objective: that of the step, or else of the smoother. Number 0 has that of the
         first smoother.
+    target_quality : ElementQuality, optional
+        Quality against the target of the mesh, by which iterations are compared; `quality` if it has none.
     """
 
     number: int
@@ -51,14 +53,20 @@ class Iteration:
     largest_move: float
     diagnostics: Mapping[str, Any] = field(default_factory=dict)
     norm: ObjectiveNorm = SQUARES
+    target_quality: ElementQuality | None = None
+
+    @property
+    def judged_quality(self) -> ElementQuality:
+        """The quality by which the iteration is compared with others: `target_quality`, or `quality`."""
+        return self.target_quality or self.quality
 
     @property
     def objective(self) -> float | None:
-        """The objective of `norm`, at delta = 0; None while any hex is inverted.
+        """The objective of `norm`, at delta = 0, against the target of the mesh; None while any hex is inverted.
 
         It may rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
         """
-        return objective(self.quality, *self.norm)
+        return objective(self.judged_quality, *self.norm)
 
     def row(self) -> dict[str, float | int | str | None]:
         """Row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.

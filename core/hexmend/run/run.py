@@ -14,7 +14,7 @@ from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
 from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
-from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
+from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
 from hexmend.run.stage_run import StageRun
@@ -65,7 +65,9 @@ class Run(Iterator[Iteration]):
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
         self.layers = find_layers(mesh, quality)
-        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.norm)
+        smoother = self._stages[0].smoother
+        judged = measure_against_target(smoother.with_target(mesh, self.layers, quality), mesh.points, quality)
+        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []

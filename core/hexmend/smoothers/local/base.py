@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.energy import POLICIES
+from hexmend.energy.target import hex_sizes
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import measure
@@ -33,4 +34,4 @@ class LocalOptimiser(Optimiser):
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
         policy = POLICIES[self.delta_policy](self.delta * DELTA_UNITS[self.delta_unit] ** 3)
-        return policy.at(measure(points, mesh.hexes), mesh.mean_edge_length or 1.0)
+        return policy.at(measure(points, mesh.hexes), hex_sizes(mesh))

@@ -50,7 +50,7 @@ def local_sweeps(
     near[mesh.hexes[omitted != 0]] = False
     colours = mesh.topology.colouring(near & mesh.free & ~mesh.topology.boundary)
     settings = local.NodeStepSettings(
-        local.Direction.MODIFIED_NEWTON, delta, energy.norm, LineSearch(max_backtracks=60)
+        local.Direction.MODIFIED_NEWTON, delta, energy.norm, LineSearch(max_backtracks=60), energy.target
     )
     swept = x.copy()
     for _ in range(sweeps):
