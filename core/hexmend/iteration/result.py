@@ -154,6 +154,8 @@ class Result:
         Corners that let the last method go no further, if it has found them.
     layers : tuple of LayerReport
         Boundary layers before and after, one for each wall.
+    target_q : (float, float) or None
+        Least q of target before and after; None without a target.
     """
 
     mesh: Mesh
@@ -172,11 +174,17 @@ class Result:
     surface: SurfaceChange | None = None
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
+    target_q: tuple[float, float] | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost."""
-        return regressions(self.before, self.after) + ("layers",) * any(wall.lost for wall in self.layers)
+        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost.
+
+        With a target "q_of_target" takes the place of "q_min".
+        """
+        return regressions(self.before, self.after, self.target_q) + ("layers",) * any(
+            wall.lost for wall in self.layers
+        )
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

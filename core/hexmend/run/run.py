@@ -193,13 +193,13 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
-        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
+        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after, self._target_q))
         grading = describe_losses(walls)
         if not grading and walls and self._target is not None:
             grading = self.layers_message
         elif not grading and self.outcome is not None and self._target is None:
             grading = grading_message(self.mesh, mesh, self.start.quality)
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, grading]))
+        return " ".join(filter(None, [*words, describe_regressions(before, after, self._target_q), instead, grading]))
 
     @property
     def _kept_last(self) -> bool:
@@ -228,6 +228,7 @@ class Run(Iterator[Iteration]):
             surface=self._surface_change(mesh),
             active=self._stage_run.active if self._kept_last else None,
             layers=walls,
+            target_q=self._target_q,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
@@ -245,6 +246,17 @@ class Run(Iterator[Iteration]):
         if not self.layers:
             return ()
         return layer_report(self.layers, self.mesh, self.mesh.with_points(self.best.points), self._given_lengths)
+
+    @property
+    def _target_q(self) -> tuple[float, float] | None:
+        """Least q of target of the mesh as given and of the result; None without a target."""
+        target = self._target
+        if target is None:
+            return None
+        mesh = self.mesh.with_element_target(target)
+        judged = (measure_against_target(mesh, one.points, one.quality) for one in (self.start, self.best))
+        before, after = (float(one.q.min()) for one in judged)
+        return before, after
 
     @property
     def layers_message(self) -> str:
