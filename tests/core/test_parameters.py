@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import Parametrised, declared, from_strings, from_values, parameter
+from hexmend.parameters import Parameter, Parametrised, declared, from_strings, from_values, parameter
 from hexmend.registry import Registry
 
 

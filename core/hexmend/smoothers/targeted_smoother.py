@@ -20,8 +20,8 @@ class TargetedSmoother(SlidingSmoother):
     target: str = parameter(
         AUTO,
         suggestions=(AUTO, *SPECIFICATIONS),
-        help="What hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the file "
-        "or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
+        help="What hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
         1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."

@@ -3,7 +3,6 @@
 from hexmend.quality.metric import Metric
 from hexmend.quality.target_quality import measure_against_target
 
-
 Q_OF_TARGET = Metric(
     name="q-of-target",
     title="q of target",
