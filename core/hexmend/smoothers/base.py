@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.iteration import Iteration, Outcome, Step
+from hexmend.iteration import Outcome, Step
 from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
@@ -154,20 +154,20 @@ class Smoother(Parametrised, ABC):
         least = float(now.q.min())
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
-    def rank_iteration(self, hexes: np.ndarray, start: Iteration, now: Iteration) -> tuple[float, ...]:
-        """Sort key of an iterate where its quality alone does not determine it; that of `rank` by default.
+    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+        """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.
 
         Parameters
         ----------
         hexes : (m, 8) int32
-        start, now : Iteration
-            At the beginning of the stage, and the iterate.
+        points : (n, 3) float64
+            Of the iterate.
 
         Returns
         -------
         tuple of float
         """
-        return self.rank(start.quality, now.quality)
+        return ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
         """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from hexmend.boundary import SlidingBoundary
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energy_of
-from hexmend.iteration import Iteration, Outcome, Step
+from hexmend.iteration import Outcome, Step
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.parameters import parameter
@@ -176,16 +176,15 @@ class Mend(ObjectiveSmoother):
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
-        if self.goal == "time-step":  # the time step itself comes last, see `rank_iteration`
+        if self.goal == "time-step":  # the time step itself comes last, see `further_rank`
             return now.n_inverted, harmed if self.guard else False
         p, offset = self.norm
         with np.errstate(over="ignore"):  # close to the barrier
             before, after = (np.power(of.eta[~of.inverted] + (1 - offset), p).sum() for of in (start, now))
         return now.n_inverted, harmed, after > before
 
-    def rank_iteration(self, hexes: np.ndarray, start: Iteration, now: Iteration) -> tuple[float, ...]:
-        rank = super().rank_iteration(hexes, start, now)
-        return (*rank, -least_heights(now.points, hexes).min()) if self.goal == "time-step" else rank
+    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+        return (-least_heights(points, hexes).min(),) if self.goal == "time-step" else ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
         if self.maximises_minimum or "inverted" in worse:
