@@ -52,7 +52,11 @@ def interface_message(before: Mesh, after: Mesh, volumes: Mapping[str, MaterialV
     if not moved:
         kept = count_phrase(nodes.size, "node on their interfaces was", "nodes on their interfaces were")
         return f"{many}: {kept} kept."
-    motion = "moved off them freely" if before.interfaces is None else "slid along them"
+    motion = (
+        "moved off them freely"
+        if before.interfaces is None or before.node_rules.free is not None
+        else "slid along them"
+    )
     largest = max((abs(volume.change) for volume in volumes.values()), default=0.0)
     return (
         f"{many}: {moved:,} of {nodes.size:,} nodes on their interfaces {motion}; no material's volume changed by more "

@@ -76,7 +76,10 @@ class FeatureStructure(Feature):
         if self._seen.changed("counts", session.document.start, *counted):
             mesh, boundary = now.mesh, now.mesh.topology.boundary
             pinned = 0 if mesh.pinned is None else np.count_nonzero(mesh.pinned & mesh.topology.used & ~boundary)
-            self.panel.set_nodes(np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted)
+            interfaces = mesh.interfaces
+            between = 0 if interfaces is None else np.count_nonzero(interfaces.interface_nodes & ~boundary)
+            counts = np.count_nonzero(boundary), pinned, summary.free_nodes, summary.locked_inverted
+            self.panel.set_nodes(*counts, between)
 
     def _classify_boundary(self) -> None:
         """Classify the boundary nodes for the next run if the result is visible."""

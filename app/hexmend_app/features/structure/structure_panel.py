@@ -53,6 +53,7 @@ class StructurePanel(QWidget):
         super().__init__(parent)
         self._structure = Structure()
         self._counts: tuple[int, ...] = ()
+        self._between = 0
         self._classes: BoundaryClasses | None = None
         self.layers = {
             switch.name: LayerRow(
@@ -94,13 +95,16 @@ class StructurePanel(QWidget):
         self.layers["boundary"].set_entries(_by_valence(found.boundary_valence))
         self.layers["sharp"].set_entries([(SHARP, True, f"{len(found.sharp):,}")] if len(found.sharp) else [])
 
-    def set_nodes(self, boundary: int, pinned: int, free: int, locked: int) -> None:
-        """Show the numbers of boundary, pinned and free nodes, and of locked hexes."""
+    def set_nodes(self, boundary: int, pinned: int, free: int, locked: int, between: int = 0) -> None:
+        """Show the numbers of boundary, pinned and free nodes, of locked hexes, and of nodes between materials."""
         counts = (boundary, pinned, free, locked)
-        if counts == self._counts:
+        if (counts, between) == (self._counts, self._between):
             return
+        self._between = between
         self._counts = counts
         fixed = [(BOUNDARY, False, f"{boundary:,} boundary")] if boundary else []
+        if between:
+            fixed.append((BOUNDARY, False, f"{between:,} between"))
         if pinned:
             fixed.append((PINNED, False, f"{pinned:,} pinned"))
         self.layers["fixed"].set_entries(fixed)

@@ -63,7 +63,7 @@ def test_visible_faces_have_the_colour_of_their_material(pane):
 
 def test_legends_name_the_materials_and_are_empty_for_one():
     assert InterfaceLayer.legend(ONE) == ColourByMaterial.legend(ONE) == []
-    assert InterfaceLayer.legend(TWO) == [(INTERFACE, True, "9 inner nodes, 2 materials")]
-    assert [text for _, _, text in ColourByMaterial.legend(TWO)] == ["low: 32 hexes", "high: 32 hexes"]
+    assert InterfaceLayer.legend(TWO) == [(INTERFACE, True, "9 inside")]
+    assert [text for _, _, text in ColourByMaterial.legend(TWO)] == ["low", "high"]
     many = ONE.replace(hex_data={"material": np.arange(64) // 4})
     assert ColourByMaterial.legend(many)[-1] == (None, False, "and 6 more")

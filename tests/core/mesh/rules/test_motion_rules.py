@@ -113,6 +113,18 @@ def test_nodes_of_periodic_sides_move_as_one(boundary):
     assert np.abs(after - moved)[inner("x0")].max() > 0.05
 
 
+def test_cyclic_sides_of_a_file_move_as_one_where_the_boundary_slides_and_stay_where_it_does_not():
+    hexes, sides = np.nonzero(CUBE.topology.face_neighbours < 0)
+    middle = CUBE.points[CUBE.topology.boundary_faces].mean(axis=1)[:, 0]
+    cyclic = {name: np.column_stack([hexes, sides])[middle == x] for name, x in (("in", 0), ("out", 4))}
+    mesh = CUBE.replace(side_sets=cyclic, periodic_pairs=(("in", "out"),))
+    mesh = scrambled(mesh, 0.4)
+    np.testing.assert_array_equal(smooth(mesh).mesh.points[SIDES["x0"]], mesh.points[SIDES["x0"]])
+    after = smooth(mesh, "laplacian", boundary="slide", max_iterations=3).mesh.points
+    assert np.abs(after - mesh.points)[inner("x0")].max() > 1e-3
+    np.testing.assert_array_equal(after[SIDES["x1"]] - after[SIDES["x0"]], np.tile([4.0, 0, 0], (25, 1)))
+
+
 def test_a_rotated_side_is_matched_and_one_without_partners_tells_which_node():
     angle = np.pi / 6 * CUBE.points[:, 1] / 4
     radius = CUBE.points[:, 0] + 5

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexmend.mesh.hexahedron import FACES
 from hexmend.mesh.mesh import Mesh
-from hexmend.terminal_text import count_phrase
+from hexmend.terminal_text import printable
 from hexmend_app.scene.geometry.filters import same_mask
 from hexmend_app.scene.layers.optional_layer import LegendEntry, OptionalLayer, layer
 from hexmend_app.scene.layers.translucent_surface import TranslucentSurface
@@ -19,10 +19,12 @@ MATERIAL_COLOURS = (
     *("#88ccee", "#cc6677", "#ddcc77", "#117733", "#332288"),
     *("#aa4499", "#44aa99", "#999933", "#882255", "#6699cc"),
 )
-#: Materials that the legend names.
-_MAX_NAMED = 10
+#: Materials that the legend names, and letters of a name.
+_MAX_NAMED, _MAX_LETTERS = 10, 14
 #: Depth offset of coloured faces, in VTK's units, which shows them in front of those of the hexes.
 _IN_FRONT = -4.0
+#: Width of the edges of interfaces, in thin lines.
+_EDGE_WIDTH = 2.0
 #: Light from all sides and from the lamp, as of the hexes.
 _AMBIENT, _DIFFUSE = 0.58, 0.47
 
@@ -69,6 +71,13 @@ class InterfaceLayer(_MaterialLayer):
 
     colour, edge_opacity = INTERFACE, 0.9
 
+    def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
+        super().__init__(pane, pixel_ratio)
+        edges = self.actors[1]
+        edges.GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
+        edges.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
+        edges.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _IN_FRONT)
+
     def rebuild(self, mesh: Mesh, keep: np.ndarray | None) -> None:
         faces = mesh.materials.interface_faces
         if keep is not None:
@@ -82,7 +91,7 @@ class InterfaceLayer(_MaterialLayer):
         if mesh.materials is None:
             return []
         count = int(np.count_nonzero(mesh.materials.interface_nodes & ~mesh.topology.boundary))
-        return [(INTERFACE, True, f"{count_phrase(count, 'inner node')}, {len(mesh.materials)} materials")]
+        return [(INTERFACE, True, f"{count:,} inside")]
 
 
 @layer(
@@ -131,11 +140,13 @@ class ColourByMaterial(_MaterialLayer):
         materials = mesh.materials
         if materials is None:
             return []
-        counts = np.bincount(materials.of_hex)
-        named = zip(materials.names[:_MAX_NAMED], counts.tolist(), strict=False)
         entries: list[LegendEntry] = [
-            (MATERIAL_COLOURS[k % len(MATERIAL_COLOURS)], False, f"{name}: {count_phrase(count, 'hex', 'hexes')}")
-            for k, (name, count) in enumerate(named)
+            (MATERIAL_COLOURS[k % len(MATERIAL_COLOURS)], False, _shortened(printable(name)))
+            for k, name in enumerate(materials.names[:_MAX_NAMED])
         ]
         more = len(materials) - _MAX_NAMED
         return entries + ([(None, False, f"and {more:,} more")] if more > 0 else [])
+
+
+def _shortened(name: str) -> str:
+    return name if len(name) <= _MAX_LETTERS else f"{name[: _MAX_LETTERS - 1]}…"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from hexmend.errors import FileError
 from hexmend.io.base.cursor import ByteCursor, quoted
-from hexmend.io.formats.gmsh import version_1, version_2, version_4
+from hexmend.io.formats.gmsh import periodic, version_1, version_2, version_4
 from hexmend.io.formats.gmsh.content import to_mesh
 from hexmend.io.formats.gmsh.data import DATA, read_data
 from hexmend.io.formats.gmsh.sections import Sections
@@ -16,14 +16,14 @@ from hexmend.mesh.mesh import Mesh
 #: Readers of sections by version and keyword.
 _READERS = {
     1: {"$NOD": version_1.read_nodes, "$ELM": version_1.read_elements},
-    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements},
+    2: {"$Nodes": version_2.read_nodes, "$Elements": version_2.read_elements, "$Periodic": periodic.read_version_2},
     4: {"$Entities": version_4.read_entities, "$PartitionedEntities": version_4.read_partitioned_entities}
-    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements},
+    | {"$Nodes": version_4.read_nodes, "$Elements": version_4.read_elements, "$Periodic": periodic.read_version_4},
 }
 
 
 def read(path: Path) -> Mesh:
-    """Read a Gmsh file: physical groups become sets, tags of nodes and elements ids.
+    """Read a Gmsh file: physical groups become sets, tags ids, periodic surfaces pairs of node sets.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def read(path: Path) -> Mesh:
         raise source.error("has no section $MeshFormat")
     if skipped:
         sections.notes.append(f"Sections that are not kept ({', '.join(list(skipped)[:6])}) are left out.")
-    return to_mesh(path, sections)
+    return periodic.with_periodic_surfaces(path, to_mesh(path, sections), sections)
 
 
 def read_format(source: ByteCursor) -> tuple[int, str]:
