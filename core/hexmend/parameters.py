@@ -47,6 +47,8 @@ class Parameter:
         A sentence.
     no_limit : str
         Word that stands for no limit, where the number is one; then it is a value as well.
+    suggestions : tuple of str
+        Values that forms offer for a text, which may be another.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Parameter:
     unit: str
     help: str
     no_limit: str = ""
+    suggestions: tuple[str, ...] = ()
 
     def check(self, value: Any) -> Any:
         """Return `value` as this parameter's type, or raise `ParameterError` saying what was expected.
@@ -107,7 +110,7 @@ class Parameter:
         if self.type is bool:
             return "true or false"
         if self.type is str:
-            return "a text"
+            return f"{', '.join(self.suggestions)}, or another text" if self.suggestions else "a text"
         words = self._kind
         if self.low is not None and self.high is not None:
             words += f" from {self.low:g} to {self.high:g}"
@@ -133,7 +136,7 @@ class Parameter:
 
     def to_json(self) -> dict[str, Any]:
         """The row of `hexmend methods --json`."""
-        row = {key: value for key, value in vars(self).items() if key not in ("type", "no_limit")}
+        row = {key: value for key, value in vars(self).items() if key not in ("type", "no_limit", "suggestions")}
         return row | {"choices": None if self.choices is None else list(self.choices)}
 
 
@@ -151,9 +154,11 @@ def parameter(
     unit: str = "",
     help: str,
     no_limit: str = "",
+    suggestions: tuple[str, ...] = (),
 ) -> Any:
     """Declare a dataclass field as a parameter; its type is the field's annotation, the rest as in `Parameter`."""
     own = {"low": low, "high": high, "choices": choices, "unit": unit, "help": help, "no_limit": no_limit}
+    own["suggestions"] = suggestions
     return dataclasses.field(default=default, metadata={"parameter": own})
 
 

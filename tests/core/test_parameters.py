@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hexmend.errors import ParameterError
-from hexmend.parameters import Parametrised, declared, from_strings, from_values, parameter
+from hexmend.parameters import Parameter, Parametrised, declared, from_strings, from_values, parameter
 from hexmend.registry import Registry
 
 
@@ -102,3 +102,10 @@ def test_a_registry_knows_its_entries_in_order():
         registry.add("a", 3)
     with pytest.raises(ParameterError, match="there is no shape 'c'"):
         registry["c"]
+
+
+def test_a_text_may_have_suggestions_and_be_another():
+    target = Parameter("target", str, "auto", None, None, None, "", "", suggestions=("auto", "ideal"))
+    assert target.check("x + 1") == "x + 1"
+    assert target.range == "auto, ideal, or another text"
+    assert "suggestions" not in target.to_json()

@@ -101,11 +101,12 @@ class Scene(ConfigTable):
         tables
             Other tables: `bar`, `axes`, `panels`, `cameras`, and tables that replace those of the look.
         """
+        tables = {**{name: getattr(look, name) for name in _OF_LOOK}, **tables}
         if pose is not None:
             tables["camera"] = Camera.at(pose)
-        if len(look.cut.hexes) > _MAX_TEXT:
-            tables["cut"] = look.cut.with_hexes(None)
-        return cls(**{**{name: getattr(look, name) for name in _OF_LOOK}, **tables})
+        if len(tables["cut"].hexes) > _MAX_TEXT:
+            tables["cut"] = tables["cut"].with_hexes(None)
+        return cls(**tables)
 
     def look(self, mesh: Mesh) -> Look:
         """Return the look of the scene for a mesh.

@@ -71,7 +71,7 @@ def advise(result: Result) -> Advice:
     if result.outcome is Outcome.NOTHING_FREE:
         suggestions = [one for one in suggestions if one.unpin.size]
     untried = result.outcome is Outcome.STOPPED and not result.iterations
-    worse = describe_regressions(result.before, result.after), describe_losses(result.layers)
+    worse = describe_regressions(result.before, result.after, result.target_q), describe_losses(result.layers)
     limits, none = result.active, np.empty(0, dtype=np.int64)
     return Advice(
         reason=_reason(now),

@@ -15,10 +15,10 @@ from hexmend.energy.hex_energy import as_omitted_corners, energies
 from hexmend.energy.linear_operator import SymmetricOperator
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
 from hexmend.energy.sparsity import BlockSparsity
+from hexmend.energy.target import wanted_lengths
 from hexmend.kernels import assembly, step_limits, threads
 from hexmend.kernels import objective as kernels
 from hexmend.kernels.target import TargetMatrices
-from hexmend.mesh.element_target import wanted_lengths
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
 

@@ -116,7 +116,7 @@ class Reduction:
     def _turned_blocks(self, full: AssembledHessian) -> tuple:
         """T of each slot, and the blocks above the diagonal and the slots that it changes; it depends on the pattern.
 
-        Blocks of nodes in planes and lines of the axes are only scaled: their numbers and factors, (b,) and (b, 9), come
+        Blocks of nodes in planes and lines of the axes are only scaled: their numbers and factors, (b,) and (b, 9),
         first. Then there are the numbers of the others with the slots of their rows and columns.
         """
         dtype = full.off_diagonal.dtype

@@ -6,21 +6,24 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from hexmend.quality import ElementQuality
 
 
 class DeltaPolicy(Protocol):
     """Policy that chooses delta for each iteration."""
 
-    def at(self, quality: ElementQuality, unit: float) -> float:
+    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
         """Choose delta for a mesh.
 
         Parameters
         ----------
         quality : ElementQuality
             Quality of its hexes.
-        unit : float
-            Mean edge length of the mesh.
+        unit : (m,) float64 or float
+            Lengths to whose cubes sigma of the hexes is relative: the mean edge length of the mesh, or those of a
+            target; see `hexmend.energy.target.hex_sizes`.
 
         Returns
         -------
@@ -42,7 +45,7 @@ class FixedDelta:
 
     value: float = 0.01
 
-    def at(self, quality: ElementQuality, unit: float) -> float:
+    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
         return self.value if quality.n_inverted else 0.0
 
 
@@ -61,10 +64,10 @@ class AdaptiveDelta:
 
     least: float = 0.01
 
-    def at(self, quality: ElementQuality, unit: float) -> float:
+    def at(self, quality: ElementQuality, unit: np.ndarray | float) -> float:
         if not quality.n_inverted:
             return 0.0
-        worst = min(float(quality.sigma.min()) / unit**3, 0.0)
+        worst = min(float((quality.sigma / np.power(unit, 3)).min()), 0.0)
         return math.sqrt(self.least * (self.least - worst))
 
 

@@ -43,6 +43,8 @@ class Iteration:
     norm : ObjectiveNorm
         p and offset of the recorded objective: that of the step, or else of the smoother. Number 0 has that of the
         first smoother.
+    target_quality : ElementQuality, optional
+        Quality against the target of the mesh, by which iterations are compared; `quality` if it has none.
     """
 
     number: int
@@ -52,14 +54,20 @@ class Iteration:
     largest_move: float
     diagnostics: Mapping[str, Any] = field(default_factory=dict)
     norm: ObjectiveNorm = SQUARES
+    target_quality: ElementQuality | None = None
+
+    @property
+    def judged_quality(self) -> ElementQuality:
+        """The quality by which the iteration is compared with others: `target_quality`, or `quality`."""
+        return self.target_quality or self.quality
 
     @property
     def objective(self) -> float | None:
-        """The objective of `norm`, at delta = 0; None while any hex is inverted.
+        """The objective of `norm`, at delta = 0, against the target of the mesh; None while any hex is inverted.
 
         It may rise where a step does not minimise it, such as while mend raises the least scaled Jacobian.
         """
-        return objective(self.quality, *self.norm)
+        return objective(self.judged_quality, *self.norm)
 
     def row(self) -> dict[str, float | int | str | None]:
         """Row of the history: `iteration seconds objective q_min q_mean inverted largest_move`.
@@ -149,6 +157,8 @@ class Result:
         Corners that let the last method go no further, if it has found them.
     layers : tuple of LayerReport
         Boundary layers before and after, one for each wall.
+    target_q : (float, float) or None
+        Least q of target before and after; None without a target.
     """
 
     mesh: Mesh
@@ -168,11 +178,17 @@ class Result:
     materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
+    target_q: tuple[float, float] | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:
-        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost."""
-        return regressions(self.before, self.after) + ("layers",) * any(wall.lost for wall in self.layers)
+        """Names, of `hexmend.quality.REGRESSION_KEYS`, of what is worse than before; "layers" where these are lost.
+
+        With a target "q_of_target" takes the place of "q_min".
+        """
+        return regressions(self.before, self.after, self.target_q) + ("layers",) * any(
+            wall.lost for wall in self.layers
+        )
 
     def _repr_html_(self) -> str:
         """Show it in a notebook."""

@@ -22,7 +22,7 @@ def measure_against(points: Annotated[NDArray[numpy.float64], dict(shape=(None, 
     """
     Quality of every hex against its target at delta = 0; writes two arrays (m,) float64.
 
-    eta is eta(H) of S W^-1, the mean of eta(T) - 1, with the size beside the shape if it has a weight; q is
+    eta is eta(H) of S W^-1, the mean of eta(T) - 1, and of the size if it has a weight; q is
     the mean of 1/eta(T). An inverted corner has eta(T) = +inf.
     """
 

@@ -21,7 +21,7 @@ MIN_LAYERS, MIN_VERY_THIN_LAYERS, VERY_THIN = 5, 3, 10.0
 MIN_GROWTH, MAX_UNSTEADINESS = 1.02, 0.1
 #: Least number of thin faces of a wall, and their least share of its faces.
 MIN_FACES, MIN_SHARE = 9, 1 / 3
-#: Share of a wall's faces that a side set has if the wall gets its name.
+#: Share of a wall's faces that side sets have if the wall is divided and named by them.
 _NAMED = 0.9
 
 
@@ -96,20 +96,23 @@ def _walls(mesh: Mesh, columns: Columns, thin: np.ndarray) -> Layers:
     component = components_of_cells(mesh.n_nodes, quads)
     count, strong = np.bincount(component), np.bincount(component, thin)
     kept = np.flatnonzero((strong >= MIN_FACES) & (strong >= MIN_SHARE * count))
-    kept = kept[np.argsort(-count[kept], kind="stable")]
-    walls: list[Wall] = []
-    for number, which in enumerate(kept, 1):
+    parts: list[tuple[str, Columns]] = []
+    for which in kept:
         rows = columns.rows(component == which)
-        name = _name(mesh, rows) or f"wall {number}"
-        walls.append(Wall(name, rows.hexes, rows.faces))
+        names = _names(mesh, rows)
+        parts += [(name, rows.rows(names == name)) for name in dict.fromkeys(names.tolist())]
+    parts.sort(key=lambda part: -len(part[1].hexes))
+    walls = (Wall(name or f"wall {number}", part.hexes, part.faces) for number, (name, part) in enumerate(parts, 1))
     return Layers(tuple(walls))
 
 
-def _name(mesh: Mesh, columns: Columns) -> str:
-    """Name of the smallest side set that has nearly all faces of a wall; "" for none."""
+def _names(mesh: Mesh, columns: Columns) -> np.ndarray:
+    """Name of the side set that each face of a wall is in, the smallest of several, (w,) of str; "" for none.
+
+    A wall of which side sets have only a small part is not divided.
+    """
     keys = 6 * columns.hexes[:, 0].astype(np.int64) + columns.faces[:, 0]
-    for name, sides in sorted(mesh.side_sets.items(), key=lambda one: len(one[1])):
-        there = np.isin(keys, 6 * sides[:, 0].astype(np.int64) + sides[:, 1])
-        if there.mean() >= _NAMED:
-            return name
-    return ""
+    names = np.full(len(keys), "", dtype=object)
+    for name, sides in sorted(mesh.side_sets.items(), key=lambda one: -len(one[1])):
+        names[np.isin(keys, 6 * sides[:, 0].astype(np.int64) + sides[:, 1])] = name
+    return names if np.mean(names != "") >= _NAMED else np.full(len(keys), "", dtype=object)

@@ -5,21 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from hexmend.arrays import as_immutable
 from hexmend.errors import MeshError
 from hexmend.kernels.target import TargetMatrices
-from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.validation import as_reals, location
-
-if TYPE_CHECKING:
-    from hexmend.mesh.mesh import Mesh
-
-#: Least size of a hex that counts, in mean edge lengths: edges may have no length.
-_MIN_SIZE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +27,7 @@ class Target:
         Lengths of each hex along x, y and z of its numbering (see `hexmend.mesh.hexahedron`), positive, in the mesh's
         unit of length; kept read-only.
     size_weight : float
-        Weight of the size beside the shape, at least 0. With 0 only the ratios of a hex's lengths count.
+        Weight of the size next to the shape, at least 0. With 0 only the ratios of a hex's lengths count.
     name : str
         Name for messages, such as "given-shape".
 
@@ -85,69 +77,3 @@ class Target:
         """Restore a pickled state; its array is writable and is made immutable again."""
         for name, value in state.items():
             object.__setattr__(self, name, as_immutable(value) if isinstance(value, np.ndarray) else value)
-
-
-def wanted_lengths(mesh: Mesh) -> np.ndarray | None:
-    """Lengths of the target matrices of a mesh's energy, (m, 3) in its unit of length; None without a target.
-
-    They are those of the target if the size counts. If the shape alone counts, their scale is free, and each hex gets
-    that of its own edges: sigma of S W^-1 is then close to 1 for hexes of any size, so that delta regularises the
-    flattest layer as much as the largest hex.
-
-    Parameters
-    ----------
-    mesh : Mesh
-
-    Returns
-    -------
-    (m, 3) float64 or None
-    """
-    target = mesh.element_target
-    if target is None or target.size_weight > 0:
-        return None if target is None else target.lengths
-    ends = mesh.points[mesh.hexes[:, EDGES]]
-    edges = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).reshape(-1, 3, 4)
-    # The median of the four parallel edges is hardly changed by a node that is far away.
-    with np.errstate(divide="ignore"):
-        sizes = np.exp(np.log(np.median(edges, axis=2)).mean(axis=1))
-    sizes = np.maximum(sizes, _MIN_SIZE * (mesh.mean_edge_length or 1.0))
-    return target.lengths * (sizes / np.exp(np.log(target.lengths).mean(axis=1)))[:, None]
-
-
-def hex_sizes(mesh: Mesh) -> np.ndarray | float:
-    """Lengths to whose cubes sigma and delta of the hexes are relative.
-
-    Parameters
-    ----------
-    mesh : Mesh
-
-    Returns
-    -------
-    (m,) float64 or float
-        Cube roots of the volumes that the hexes are to have; without a target the mean edge length of the mesh.
-    """
-    lengths = wanted_lengths(mesh)
-    return (mesh.mean_edge_length or 1.0) if lengths is None else np.cbrt(lengths.prod(axis=1))
-
-
-def node_sizes(mesh: Mesh) -> np.ndarray | float:
-    """Lengths to which moves of nodes are relative.
-
-    Parameters
-    ----------
-    mesh : Mesh
-
-    Returns
-    -------
-    (n,) float64 or float
-        The shortest length that a hex at the node is to have, at most the mean edge length, which it is without a
-        target.
-    """
-    unit, lengths = mesh.mean_edge_length or 1.0, wanted_lengths(mesh)
-    if lengths is None:
-        return unit
-    sizes = np.full(mesh.n_nodes, unit)
-    shortest = lengths.min(axis=1)
-    for corner in mesh.hexes.T:
-        np.minimum.at(sizes, corner, shortest)
-    return sizes

@@ -133,12 +133,12 @@ def _directions(mesh: Mesh, one: np.ndarray, other: np.ndarray) -> list[tuple[np
     while left.any():
         normal = units[left.argmax()]
         rows = left & (np.abs(units @ normal) > 0.5)
-        off = np.linalg.norm(np.cross(units[rows], normal), axis=1)
-        if off.max() > _PARALLEL:
-            at = np.flatnonzero(rows)[off.argmax()]
+        deviation = np.linalg.norm(np.cross(units[rows], normal), axis=1)
+        if deviation.max() > _PARALLEL:
+            at = np.flatnonzero(rows)[deviation.argmax()]
             raise MeshError(
                 f"the nodes {one[at]} and {other[at]} are not opposite each other: the line between them is inclined "
-                f"by {np.degrees(np.arcsin(min(off.max(), 1))):.3g} degrees to that of the nodes {one[left.argmax()]} "
+                f"by {np.degrees(np.arcsin(min(deviation.max(), 1))):.3g} degrees to that of the nodes {one[left.argmax()]} "
                 f"and {other[left.argmax()]}"
             )
         axis = np.abs(normal).argmax()
@@ -168,11 +168,11 @@ def _rotated(mesh: Mesh, pairs: np.ndarray, first: str, second: str) -> LinearMo
     one, other = pairs[pairs[:, 0] != pairs[:, 1]].T
     gap = mesh.points[other] - mesh.points[one] @ rotation.T
     gap -= gap.mean(axis=0) if len(gap) else 0.0  # the axis need not go through the origin
-    off = np.linalg.norm(gap, axis=1) / (mesh.mean_edge_length or 1.0)
-    if off.max(initial=0) > 1e3 * _PARALLEL:
-        at = int(off.argmax())
+    deviation = np.linalg.norm(gap, axis=1) / (mesh.mean_edge_length or 1.0)
+    if deviation.max(initial=0) > 1e3 * _PARALLEL:
+        at = int(deviation.argmax())
         raise MeshError(
-            f"node {other[at]} of {second!r} is {off[at]:.3g} mean edge lengths from the image of node {one[at]} of "
+            f"node {other[at]} of {second!r} is {deviation[at]:.3g} mean edge lengths from the image of node {one[at]} of "
             f"{first!r} under the rotation of the wedge"
         )
     return LinearMotion.in_planes(one, normal).merge(LinearMotion.tying(other, one, rotation))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.node_step.patch import Patch, curve_length
@@ -29,7 +30,7 @@ def local_step(smoother: LocalDescent, mesh: Mesh, points: np.ndarray, node: int
         The delta of the sweep, (3.2).
     """
     patch, star = Patch(mesh, points, node, smoother.norm, delta), mesh.topology.node_corners[node]
-    step = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta))
+    step = local.recorded_step(points, mesh.hexes, star, smoother.step_settings(delta, target_matrices(mesh)))
     moved, direction, trials = step.status is local.StepStatus.MOVED, np.array(step.direction), step.trials
     return NodeStep(
         **patch.fields(),

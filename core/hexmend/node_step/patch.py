@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from hexmend.energy import ObjectiveNorm
+from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 
@@ -32,7 +33,7 @@ class Patch:
     norm : ObjectiveNorm
     delta : float
     unit : float, optional
-        Unit of length; by default the mean edge length of the patch.
+        Unit of length; by default the mean edge length of the patch, or that of its hexes' targets.
 
     Attributes
     ----------
@@ -51,7 +52,8 @@ class Patch:
         star = mesh.topology.node_corners[node]
         self.hexes = star // 8
         self.node, self.before, self.norm, self.delta = node, points[node].copy(), norm, float(delta)
-        at = local.patch_energy(points, mesh.hexes, star, 1 / unit if unit else 0.0, self.delta, self.norm)
+        self._target, factor = target_matrices(mesh), 1 / unit if unit else 0.0
+        at = local.patch_energy(points, mesh.hexes, star, factor, self.delta, self.norm, self._target)
         self._patch = points, mesh.hexes, star, at.factor
         self.unit = 1 / at.factor if at.factor else 0.0
         self.energy, self.gradient = at.value, np.array(at.gradient)
@@ -74,7 +76,7 @@ class Patch:
     def _energies(self, direction: np.ndarray, alpha: np.ndarray | float) -> np.ndarray:
         rows = np.zeros((np.size(alpha), 2))
         rows[:, 0] = alpha
-        local.energy_along(*self._patch, direction, self.delta, self.norm, rows)
+        local.energy_along(*self._patch, direction, self.delta, self.norm, rows, self._target)
         return rows
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from hexmend.aliases import reads_old_names
+from hexmend.energy.target import target_matrices
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import as_index
@@ -88,7 +89,7 @@ class Sweep(Iterator[NodeStep]):
         """Visit the remaining nodes by the kernel; return the step of the last, or None if none remained."""
         if self.finished:
             return None
-        last, settings = self.nodes.size - 1, self.smoother.step_settings(self.delta)
+        last, settings = self.nodes.size - 1, self.smoother.step_settings(self.delta, target_matrices(self.mesh))
         groups = self.mesh.topology.wavefronts(self.nodes[self.done : last])
         local.sweep(self._points, self.mesh.topology.hex_mesh, groups.start, groups.items, settings)
         self.done = last

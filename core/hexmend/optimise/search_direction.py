@@ -41,9 +41,13 @@ class DirectionMethod(Protocol):
 
 
 def steepest_descent(value: float, gradient: np.ndarray, hessian: Hessian) -> SearchDirection:
-    """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum."""
-    p = hessian.energy.norm.p
-    return SearchDirection(-(value ** (1 / p - 1) / p) * gradient)  # (C.2)
+    """Algorithm A.2: p_k = -grad f of (3.3), f being the p-th root of the sum.
+
+    With a target the gradient is that in the lengths at each node: a layer is thinner than steps elsewhere are long.
+    """
+    p, lengths = hessian.energy.norm.p, hessian.energy.node_lengths
+    step = -(value ** (1 / p - 1) / p) * gradient  # (C.2)
+    return SearchDirection(step if lengths is None else np.square(lengths) * step)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from hexmend.quality.regressions import REGRESSION_KEYS, describe_regressions, r
 from hexmend.quality.second_order import SecondOrderSummary, summarise_second_order
 from hexmend.quality.statistics import MetricStatistics, metric_statistics
 from hexmend.quality.summary import SUMMARY_QUANTITIES, Summary, objective, summarise
+from hexmend.quality.target_quality import measure_against_target, target_quality
 
 _modules = [module.name for module in pkgutil.walk_packages(metrics.__path__, f"{metrics.__name__}.")]
 for _module in sorted(_modules, key=lambda name: name.count(".")):  # those of packages last
@@ -45,6 +46,7 @@ __all__ = [
     "describe_regressions",
     "locked_hexes",
     "measure",
+    "measure_against_target",
     "metric_statistics",
     "metric_values",
     "objective",
@@ -52,6 +54,7 @@ __all__ = [
     "regressions",
     "summarise",
     "summarise_second_order",
+    "target_quality",
     "worst_hexes",
 ]
 

@@ -11,12 +11,19 @@ REGRESSION_KEYS = {"inverted": "inverted", "q_min": "q_min", "scaled_jacobian": 
 _ROUNDING = 1e-12
 
 
-def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
+#: Name of the least q of target in reports, which takes the place of "q_min" where hexes are not to be cubes.
+Q_OF_TARGET = "q_of_target"
+
+
+def regressions(before: Summary, after: Summary, target_q: tuple[float, float] | None = None) -> tuple[str, ...]:
     """Return the names in `REGRESSION_KEYS` of the quantities that are worse, in that order.
 
     Parameters
     ----------
     before, after : Summary
+    target_q : (float, float), optional
+        Least q of target before and after, of a run with a target: it is compared in place of q min, and named
+        `Q_OF_TARGET`.
 
     Returns
     -------
@@ -31,19 +38,24 @@ def regressions(before: Summary, after: Summary) -> tuple[str, ...]:
     >>> regressions(before, dataclasses.replace(before, inverted=2, q_mean=0.0, q_min=0.9))
     ('inverted',)
     """
-    return tuple(
+    names = [
         name
         for name, key in REGRESSION_KEYS.items()
         if SUMMARY_QUANTITIES[key].better * (getattr(after, key) - getattr(before, key)) < -_ROUNDING
-    )
+    ]
+    if target_q is not None:
+        names = [name for name in names if name != "q_min"]
+        names += [Q_OF_TARGET] * (target_q[1] - target_q[0] < -_ROUNDING)
+    return tuple(names)
 
 
-def describe_regressions(before: Summary, after: Summary) -> str:
+def describe_regressions(before: Summary, after: Summary, target_q: tuple[float, float] | None = None) -> str:
     """Describe the regressions of a mesh as a sentence; "" if there are none.
 
     Parameters
     ----------
-    before, after : Summary
+    before, after, target_q
+        See `regressions`.
 
     Returns
     -------
@@ -58,8 +70,11 @@ def describe_regressions(before: Summary, after: Summary) -> str:
     >>> describe_regressions(before, dataclasses.replace(before, inverted=4, q_min=0.40349))
     'Worse than at the start: inverted 0 → 4, q min 0.40351 → 0.40349.'
     """
-    keys = [REGRESSION_KEYS[name] for name in regressions(before, after)]
+    names = regressions(before, after, target_q)
+    keys = [REGRESSION_KEYS[name] for name in names if name != Q_OF_TARGET]
     changes = [f"{SUMMARY_QUANTITIES[key].label} {_change(getattr(before, key), getattr(after, key))}" for key in keys]
+    if Q_OF_TARGET in names:
+        changes.append(f"q of target min {_change(*target_q)}")
     return f"Worse than at the start: {', '.join(changes)}." if changes else ""
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from hexmend.errors import ParameterError
-from hexmend.quality.regressions import REGRESSION_KEYS
+from hexmend.quality.regressions import Q_OF_TARGET, REGRESSION_KEYS
 from hexmend.quality.summary import SUMMARY_QUANTITIES
 from hexmend.quantity import Quantity, format_count, format_microseconds, format_milliseconds, format_significant
 from hexmend.report.documents import write_document
@@ -175,7 +175,10 @@ def _cell(figure: Quantity, record: Mapping[str, Any]) -> str:
 
 def _fallen(columns: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """Return a note on methods after which figures are worse than before."""
-    labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()} | {"layers": "layers"}
+    labels = {name: SUMMARY_QUANTITIES[key].label for name, key in REGRESSION_KEYS.items()} | {
+        "layers": "layers",
+        Q_OF_TARGET: "q of target",
+    }
     fallen = {head: record["worse"] for head, record in columns.items() if record.get("worse")}
     worse = [f"{head} ({', '.join(map(labels.get, names))})" for head, names in fallen.items()]
     return [f"Worse than before: {'; '.join(worse)}."] if worse else []

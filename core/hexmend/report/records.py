@@ -41,6 +41,7 @@ def record(result: Result) -> dict[str, Any]:
         report["layers"] = [wall.to_dict() for wall in result.layers]
     if result.mesh.element_target is not None:
         report["target"] = result.mesh.element_target.name
+        report["q_of_target"] = list(result.target_q)
     return report | {"stages": [stage.to_dict() for stage in result.stages]} if result.method == Recipe.name else report
 
 

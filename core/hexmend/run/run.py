@@ -16,7 +16,7 @@ from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
 from hexmend.mesh.rules.resolution import with_rules
-from hexmend.quality import Summary, describe_regressions, measure, regressions, summarise
+from hexmend.quality import Summary, describe_regressions, measure, measure_against_target, regressions, summarise
 from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, kept_message
@@ -74,11 +74,14 @@ class Run(Iterator[Iteration]):
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
         self.layers = find_layers(mesh, quality)
-        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, self._stages[0].smoother.norm)
+        smoother = self._stages[0].smoother
+        judged = measure_against_target(smoother.with_target(mesh, self.layers, quality), mesh.points, quality)
+        self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
         self.decisions: list[str] = []
         self._stage_runs = [self._stage_of(self._stages[0], 1, self.start, self.start)]
+        self._note_ignored_target()
         self._end_if_done()
 
     def __next__(self) -> Iteration:
@@ -210,13 +213,13 @@ class Run(Iterator[Iteration]):
         if not self._kept_last:
             words.append(kept_message(self.best.number))
         words.append(interface_message(self.mesh, mesh, volumes))
-        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after))
+        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after, self._target_q))
         grading = describe_losses(walls)
         if not grading and walls and self._target is not None:
             grading = self.layers_message
         elif not grading and self.outcome is not None and self._target is None:
             grading = grading_message(self.mesh, mesh, self.start.quality)
-        return " ".join(filter(None, [*words, describe_regressions(before, after), instead, grading]))
+        return " ".join(filter(None, [*words, describe_regressions(before, after, self._target_q), instead, grading]))
 
     @property
     def _kept_last(self) -> bool:
@@ -246,6 +249,7 @@ class Run(Iterator[Iteration]):
             materials=volumes,
             active=self._stage_run.active if self._kept_last else None,
             layers=walls,
+            target_q=self._target_q,
         )
 
     def _surface_change(self, mesh: Mesh) -> SurfaceChange | None:
@@ -264,6 +268,17 @@ class Run(Iterator[Iteration]):
         if not self.layers:
             return ()
         return layer_report(self.layers, self.mesh, self.mesh.with_points(self.best.points), self._given_lengths)
+
+    @property
+    def _target_q(self) -> tuple[float, float] | None:
+        """Least q of target of the mesh as given and of the result; None without a target."""
+        target = self._target
+        if target is None:
+            return None
+        mesh = self.mesh.with_element_target(target)
+        judged = (measure_against_target(mesh, one.points, one.quality) for one in (self.start, self.best))
+        before, after = (float(one.q.min()) for one in judged)
+        return before, after
 
     @property
     def layers_message(self) -> str:
@@ -302,7 +317,13 @@ class Run(Iterator[Iteration]):
         count = count_phrase(last.number - done.stage_start.number, "iteration")
         self.decisions.append(f"Stage {done.number}, {done.smoother.title}, {count}: {done.outcome.value}{kept}")
         self._stage_runs.append(self._stage_of(self._remaining_stages[0], done.number + 1, reached, last))
+        self._note_ignored_target()
         self._end_if_done()
+
+    def _note_ignored_target(self) -> None:
+        """Add a decision if the mesh has a target and the method of the stage minimises no energy."""
+        if self._target is not None and not self._stage_run.smoother.optimises:
+            self.decisions.append(f"{self._stage_run.smoother.title} takes no account of the target of the hexes.")
 
     def _end_if_done(self) -> None:
         """End the run if the current stage has ended and no other one follows."""

@@ -9,10 +9,11 @@ from time import perf_counter
 import numpy as np
 
 from hexmend.arrays import as_immutable, largest_norm
+from hexmend.energy.target import node_sizes
 from hexmend.iteration import ActiveSet, Iteration, Outcome, StageResult, StoppingCriteria
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.validation import points_like
-from hexmend.quality import measure, objective
+from hexmend.quality import ElementQuality, measure, measure_against_target, objective
 from hexmend.run.recipe import Stage
 from hexmend.smoothers import Smoother
 from hexmend.smoothers.constrained_steps import constrained_steps
@@ -79,9 +80,11 @@ class StageRun:
         self.decision = ""
         self.active: ActiveSet | None = None
         self.target = mesh.element_target
-        self._hexes, self._unit = mesh.hexes, mesh.mean_edge_length or 1.0
+        self._mesh, self._unit = mesh, mesh.mean_edge_length or 1.0
+        self._node_sizes = node_sizes(mesh)
         self._origin = start if predecessor is None else predecessor._origin
         self._best = start if predecessor is None else predecessor._best
+        self._origin_quality = measure_against_target(mesh, self._origin.points, self._origin.quality)
         self._best_rank = self._rank(self._best)
         self._update_best(start)
         began = perf_counter()
@@ -125,21 +128,27 @@ class StageRun:
         if not np.isfinite(move):
             self.end(Outcome.NOT_FINITE)
             return None
-        quality = step.quality if step.quality is not None else measure(points, self._hexes)
+        quality = step.quality if step.quality is not None else measure(points, self._mesh.hexes)
         diagnostics = {**step.diagnostics, "stage": self.number, "method": self.smoother.name}
+        judged = measure_against_target(self._mesh, points, quality)
         now = self.last = self.current = Iteration(
-            self.last.number + 1, points, quality, seconds, move, diagnostics, step.norm or self.smoother.norm
+            self.last.number + 1, points, quality, seconds, move, diagnostics, step.norm or self.smoother.norm, judged
         )
         self.decision, self.active = step.decision, step.active or self.active
         if not step.infeasible:
             self._update_best(now)
-        size = move if self.stage.stop.move == "length" else float(np.abs(moves).max()) / self._unit
-        small = size < self.stage.stop.tolerance
+        small = self._size(moves) < self.stage.stop.tolerance
         if small and not step.intermediate and not self._still_falls(before, now):  # Algorithm A.1
             self.end(Outcome.CONVERGED)
         else:
             self._end_at_a_limit()
         return now
+
+    def _size(self, moves: np.ndarray) -> float:
+        """Size of the largest of some moves (n, 3), in mean edge lengths or, with a target, in lengths at each node."""
+        sizes = self._node_sizes
+        relative = moves / (sizes if np.isscalar(sizes) else sizes[:, None])
+        return largest_norm(relative) if self.stage.stop.move == "length" else float(np.abs(relative).max())
 
     def set_limits(self, stop: StoppingCriteria) -> None:
         """Continue with other limits."""
@@ -183,7 +192,14 @@ class StageRun:
         )
 
     def _rank(self, iteration: Iteration) -> tuple[float, ...]:
-        return self.smoother.rank_iteration(self._hexes, self._origin, iteration)
+        rank = self.smoother.rank(self._origin_quality, self._judged_quality(iteration))
+        return *rank, *self.smoother.further_rank(self._mesh.hexes, iteration.points)
+
+    def _judged_quality(self, iteration: Iteration) -> ElementQuality:
+        """Quality of an iteration against the target of this stage; earlier stages may have had another one."""
+        if iteration.number > self.run_last.number:
+            return iteration.judged_quality
+        return measure_against_target(self._mesh, iteration.points, iteration.quality)
 
     def _update_best(self, iteration: Iteration) -> None:
         """Make the iteration the best of the stage unless an earlier one is better."""
@@ -196,7 +212,7 @@ class StageRun:
         if not self.smoother.optimises:
             return False
         norm = now.norm  # the previous step may have had another objective
-        then, later = objective(before.quality, *norm), now.objective
+        then, later = objective(self._judged_quality(before), *norm), now.objective
         if then is None or later is None:
             return False
         excess = then - norm.cube_value * now.quality.q.size

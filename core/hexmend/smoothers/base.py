@@ -12,7 +12,7 @@ import numpy as np
 from hexmend.aliases import PARAMETERS, former_attributes, reads_old_names
 from hexmend.boundary.features import FEATURE_ANGLE
 from hexmend.energy.norm import SQUARES, ObjectiveNorm
-from hexmend.iteration import Iteration, Outcome, Step
+from hexmend.iteration import Outcome, Step
 from hexmend.layers import Layers
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import Parametrised, declared
@@ -140,34 +140,37 @@ class Smoother(Parametrised, ABC):
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
         Inverted hexes come first, then the least q(H). Of an optimiser it counts only whether that is visibly lower
-        than at the start: its iterates improve by the objective, not by the least q(H).
+        than at the start: its iterates improve by the objective, not by the least q(H). With a target, q(H) is that
+        against the target; of an optimiser it counts then whether the objective is higher than at the start.
 
         Parameters
         ----------
         start, now : ElementQuality
-            At the beginning of the stage, and of the iterate.
+            At the beginning of the stage, and of the iterate; measured against the target of the mesh if it has one.
 
         Returns
         -------
         tuple of float
         """
         least = float(now.q.min())
+        if self.optimises and now.against_target:
+            return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
-    def rank_iteration(self, hexes: np.ndarray, start: Iteration, now: Iteration) -> tuple[float, ...]:
-        """Sort key of an iterate where its quality alone does not determine it; that of `rank` by default.
+    def further_rank(self, hexes: np.ndarray, points: np.ndarray) -> tuple[float, ...]:
+        """Sort keys of an iterate after those of `rank`, which its quality alone does not determine; none by default.
 
         Parameters
         ----------
         hexes : (m, 8) int32
-        start, now : Iteration
-            At the beginning of the stage, and the iterate.
+        points : (n, 3) float64
+            Of the iterate.
 
         Returns
         -------
         tuple of float
         """
-        return self.rank(start.quality, now.quality)
+        return ()
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
         """Return a hint on what helps against values (of `REGRESSION_KEYS`) that became worse; "" for none."""
@@ -178,6 +181,13 @@ class Smoother(Parametrised, ABC):
         """The method's entry in `hexmend methods --json`."""
         parameters = [declaration.to_json() for declaration in declared(cls)]
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
+
+
+def objective_of_sound(quality: ElementQuality, norm: ObjectiveNorm) -> float:
+    """Objective over the hexes that are not inverted, of (3.3) without its root."""
+    p, offset = norm
+    with np.errstate(over="ignore"):  # close to the barrier
+        return float(np.power(quality.eta[~quality.inverted] + (1 - offset), p).sum())
 
 
 S = TypeVar("S", bound=type[Smoother])

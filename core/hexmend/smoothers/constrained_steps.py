@@ -48,9 +48,10 @@ def constrained_steps(smoother: Smoother, mesh: Mesh) -> Steps:
 def _steps_in_turns(smoother: Smoother, mesh: Mesh, linear: np.ndarray, sweep: Sweep) -> Steps:
     """Move the other nodes by the method, then the constrained ones by a sweep."""
     points, others = mesh.constrained(mesh.points), mesh.with_fixed(mesh.fixed | linear)
+    any_other = smoother.movable(others).any()
     yield Step(points)
     while True:
-        step = _next_step(smoother, others.with_points(points)) if smoother.movable(others).any() else Step(points)
+        step = _next_step(smoother, others.with_points(points)) if any_other else Step(points)
         if step is None:
             return Outcome.FINISHED
         points = mesh.constrained(sweep(step.points))

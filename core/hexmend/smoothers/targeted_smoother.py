@@ -10,6 +10,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
+from hexmend.target import SPECIFICATIONS
 
 
 @dataclass(frozen=True)
@@ -18,8 +19,9 @@ class TargetedSmoother(SlidingSmoother):
 
     target: str = parameter(
         AUTO,
-        help="Shape of hexes to aim at: ideal, given-shape, given-size, given, or lengths: data of the file or a "
-        "formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
+        suggestions=(AUTO, *SPECIFICATIONS),
+        help="What hexes are to be like: cubes, as given in shape, in size or in both, or lengths from data of the "
+        "file or a formula in x, y, z. auto: ideal, or given-shape for a mesh with layers.",
     )
     size_weight: float = parameter(
         1.0, low=0, high=1000, help="Weight of the size relative to the shape, where the target has sizes."

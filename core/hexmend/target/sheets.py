@@ -8,9 +8,11 @@ edges between fixed nodes, such as those of the boundary, and edges away from in
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
 
-from hexmend.arrays import mask
+from hexmend.arrays import as_immutable, mask
 from hexmend.mesh.mesh import Mesh
 from hexmend.quality import ElementQuality, measure
 from hexmend.target.edge_lengths import edge_numbers, given_lengths
@@ -25,6 +27,8 @@ _NOISE_PASSES = 3
 _RINGS = 2
 #: Passes of averaging over the edges that were filled in.
 _PASSES = 8
+#: Lengths of distorted meshes in use: the detection of layers, targets and reports all need them.
+_RECOVERED: WeakKeyDictionary[Mesh, np.ndarray] = WeakKeyDictionary()
 
 
 class _Sheets:
@@ -99,8 +103,13 @@ def recovered_lengths(mesh: Mesh, quality: ElementQuality | None = None) -> np.n
     lengths = given_lengths(mesh)
     quality = quality or measure(mesh.points, mesh.hexes)
     distorted = np.flatnonzero(quality.scaled_jacobian < DISTORTED)
-    if not distorted.size:
-        return lengths
+    if distorted.size and mesh not in _RECOVERED:
+        _RECOVERED[mesh] = as_immutable(_recovered(mesh, lengths, quality, distorted))
+    return _RECOVERED[mesh].copy() if distorted.size else lengths
+
+
+def _recovered(mesh: Mesh, lengths: np.ndarray, quality: ElementQuality, distorted: np.ndarray) -> np.ndarray:
+    """Return the lengths (m, 3) with those near distorted hexes (k,) recovered; `lengths` is changed."""
     region = np.flatnonzero(mesh.topology.hexes_around(distorted, _RINGS))
     sheets = _Sheets(mesh, region)
     logs = _log_edge_lengths(mesh)

@@ -65,8 +65,8 @@ void bind_target(nb::module_ m) {
     m.doc() = "Targets of the hexes of a mesh.";
     nb::class_<TargetMatrices>(m, "TargetMatrices", "Target matrices W = diag(lengths) along each hex's directions.")
         .def(nb::init<Points, double>(), "inverse_lengths"_a, "size_weight"_a = 0.0, nb::keep_alive<1, 2>(),
-             "inverse_lengths (m, 3) float64, along x, y and z of each hex; not copied. size_weight is that of the\n"
-             "size beside the shape.");
+             "inverse_lengths (m, 3) float64, along x, y and z of each hex; not copied. size_weight is the weight\n"
+             "of the size term.");
 }
 
 }  // namespace hexmend

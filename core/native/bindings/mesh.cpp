@@ -16,7 +16,7 @@ void bind_elements(nb::module_ m) {
           "whose determinant is larger than any float has q(T) = 0, eta(T) = +inf and a scaled Jacobian of 0.");
     m.def("measure_against", &measure_against, "points"_a, "hexes"_a, "target"_a, "q"_a, "eta"_a, ReleaseGil(),
           "Quality of every hex against its target at delta = 0; writes two arrays (m,) float64.\n\n"
-          "eta is eta(H) of S W^-1, the mean of eta(T) - 1, with the size beside the shape if it has a weight; q is\n"
+          "eta is eta(H) of S W^-1, the mean of eta(T) - 1, and of the size if it has a weight; q is\n"
           "the mean of 1/eta(T). An inverted corner has eta(T) = +inf.");
     m.def("mean_edge_length", &mean_edge_length, "points"_a, "hexes"_a, ReleaseGil(),
           "Mean length of the hexes' edges, each counted once a hex; 0 without hexes.");

@@ -76,14 +76,16 @@ template <class T, class Target> inline auto scales_of(const Target &target, std
     return scales_of<T>(target, [&](int i) { return first + (i < count ? i : count - 1); });
 }
 
-// S W^-1, and a derivative by it as a derivative by S.
-template <class T> inline M3<T> scale(const M3<T> &s, Unscaled) { return s; }
-template <class T> inline M3<T> scale(const M3<T> &s, const ColumnScales<T> &by) {
+// S W^-1, and a derivative by it as a derivative by S. Without a target it is S itself: the compiler would keep a copy.
+template <class T> inline __attribute__((always_inline)) const M3<T> &scale(const M3<T> &s, Unscaled) { return s; }
+template <class T> inline __attribute__((always_inline)) M3<T> scale(const M3<T> &s, const ColumnScales<T> &by) {
     return {by.u * s.u, by.v * s.v, by.w * s.w};
 }
 
 // det (S W^-1) from det S: the sign stays the same to the last bit.
-template <class T> inline T scale(T sigma, Unscaled) { return sigma; }
-template <class T> inline T scale(T sigma, const ColumnScales<T> &by) { return sigma * (by.u * by.v * by.w); }
+template <class T> inline __attribute__((always_inline)) T scale(T sigma, Unscaled) { return sigma; }
+template <class T> inline __attribute__((always_inline)) T scale(T sigma, const ColumnScales<T> &by) {
+    return sigma * (by.u * by.v * by.w);
+}
 
 }  // namespace hexmend

@@ -51,7 +51,8 @@ inline void add_tetrahedron(const Corners<Lanes> &x, const Scales &scales, doubl
     constexpr auto &n = CORNER_TETRAHEDRA[t];
     const auto by = scales.template columns<t>();
     auto edges = x.edges<t>();
-    auto s = scale(edges, by), c = cofactors(s);
+    const auto &s = scale(edges, by);
+    auto c = cofactors(s);
     auto d = derivatives<soft>(edges, by, s, c, delta, counted);
     sums.eta += counted ? d.eta : broadcast<Lanes>(1.0);
     sums.g.scatter<t>(scale(gradient(d, s, c), by));

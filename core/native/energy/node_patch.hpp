@@ -190,7 +190,7 @@ template <class T, class Target = Cubes> class NodePatch {
   private:
     static constexpr bool scaled = !std::is_same_v<Target, Cubes>;
 
-    // What a target adds to the terms of a tetrahedron: k, and the size's share at the node's position.
+    // Terms of a tetrahedron that a target adds: k, and the size's share at the node's position.
     struct Additional {
         T squared_scales;
         SizeTerm<T> size;

@@ -36,7 +36,8 @@ void gradient_of(Points points, Hexes hexes, double delta, ObjectiveNorm norm, O
         unroll<8>([&](auto t) {
             auto edges = x.template edges<t>();
             auto by = scales.template columns<t>();
-            auto s = scale(edges, by), cof = cofactors(s);
+            const auto &s = scale(edges, by);
+            auto cof = cofactors(s);
             auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
             sum += counted(t) ? d.eta : broadcast<T>(1.0);
             g.template scatter<t>(scale(gradient(d, s, cof), by));
@@ -60,7 +61,9 @@ void hessian_product_of(Points points, Hexes hexes, Hexes slots, Points values, 
         unroll<8>([&](auto t) {
             auto edges = x.template edges<t>();
             auto by = scales.template columns<t>();
-            auto s = scale(edges, by), a = scale(v.template edges<t>(), by), cof = cofactors(s);
+            auto directions = v.template edges<t>();
+            const auto &s = scale(edges, by), &a = scale(directions, by);
+            auto cof = cofactors(s);
             auto d = derivatives<soft>(edges, by, s, cof, delta, counted(t));
             DirectionalTerms<T> along{dot(a, s), dot(a, cof)};
             sum += counted(t) ? d.eta : broadcast<T>(1.0);

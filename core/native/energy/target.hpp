@@ -9,7 +9,7 @@ namespace hexmend {
 // The targets, by the inverse of their lengths.
 struct TargetMatrices {
     Points inverse_lengths;  // (m, 3)
-    double size_weight = 0;  // of the size beside the shape
+    double size_weight = 0;  // of the size term
 };
 
 // No target: every hex is to be a cube.

@@ -10,7 +10,7 @@
 // The second is (B.19), corrected, with (B.3) substituted for d eta d eta/eta: the terms in 1/|S|^2 cancel, and nothing
 // is divided by eta, |S| or sigma, so that collapsed and inverted tetrahedra are no special case while delta > 0.
 //
-// With a target, S is S W^-1 throughout (column_scales.hpp), and beside the shape the size counts: weight g(h), g(h) =
+// With a target, S is S W^-1 throughout (column_scales.hpp), and next to the shape the size counts: weight g(h), g(h) =
 // (h + 1/h)/2 - 1, which is convex in sigma for any delta. With h' = h/r and h'' = 2 delta^2/r^3 its derivatives by
 // sigma are (h - 1/h)/(2 r) and 1/(h r^2) + (1 - 1/h^2) delta^2/r^3.
 //
@@ -116,7 +116,10 @@ template <bool soft, class T, class Scales>
 inline Derivatives<T> derivatives(const M3<T> &edges, const Scales &scales, const M3<T> &s, const M3<T> &cof,
                                   double delta, auto counted) {
     // For delta = 0 the sign of sigma decides: use the determinant that all kernels share.
-    T sigma = soft ? dot(s.u, cof.u) : scale(determinant(edges), scales);
+    T sigma;
+    if constexpr (soft) sigma = dot(s.u, cof.u);
+    else if constexpr (Scales::scaled) sigma = scale(determinant(edges), scales);
+    else sigma = determinant(s);
     auto e = energy_of<soft>(s, sigma, delta, counted);
     T over_r = counted ? 1.0 / e.r : broadcast<T>(0.0);
     T k = 0.25 * e.f, c = e.eta() * over_r * (1.0 / 12.0);

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
+from hexmend.errors import ParameterError
 from hexmend.run import StoppingCriteria
 from hexmend.run.breakpoints import Breakpoints
 from hexmend_app.codec.codec import Codec, DecodeError, TypeAdapter
@@ -106,3 +107,10 @@ def test_a_field_is_read_under_its_former_name():
     assert codec.decode(earlier, Traces) == Traces(Since.RUN)
     with pytest.raises(DecodeError, match="an unknown field 'from'"):
         codec.decode(data | earlier, Traces)
+
+
+@pytest.mark.parametrize("hexes", [(1, True), (1, 2.0), (1, -1), (1, 2**31), (1, "a"), (1, None)])
+def test_each_entry_of_a_list_of_integers_is_checked(hexes):
+    for kind, name in ((Show, "hidden"), (Isolate, "hexes")):
+        with pytest.raises(ParameterError, match=f"{name} = "):
+            kind(**{name: hexes})

@@ -6,10 +6,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
+from hexmend.energy.target import hex_sizes, node_sizes, wanted_lengths
 from hexmend.kernels import local, objective, scalar_reference
 from hexmend.kernels.line_search import LineSearch
 from hexmend.kernels.target import TargetMatrices
-from hexmend.mesh.element_target import Target, hex_sizes, node_sizes, wanted_lengths
+from hexmend.mesh.element_target import Target
 from hexmend.mesh.hexahedron import CORNER_TETRAHEDRA, EDGES, UNIT_CUBE
 from hexmend.quality import measure
 from tests.core.grids import grid, scrambled

@@ -62,6 +62,20 @@ def test_layers_on_opposite_walls_are_two():
     assert layers.hexes.size == mesh.n_hexes
 
 
+def test_side_sets_divide_a_wall_that_they_cover():
+    mesh = stack(20, 4, 8)
+    floor = np.flatnonzero(np.arange(mesh.n_hexes) < 80)
+    left = floor % 20 < 15
+    sides = {
+        "plate": np.stack([floor[left], np.full(left.sum(), 4)], axis=1),
+        "slip": np.stack([floor[~left], np.full((~left).sum(), 4)], axis=1),
+    }
+    walls = find_layers(mesh.replace(side_sets=sides)).walls
+    assert [(wall.name, wall.count) for wall in walls] == [("plate", 60), ("slip", 20)]
+    walls = find_layers(mesh.replace(side_sets={"slip": sides["slip"]})).walls
+    assert [(wall.name, wall.count) for wall in walls] == [("wall 1", 80)]
+
+
 def test_the_span_of_a_two_dimensional_mesh_is_no_lateral_length():
     mesh = stack(20, 1, 8, first=0.01, growth=1.2, lateral=0.2)
     (wall,) = find_layers(mesh.with_points(mesh.points * [1, 1e-3, 1])).walls

@@ -76,8 +76,8 @@ class ColourPanel(QWidget):
         set_help(self._low, tr("Lowest value"), tr("Value of the first colour. Pin the range to set it."))
         set_help(self._high, tr("Highest value"), tr("Value of the last colour. Pin the range to set it."))
         self._neutral, self._shading = QCheckBox(tr("Neutral")), QCheckBox(tr("Shading"))
-        set_help(self._neutral, tr("Neutral"), NEUTRAL)
-        set_help(self._shading, tr("Shading"), SHADING)
+        set_help(self._neutral, tr("Neutral"), tr(NEUTRAL))
+        set_help(self._shading, tr("Shading"), tr(SHADING))
         self._problem = note(colour=WORSE)
         self._problem.hide()
         self._lay_out()
@@ -96,7 +96,7 @@ class ColourPanel(QWidget):
 
     def _lay_out(self) -> None:
         grid = form_grid(self)
-        for row, (text, widget) in enumerate((("Colours", self._metric), ("Map", self._map))):
+        for row, (text, widget) in enumerate(((tr("Colours"), self._metric), (tr("Map"), self._map))):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
@@ -191,7 +191,11 @@ class ColourPanel(QWidget):
             text = self._low.problem or self._high.problem
             if not text and not self._low.value() < self._high.value():
                 low, high = (short_number(end) for end in self._colours.range)
-                text = f"Expected the lower value first. The range {low} to {high} is used until this is corrected."
+                text = tr(
+                    "Expected the lower value first. The range {low} to {high} is used until this is corrected.",
+                    low=low,
+                    high=high,
+                )
         self._problem.setText(text)
         self._problem.setVisible(bool(text))
         return bool(text)
@@ -215,7 +219,8 @@ class ColourPanel(QWidget):
             text, help = _RANGES[range]
             ends, button = declared_range(colours.metric, range), self._range.button(range.value)
             button.setEnabled(ends is not None)
-            help = f"{help}: {_range_text(ends)}." if ends else f"{help}: unbounded for this metric."
+            suffix = _range_text(ends) if ends else tr("unbounded for this metric")
+            help = f"{tr(help)}: {suffix}."
             set_help(button, tr("Range: {text}", text=text), help)
         for box in (self._low, self._high):
             box.setEnabled(self._is_pinned)
@@ -225,12 +230,12 @@ class ColourPanel(QWidget):
 def _description(name: str) -> str:
     """Return the description of a metric as rich text."""
     metric = hex_quantity(name)
-    direction = {1: "Higher is better.", -1: "Lower is better.", 0: ""}[better(name)]
+    direction = {1: tr("Higher is better."), -1: tr("Lower is better."), 0: ""}[better(name)]
     full, acceptable = _range_text(metric.full_range), _range_text(metric.acceptable)
     lines = (
         f"<b>{escape(metric.title)}</b>",
         escape(metric.formula),
-        f"Full range {full}; acceptable {acceptable}. {direction}",
+        tr("Full range {full}; acceptable {acceptable}.", full=full, acceptable=acceptable) + f" {direction}",
         f"<i>{escape(metric.source)}</i>",
     )
     return f"<qt>{'<br>'.join(lines)}</qt>"

@@ -23,7 +23,7 @@ _PEEL = (
 _NO_LAYERS = "No layers to peel: every hex has a face on the boundary."
 _SHRINK = (
     "Shrink each hex towards its centre to see its shape and the hexes behind it. In meshes of more than "
-    f"{WHOLE:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
+    "{count:,} hexes, only hexes with a visible face are shrunk; their sides appear when the view is still."
 )
 _CUT_SMOOTHLY = "Hexes cannot be shrunk with a smooth cut: select <i>Whole hexes</i> for the cut."
 _RINGS = (
@@ -60,8 +60,8 @@ class InsidePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
-        self._peel = SliderBox("Peel layers", _PEEL, 0)
-        self._shrink = SliderBox("Shrink hexes", _SHRINK, _MAX_SHRINK, " %")
+        self._peel = SliderBox(tr("Peel layers"), tr(_PEEL), 0)
+        self._shrink = SliderBox(tr("Shrink hexes"), tr(_SHRINK, count=WHOLE), _MAX_SHRINK, " %")
         width = max(self._peel.box_width(), self._shrink.box_width())
         self._peel.set_box_width(width)
         self._shrink.set_box_width(width)
@@ -69,7 +69,7 @@ class InsidePanel(QWidget):
         self._rings.setRange(0, _MAX_RINGS)
         self._rings.setFont(tabular(self._rings.font()))
         self._rings.setFixedWidth(width)
-        set_help(self._rings, tr("Rings around isolated hexes"), _RINGS)
+        set_help(self._rings, tr("Rings around isolated hexes"), tr(_RINGS))
         self.isolated = QLabel()
         self._all = QPushButton(tr("All"))
         self._all.setFixedWidth(44)  # the style's minimum of 80 pixels is too wide
@@ -114,7 +114,9 @@ class InsidePanel(QWidget):
             line.setSpacing(8)
             for widget in widgets:
                 line.addWidget(widget, isinstance(widget, QLabel))
-        for row, (text, widget) in enumerate((("Peel", self._peel), ("Shrink", self._shrink), ("Rings", self._rings))):
+        for row, (text, widget) in enumerate(
+            ((tr("Peel"), self._peel), (tr("Shrink"), self._shrink), (tr("Rings"), self._rings))
+        ):
             label = QLabel(text)
             label.setBuddy(widget)
             grid.addWidget(label, row, 0)
@@ -127,7 +129,7 @@ class InsidePanel(QWidget):
     def set_layers(self, layers: int) -> None:
         """Set the number of layers that can be peeled; emits no signal."""
         self._peel.set_most(layers)
-        self._peel.set_help(_PEEL if layers else _NO_LAYERS)
+        self._peel.set_help(tr(_PEEL) if layers else tr(_NO_LAYERS))
         self._peel.setEnabled(layers > 0)
 
     def set_look(self, look: Look, rings: int) -> None:
@@ -137,7 +139,7 @@ class InsidePanel(QWidget):
         self._cut_smoothly = look.cut.smooth
         self._shrink.set_value(round(100 * show.shrink))
         self._shrink.setEnabled(not self._cut_smoothly)
-        self._shrink.set_help(_CUT_SMOOTHLY if self._cut_smoothly else _SHRINK)
+        self._shrink.set_help(tr(_CUT_SMOOTHLY) if self._cut_smoothly else tr(_SHRINK, count=WHOLE))
         if self._rings.value() != rings:  # setValue would overwrite text being typed
             with QSignalBlocker(self._rings):
                 self._rings.setValue(rings)

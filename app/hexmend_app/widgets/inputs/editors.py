@@ -82,11 +82,46 @@ class Text(QLineEdit):
         self.setText(str(value))
 
 
-Editor = Switch | ChoiceEditor | Text | NumberBox
+class SuggestedText(QComboBox):
+    """Editor of free text that offers values."""
+
+    changed = Signal()
+    problem = ""
+
+    def __init__(self, declaration: Parameter, parent: QWidget | None = None):
+        super().__init__(parent)
+        self.setEditable(True)
+        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        self.addItems(list(declaration.suggestions))
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.set_value(declaration.default)
+        self.activated.connect(self.changed)
+        self.lineEdit().textEdited.connect(lambda _: self.changed.emit())
+
+    def value(self) -> str:
+        """Return the text."""
+        return self.currentText()
+
+    def set_value(self, value: str) -> None:
+        """Show a value, without a signal."""
+        self.setEditText(str(value))
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Ignore the wheel unless focused, so that scrolling a panel does not change the value."""
+        if self.hasFocus():
+            super().wheelEvent(event)
+        else:
+            event.ignore()
+
+
+Editor = Switch | ChoiceEditor | Text | SuggestedText | NumberBox
 
 
 def editor_for(declaration: Parameter) -> Editor:
     """Return an editor for a declared parameter."""
     if declaration.choices is not None:
         return ChoiceEditor(declaration)
+    if declaration.suggestions:
+        return SuggestedText(declaration)
     return {bool: Switch, str: Text}.get(declaration.type, NumberBox)(declaration)

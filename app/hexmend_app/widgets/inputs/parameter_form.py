@@ -137,7 +137,7 @@ class ParameterForm(QWidget):
         editor.setAccessibleDescription(help)
         label = QLabel(name)
         if isinstance(editor, NumberBox) and len(declaration.unit) > LONGEST_UNIT:
-            label.setText(f"{escape(name)}<br><small>{escape(declaration.unit)}</small>")
+            label.setText(f"{escape(name)}<br><small>{escape(tr(declaration.unit))}</small>")
         label.setWordWrap(True)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         label.setMinimumWidth(_longest_word_width(label, name))

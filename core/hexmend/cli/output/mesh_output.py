@@ -50,9 +50,9 @@ class MeshOutput:
         try:
             written = write_as_given(self.path, mesh, self._original)
         except ChangedFileError as error:
-            beside = unused_path(self.path)
-            write(beside, mesh)
-            remedy = f"The result was written anew to {beside}."
+            spare = unused_path(self.path)
+            write(spare, mesh)
+            remedy = f"The result was written anew to {spare}."
             raise FileError(error.path, error.problem, remedy) from None
         for note in written.notes:
             print(f"hexmend: {note}", file=sys.stderr)

@@ -10,7 +10,9 @@ from hexmend.quantity import format_count
 from hexmend.terminal_text import WorsenedText, printable
 
 
-def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summary]) -> None:
+def print_summaries(
+    title: str, heads: Sequence[str], summaries: Sequence[Summary], target_q: tuple[float, float] | None = None
+) -> None:
     """Print one or several summaries side by side; values worse than in the first are red on a terminal.
 
     Parameters
@@ -19,10 +21,12 @@ def print_summaries(title: str, heads: Sequence[str], summaries: Sequence[Summar
     heads : sequence of str
         Heads of the columns, one for each summary.
     summaries : sequence of Summary
+    target_q : (float, float), optional
+        Of a run with a target: see `hexmend.quality.regressions`.
     """
     print(printable(title))
     columns = [
-        (summary.to_dict(), {REGRESSION_KEYS[name] for name in regressions(summaries[0], summary)})
+        (summary.to_dict(), {REGRESSION_KEYS.get(name) for name in regressions(summaries[0], summary, target_q)})
         for summary in summaries
     ]
     rows = [

@@ -15,9 +15,11 @@ from hexmend.io.coordinates.located import CoordinatesError, LocatedCoordinates
 from hexmend.io.coordinates.original import Original, difference
 from hexmend.io.storage.atomic import atomic_write
 from hexmend.mesh.mesh import Mesh
+from hexmend.mesh.orientation import was_turned
 
 _LOGGER = logging.getLogger(__name__)
 _REWRITE = "Choose another name, or write the file anew (--rewrite)."
+_TURNED = "Hexes that have been turned keep the order of nodes that they have in the file."
 #: Differences of coordinates, relative to the largest, that count as rounding: of a file that keeps seven digits.
 _ROUNDING = 1e-6
 
@@ -76,11 +78,12 @@ def replace_coordinates(path: Path, mesh: Mesh, original: Original, format: Form
         raise CoordinatesError(f"the mesh has {different} than {original.path.name}")
     located = _located(original, format)
     in_place = is_same_mesh(format, path, original.path)
+    turned = (_TURNED,) if was_turned(original.mesh) else ()
     if format.place:  # a folder, in which the format replaces files itself
-        return Written(True, located.write(path, path, mesh.points), in_place)
+        return Written(True, (*located.write(path, path, mesh.points), *turned), in_place)
     with atomic_write(path) as file:
         notes = located.write(file, path, mesh.points)
-    return Written(True, notes, in_place)
+    return Written(True, (*notes, *turned), in_place)
 
 
 def _located(original: Original, format: Format) -> LocatedCoordinates:

@@ -40,7 +40,7 @@ class GlobalDescent(Optimiser):
         x = energy.to_edge_units(points)
         yield Step(points)
         while True:
-            delta = policy.at(measure(points, mesh.hexes), energy.unit)  # zero in the feasible region, 3.2.4
+            delta = policy.at(measure(points, mesh.hexes), energy.hex_sizes)  # zero in the feasible region, 3.2.4
             taken = descend(energy, x, delta, find, search)
             if taken is None or (taken.alpha == 0 and taken.slope < 0):  # None: inverted, and delta is zero
                 return Outcome.NO_DESCENT

@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from hexmend.energy import POLICIES, MeshEnergy
+from hexmend.energy.target import hex_sizes
 from hexmend.kernels import local
 from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.constrained_sweeps import ConstrainedSweeps, newton_steps, steepest_descents
@@ -52,4 +53,4 @@ class LocalOptimiser(Optimiser):
     def delta_at(self, mesh: Mesh, points: np.ndarray) -> float:
         """delta of a sweep that begins with the nodes at points (n, 3): zero in the feasible region, 3.2.4."""
         policy = POLICIES[self.delta_policy](self.delta * DELTA_UNITS[self.delta_unit] ** 3)
-        return policy.at(measure(points, mesh.hexes), mesh.mean_edge_length or 1.0)
+        return policy.at(measure(points, mesh.hexes), hex_sizes(mesh))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.energy.target import target_matrices
 from hexmend.iteration import Step
 from hexmend.kernels import local
 from hexmend.kernels import patches as kernels
@@ -46,10 +47,11 @@ class LocalPatch(LocalOptimiser):
             mesh = sliding.mesh
         points, sweeps, search = mesh.points, Sweeps(sliding, mesh.n_nodes), self.line_search
         partition, colours = patches.kernel_partition, patches.colours
+        target, of_patches = target_matrices(mesh), target_matrices(mesh, which=patches.chosen.items)
 
         def slide(moved: np.ndarray, stays: np.ndarray) -> int:
             groups = alone.without(stays)
-            settings = local.NodeStepSettings(local.Direction.NEWTON, delta, self.norm, search)
+            settings = local.NodeStepSettings(local.Direction.NEWTON, delta, self.norm, search, target)
             surface, tangents = sliding.sliding_surface, sliding.tangents(moved)
             return local.sweep(moved, mesh.topology.hex_mesh, groups.start, groups.items, settings, surface, tangents)
 
@@ -57,7 +59,7 @@ class LocalPatch(LocalOptimiser):
         while True:
             delta = self.delta_at(mesh, points)
             points = points.copy()
-            settings = kernels.PatchStepSettings(delta, self.norm, search)
+            settings = kernels.PatchStepSettings(delta, self.norm, search, of_patches)
             energies, derivatives = kernels.sweep(points, partition, colours.start, colours.items, settings)
             if sliding is not None:
                 points, more = sweeps(points, slide)

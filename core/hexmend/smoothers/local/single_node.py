@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexmend.energy.target import target_matrices
 from hexmend.iteration import Step
 from hexmend.kernels import local
+from hexmend.kernels.target import TargetMatrices
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
 from hexmend.smoothers.base import Steps
@@ -34,9 +36,10 @@ class LocalDescent(LocalOptimiser):
         corners, visits = mesh.topology.node_corners, VisitOrder(mesh, self.order)
         derivatives = int(np.diff(corners.start)[mesh.free].sum())  # each visit asks the hexes at its node
         points, number, sweeps = mesh.points, 0, Sweeps(sliding, mesh.n_nodes)
+        target = target_matrices(mesh)
 
         def sweep(moved: np.ndarray, stays: np.ndarray) -> int:
-            visited, settings = groups.without(stays), self.step_settings(delta)
+            visited, settings = groups.without(stays), self.step_settings(delta, target)
             surface = () if sliding is None else (sliding.sliding_surface, sliding.tangents(moved))
             return local.sweep(moved, mesh.topology.hex_mesh, visited.start, visited.items, settings, *surface)
 
@@ -48,6 +51,6 @@ class LocalDescent(LocalOptimiser):
             yield Step(points, {"delta": delta, "energy_evaluations": energies, "derivative_evaluations": derivatives})
             number += 1
 
-    def step_settings(self, delta: float) -> local.NodeStepSettings:
-        """Settings of a node's step in a sweep with that delta."""
-        return local.NodeStepSettings(self.direction, delta, self.norm, self.line_search)
+    def step_settings(self, delta: float, target: TargetMatrices | None = None) -> local.NodeStepSettings:
+        """Settings of a node's step in a sweep with that delta and the target of the mesh."""
+        return local.NodeStepSettings(self.direction, delta, self.norm, self.line_search, target)

@@ -73,7 +73,11 @@ def locked_corners(mesh: Mesh, quality: ElementQuality) -> np.ndarray:
 
 
 def count_inverted(
-    points: np.ndarray, hexes: np.ndarray, omitted: np.ndarray, quality: ElementQuality
+    points: np.ndarray,
+    hexes: np.ndarray,
+    omitted: np.ndarray,
+    quality: ElementQuality,
+    sizes: np.ndarray | float = 1.0,
 ) -> tuple[int, float]:
     """Count the hexes that have an inverted corner, and find the least determinant of these corners.
 
@@ -85,14 +89,17 @@ def count_inverted(
         Corners that do not count, bits as in `inverted_corners`.
     quality : ElementQuality
         Of these hexes at these points.
+    sizes : (m,) float64 or float
+        Lengths to whose cubes determinants are relative; see `MeshEnergy.hex_sizes`.
 
     Returns
     -------
     count : int
     least : float
-        In the cube of the points' unit of length; 0 where no corner is inverted.
+        0 where no corner is inverted.
     """
     where = np.flatnonzero(quality.inverted)
     sigma = np.where(unpack_corners(omitted[where]), np.inf, corner_determinants(points, hexes, where))
     inverted = ~(sigma > 0)
-    return int(np.count_nonzero(inverted.any(axis=1))), float(sigma.min(initial=0.0))
+    volumes = np.broadcast_to(np.power(sizes, 3), len(hexes))[where]
+    return int(np.count_nonzero(inverted.any(axis=1))), float((sigma / volumes[:, None]).min(initial=0.0))

@@ -56,7 +56,7 @@ def local_sweeps(
     motion = mesh.linear_motion
     linear = np.zeros(mesh.n_nodes, dtype=bool) if motion is None else motion.marks(mesh.n_nodes)
     colours = mesh.topology.colouring(near & mesh.free & mesh.interior & ~linear)
-    settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH)
+    settings = local.NodeStepSettings(local.Direction.MODIFIED_NEWTON, delta, energy.norm, SEARCH, energy.target)
     constrained = None
     if (near & linear).any() and isinstance(energy, LinearMotionEnergy) and not energy.slides:
         constrained = ConstrainedSweeps(energy.with_objective(energy.norm, omitted), near & linear)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexmend.arrays import largest_norm
-from hexmend.energy import MeshEnergy, ObjectiveNorm, energies
+from hexmend.energy import MeshEnergy, ObjectiveNorm
 from hexmend.iteration import Outcome, Step
 from hexmend.smoothers.mend.local_sweeps import local_sweeps
 from hexmend.smoothers.mend.newton_steps import NEWTON, NewtonConfig
@@ -90,13 +90,13 @@ def _minimise(
     energy: MeshEnergy, points: np.ndarray, p_will_rise: bool, intermediate: bool, config: ShapeOptimumConfig
 ) -> Generator[Step, None, ShapeOptimum]:
     """Minimise the energy with one p; if p rises afterwards, only until no node moves far."""
-    omitted, hexes, direction = energy.omitted, energy.mesh.hexes, config.newton.direction()
+    omitted, direction = energy.omitted, config.newton.direction()
     min_fall = config.min_fall_omitting if omitted.any() else config.min_fall
     x, full_step = energy.to_edge_units(points), False
     values: list[float] = []
     while True:
         if not full_step:  # after a full step no hex has limited the line search
-            poor = energies(x, hexes, 0.0, omitted) > config.poor
+            poor = energy.hex_energies(x) > config.poor
             if poor.any():
                 x = local_sweeps(energy, x, poor, omitted, 0.0, config.sweeps)
         descent = config.newton.step(energy, x, 0.0, direction)

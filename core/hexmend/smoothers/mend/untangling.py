@@ -28,7 +28,8 @@ class UntanglingConfig:
     Parameters
     ----------
     initial_epsilon, min_epsilon : float
-        The first epsilon, and the one at which the stage ends, in cubes of the mean edge length.
+        The first epsilon, and the one at which the stage ends, in cubes of the mean edge length, or with a target in
+        the volumes that hexes are to have.
     reduction : float
         Factor from one epsilon to the next.
     max_delta : float
@@ -82,7 +83,7 @@ class Untangled:
 
 @dataclass(frozen=True, eq=False)
 class _Iterate:
-    """Nodes at x (n, 3), in mean edge lengths, how many hexes are inverted there and the least determinant."""
+    """Nodes at x (n, 3), in mean edge lengths, how many hexes are inverted there and the least relative determinant."""
 
     x: np.ndarray
     points: np.ndarray
@@ -94,7 +95,7 @@ class _Iterate:
     def at(cls, x: np.ndarray, energy: MeshEnergy, locked: np.ndarray) -> _Iterate:
         points, hexes = energy.to_mesh_units(x), energy.mesh.hexes
         quality = measure(points, hexes)
-        return cls(x, points, quality, *count_inverted(points, hexes, locked, quality))
+        return cls(x, points, quality, *count_inverted(points, hexes, locked, quality, energy.hex_sizes))
 
 
 def untangle(
@@ -123,12 +124,13 @@ def untangle(
     if points is not mesh.points:
         quality = measure(points, mesh.hexes)
         yield Step(points, intermediate=True, quality=quality, norm=energy.norm)
-    x, inverted = energy.to_edge_units(points), count_inverted(points, mesh.hexes, locked, quality)
+    x = energy.to_edge_units(points)
+    inverted = count_inverted(points, mesh.hexes, locked, quality, energy.hex_sizes)
     now = _Iterate(x, points, quality, *inverted)
     epsilon, fewest, idle = config.initial_epsilon, now.inverted, 0
     patience = config.faceted_patience if energy.faceted else config.patience
     while now.inverted and idle < patience and epsilon > config.min_epsilon:
-        worst = min(now.worst / energy.unit**3, 0.0)
+        worst = min(now.worst, 0.0)
         delta = min(config.max_delta, float(np.sqrt(epsilon * (epsilon - worst))))
         few = now.inverted < config.few * mesh.n_hexes
         if not few or idle % config.few_period == config.few_period - 1:

@@ -61,7 +61,7 @@ ANSWER = (
     Column("free_nodes", int, "Number of nodes that are not fixed."),
     *_figures("before", "of the initial mesh"),
     *_figures("after", "of the result"),
-    Column("worse", str, "Quantities that became worse: inverted, q_min, scaled_jacobian."),
+    Column("worse", str, "Quantities that became worse: inverted, q_min, scaled_jacobian, q_of_target, layers."),
     Column("outcome", str, "Reason for the end of the run, as in `smooth --json`."),
     Column("message", str, "The reason with its figures, in sentences."),
     Column("iterations", int, "Iterations until the run ended."),

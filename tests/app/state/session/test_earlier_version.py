@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QSettings
 
+from hexmend.errors import FileError
+from hexmend.io.archive.archive import read_archive, write_archive
 from hexmend.io.formats.session.session_file import VERSION
 from hexmend_app.picture import Colours, Isolate, Plane, Range, Show, read_scene
 from hexmend_app.picture.appearance import Arrows, Since, Structure, Traces
@@ -18,6 +20,7 @@ from hexmend_app.state.session import session_data
 from hexmend_app.state.settings import settings
 from tests.app.conftest import close, separate_settings, window_with_mesh
 from tests.app.driving import open_and_wait
+from tests.app.state.session.former_look import former_look
 
 FILES = Path(__file__).parent / "files"
 
@@ -145,3 +148,20 @@ def test_settings_of_version_0_1_are_read(window_with_old_settings):
     assert window.session.history.limit == 1024 << 20
     assert window.session.timeline.speed == 20
     assert {"run", "cut", "histogram", "compare"} <= set(window.docks.ids())
+
+
+@pytest.mark.parametrize("damage", [
+    {"look": former_look(scale=3)},
+    {"look": former_look(clip={"Sphere": {}})},
+    {"look": former_look(isolation={"hexes": "all"})},
+    {"look": former_look(structure={"sharp": 1})},
+    {"look": former_look(dug=[-1])},
+    {"look": []},
+    {"dug": [10**9]},
+])  # fmt: skip
+def test_a_damaged_view_of_version_5_is_rejected(tmp_path, damage):
+    version, content = read_archive(FILES / "version_5.hexmend", "Hexmend session", VERSION)
+    content["window"]["view"] |= damage
+    write_archive(tmp_path / "damaged.hexmend", "Hexmend session", version, content)
+    with pytest.raises(FileError, match="inconsistent"):
+        session_data.read(tmp_path / "damaged.hexmend")

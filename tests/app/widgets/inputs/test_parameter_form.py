@@ -277,3 +277,25 @@ def test_a_narrow_form_shows_every_word_of_a_name(form):
         label = next(one for one in form.findChildren(QLabel) if one.buddy() is form.editor(name))
         words = label.text().partition("<br>")[0].split()
         assert label.width() >= max(label.fontMetrics().horizontalAdvance(word) for word in words)
+
+
+@dataclass(frozen=True)
+class WithSuggestions(Parametrised):
+    """A text for which values are offered."""
+
+    target: str = parameter("auto", suggestions=("auto", "ideal"), help="A name, or a formula.")
+
+
+def test_a_text_with_suggestions_can_be_chosen_and_written(shown):
+    form = shown(ParameterForm(declared(WithSuggestions)))
+    editor, changes = form.editor("target"), []
+    form.changed.connect(lambda: changes.append(form.values()["target"]))
+    assert form.values() == {"target": "auto"}
+    form.set_values({"target": "0.1 + x"})
+    assert (form.values(), changes) == ({"target": "0.1 + x"}, [])
+    editor.lineEdit().selectAll()
+    QTest.keyClicks(editor.lineEdit(), "2*x")
+    assert (form.values(), changes[-1]) == ({"target": "2*x"}, "2*x")
+    editor.setCurrentIndex(editor.findText("ideal"))
+    editor.activated.emit(editor.currentIndex())
+    assert (form.values(), changes[-1]) == ({"target": "ideal"}, "ideal")

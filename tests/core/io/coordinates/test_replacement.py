@@ -18,7 +18,7 @@ from tests.core.io.kept import assert_same, with_everything
 
 FILES = Path(__file__).parents[1] / "files"
 #: Formats in which coordinates are replaced, by a file's name.
-WRITTEN = ["a.inp", "a.bdf", "a.msh", "a.exo", "a.med", "a.su2", "a.mesh"]
+WRITTEN = ["a.inp", "a.bdf", "a.msh", "a.exo", "a.med", "a.su2", "a.mesh", "a.meshb"]
 #: Characters of a real number that a file holds exactly; others round to 14 digits.
 ROUNDING = {".inp": 1e-12, ".bdf": 1e-11}
 _NUMBER = re.compile(rb"[-+0-9.eEdD]+")
@@ -80,7 +80,7 @@ def test_real_files_keep_all_but_their_coordinates(name, real_mesh, tmp_path):
 @pytest.mark.parametrize("name", WRITTEN)
 @pytest.mark.parametrize("order", [8, 20, 27])
 def test_files_of_hexmend_keep_all_but_their_coordinates(name, order, tmp_path):
-    if order > 8 and name in ("a.su2", "a.mesh", "a.bdf"):
+    if order > 8 and name in ("a.su2", "a.mesh", "a.meshb", "a.bdf"):
         pytest.skip("the format has no second order")
     io.write(tmp_path / name, with_everything(order))
     check(tmp_path / name, tmp_path / f"b{Path(name).suffix}")
@@ -193,6 +193,8 @@ def test_hexes_that_were_turned_on_reading_stay_as_the_file_has_them(tmp_path):
     io.write(tmp_path / "a.msh", mirrored, encoding="ascii")
     given = io.read(tmp_path / "a.msh")
     assert not np.array_equal(given.hexes, mirrored.hexes)
+    written = write_as_given(tmp_path / "b.msh", moved(given), Original(tmp_path / "a.msh", given))
+    assert any("turned" in note for note in written.notes)
     hx.write(tmp_path / "b.msh", moved(given), like=tmp_path / "a.msh")
     np.testing.assert_array_equal(io.read(tmp_path / "b.msh", as_is=True).hexes, mirrored.hexes)
 

@@ -66,7 +66,7 @@ def _report(args: argparse.Namespace, mesh: Mesh, title: str, result: Result, wr
     if args.history:
         write_history(args.history, result)
     advice = advise(result) if result.after.inverted else None
-    print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after])
+    print_summaries(f"{args.mesh}: {title}", ["before", "after"], [result.before, result.after], result.target_q)
     print(result.message)
     for wall in result.layers:
         print(wall.sentence)

@@ -190,7 +190,9 @@ def _included(file: FoamFile, name: str, required: bool, depth: int) -> Iterator
 def _patch(file: FoamFile, name: str, entries: Mapping[str, Value]) -> Patch:
     label = f"patch {quoted(name)}"
     kind, other = file.word(entries, "type", label), file.word(entries, "neighbourPatch", label, "")
-    count, first = (_count(file, file.word(entries, key, label), f"{key} of {label}") for key in ("nFaces", "startFace"))
+    count, first = (
+        _count(file, file.word(entries, key, label), f"{key} of {label}") for key in ("nFaces", "startFace")
+    )
     return Patch(name, kind, first, count, other)
 
 
