@@ -21,8 +21,8 @@ MATERIAL_COLOURS = (
 )
 #: Materials that the legend names, and letters of a name.
 _MAX_NAMED, _MAX_LETTERS = 10, 14
-#: Depth offset of coloured faces, in VTK's units, which shows them in front of those of the hexes.
-_IN_FRONT = -4.0
+#: Depth offsets of faces and of edges, in VTK's units, which show them in front of those of the hexes.
+_IN_FRONT, _EDGES_IN_FRONT = -200.0, -400.0
 #: Width of the edges of interfaces, in thin lines.
 _EDGE_WIDTH = 2.0
 #: Light from all sides and from the lamp, as of the hexes.
@@ -34,6 +34,11 @@ class _MaterialLayer(TranslucentSurface, OptionalLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
+        for actor in self.actors:
+            mapper = actor.GetMapper()
+            mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _IN_FRONT)
+            mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _EDGES_IN_FRONT)
         self._drawn: tuple[object, object] = (None, None)
         self._keep: np.ndarray | None = None
 
@@ -73,10 +78,7 @@ class InterfaceLayer(_MaterialLayer):
 
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
-        edges = self.actors[1]
-        edges.GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
-        edges.GetMapper().SetResolveCoincidentTopologyToPolygonOffset()
-        edges.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, _IN_FRONT)
+        self.actors[1].GetProperty().SetLineWidth(_EDGE_WIDTH * pixel_ratio)
 
     def rebuild(self, mesh: Mesh, keep: np.ndarray | None) -> None:
         faces = mesh.materials.interface_faces
@@ -111,8 +113,6 @@ class ColourByMaterial(_MaterialLayer):
     def __init__(self, pane: Pane, pixel_ratio: float = 1.0):
         super().__init__(pane, pixel_ratio)
         mapper = self.actors[0].GetMapper()
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, _IN_FRONT)
         mapper.ScalarVisibilityOn()
         mapper.SetScalarModeToUseCellData()
         light = self.actors[0].GetProperty()
