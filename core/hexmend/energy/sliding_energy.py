@@ -14,6 +14,8 @@ from hexmend.energy.norm import SQUARES, ObjectiveNorm
 
 #: Length of the probing step for directional derivatives, in mean edge lengths.
 _PROBE_LENGTH = 1e-5
+#: Share of a rising slope along the tangent up to which the slope after projection may rise.
+_KEPT_RISE = 1.01
 
 
 class SlidingEnergy(MeshEnergy):
@@ -47,7 +49,8 @@ class SlidingEnergy(MeshEnergy):
     def directional_derivative(self, x: np.ndarray, delta: float, step: np.ndarray, gradient: np.ndarray) -> float:
         """Compute the slope along a step (k, 3) after projection; steps of nodes that would ascend are set to 0.
 
-        On a faceted surface the projection of a step across an edge is not along the tangent.
+        On a faceted surface the projection of a step across an edge is not along the tangent. With a target, steps
+        that ascend along the tangent too are kept: thin hexes couple their nodes, which descend together.
         """
         gradient = super().gradient(x, delta)
         rows, nodes, unit = self._rows, self.sliding.nodes, self.unit
@@ -56,9 +59,12 @@ class SlidingEnergy(MeshEnergy):
         aims = (x[nodes] + far * step[rows]) * unit
         leads = (self.sliding.project(aims) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])
-        step[rows[~(slopes < 0)]] = 0.0
+        kept = slopes < 0
+        if self.target is not None:
+            kept |= slopes <= _KEPT_RISE * np.einsum("ki,ki->k", step[rows], gradient[rows])
+        step[rows[~kept]] = 0.0
         inside = ~mask(rows, len(step))
-        return float((step[inside] * gradient[inside]).sum() + slopes[slopes < 0].sum())
+        return float((step[inside] * gradient[inside]).sum() + slopes[kept].sum())
 
     def infeasible_nodes(self, x: np.ndarray, there: np.ndarray) -> np.ndarray | None:
         nodes = self.sliding.rejected_nodes(x * self.unit, there * self.unit)

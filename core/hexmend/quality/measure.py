@@ -27,12 +27,15 @@ class ElementQuality:
         Scaled Jacobian, in [-1, 1].
     eta : (m,) float64
         Energy eta(H) at delta = 0, (B.20): 0 for a cube, +inf for an inverted hex.
+    against_target : bool
+        True if q and eta are measured against the target of the mesh; see `measure_against_target`.
     """
 
     q: np.ndarray
     sigma: np.ndarray
     scaled_jacobian: np.ndarray
     eta: np.ndarray
+    against_target: bool = False
 
     @cached_property
     def inverted(self) -> np.ndarray:

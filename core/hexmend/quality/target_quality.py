@@ -32,7 +32,7 @@ def measure_against_target(mesh: Mesh, points: np.ndarray, quality: ElementQuali
         return quality
     q, eta = np.empty((2, mesh.n_hexes))
     elements.measure_against(points, mesh.hexes, target.matrices, q, eta)
-    return replace(quality, q=q, eta=eta)
+    return replace(quality, q=q, eta=eta, against_target=True)
 
 
 def target_quality(mesh: Mesh) -> np.ndarray:

@@ -113,18 +113,21 @@ class Smoother(Parametrised, ABC):
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
         Inverted hexes come first, then the least q(H). Of an optimiser it counts only whether that is visibly lower
-        than at the start: its iterates improve by the objective, not by the least q(H).
+        than at the start: its iterates improve by the objective, not by the least q(H). With a target, q(H) is that
+        against the target; of an optimiser it counts then whether the objective is higher than at the start.
 
         Parameters
         ----------
         start, now : ElementQuality
-            At the beginning of the stage, and of the iterate.
+            At the beginning of the stage, and of the iterate; measured against the target of the mesh if it has one.
 
         Returns
         -------
         tuple of float
         """
         least = float(now.q.min())
+        if self.optimises and now.against_target:
+            return now.n_inverted, objective_of_sound(now, self.norm) > objective_of_sound(start, self.norm)
         return now.n_inverted, least < start.q.min() - _VISIBLE_FALL if self.optimises else -least
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:
@@ -136,6 +139,13 @@ class Smoother(Parametrised, ABC):
         """The method's entry in `hexmend methods --json`."""
         parameters = [declaration.to_json() for declaration in declared(cls)]
         return {"name": cls.name, "title": cls.title, "help": cls.help, "source": cls.source, "parameters": parameters}
+
+
+def objective_of_sound(quality: ElementQuality, norm: ObjectiveNorm) -> float:
+    """Objective over the hexes that are not inverted, of (3.3) without its root."""
+    p, offset = norm
+    with np.errstate(over="ignore"):  # close to the barrier
+        return float(np.power(quality.eta[~quality.inverted] + (1 - offset), p).sum())
 
 
 S = TypeVar("S", bound=type[Smoother])

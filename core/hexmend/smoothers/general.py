@@ -14,7 +14,7 @@ from hexmend.iteration import Outcome, Step
 from hexmend.mesh.hexahedron import EDGES
 from hexmend.mesh.mesh import Mesh
 from hexmend.parameters import parameter
-from hexmend.quality import measure
+from hexmend.quality import measure, measure_against_target
 from hexmend.smoothers.base import METHODS, Steps, method
 from hexmend.smoothers.sliding_smoother import SlidingSmoother
 from hexmend.smoothers.targeted_smoother import TargetedSmoother
@@ -50,7 +50,7 @@ class General(TargetedSmoother):
     def steps(self, mesh: Mesh) -> Steps:
         mesh = mesh.keeping_surface()
         points = yield from self._getme(mesh)
-        quality = measure(points, mesh.hexes)
+        quality = measure_against_target(mesh, points, measure(points, mesh.hexes))
         if not quality.n_inverted and quality.q.min() >= self.q_target:
             return Outcome.SUFFICIENT
         ratio = edge_length_ratio(points, mesh.hexes)

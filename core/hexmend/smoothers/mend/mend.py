@@ -14,7 +14,7 @@ from hexmend.mesh.mesh import Mesh
 from hexmend.optimise.maxmin.slp import MaxMinOptimiser
 from hexmend.parameters import parameter
 from hexmend.quality import ElementQuality, measure
-from hexmend.smoothers.base import Steps, method
+from hexmend.smoothers.base import Steps, method, objective_of_sound
 from hexmend.smoothers.base_optimiser import ObjectiveSmoother
 from hexmend.smoothers.mend.inversion import inverted_corners, locked_corners
 from hexmend.smoothers.mend.maxmin import MAXMIN, active_set, maximise_minimum
@@ -23,6 +23,9 @@ from hexmend.smoothers.mend.newton_steps import NewtonConfig
 from hexmend.smoothers.mend.off_surface import MaxMinResult, improve_off_surface
 from hexmend.smoothers.mend.shape_optimum import ShapeOptimum, ShapeOptimumConfig, optimise_shape
 from hexmend.smoothers.mend.untangling import UntanglingConfig, untangle
+
+#: Share by which least q and least scaled Jacobian may both fall where a mesh has a target.
+_TARGET_FALL = 0.05
 
 
 @method
@@ -155,15 +158,18 @@ class Mend(ObjectiveSmoother):
         """Sort key of an iterate: the smallest is kept, of equals the last.
 
         Inverted hexes come first, then whether a guarded figure is lower than at the start, then whether the objective
-        of the sound hexes, with the highest p that was asked for, is higher.
+        of the sound hexes, with the highest p that was asked for, is higher. With a target a fall counts from
+        `_TARGET_FALL` on: as given, a mesh may have better corners than hexes of the lengths that are asked for.
         """
-        fallen = now.q.min() < start.q.min(), now.scaled_jacobian.min() < start.scaled_jacobian.min()
+        share = 1 - _TARGET_FALL if now.against_target and not self.guard else 1.0
+        fallen = (
+            now.q.min() < share * start.q.min(),
+            now.scaled_jacobian.min() < share * start.scaled_jacobian.min(),
+        )
         harmed = any(fallen) if self.guard else all(fallen)
         if self.maximises_jacobian:
             return now.n_inverted, harmed, -now.scaled_jacobian.min()
-        p, offset = self.norm
-        with np.errstate(over="ignore"):  # close to the barrier
-            before, after = (np.power(of.eta[~of.inverted] + (1 - offset), p).sum() for of in (start, now))
+        before, after = (objective_of_sound(of, self.norm) for of in (start, now))
         return now.n_inverted, harmed, after > before
 
     def regression_hint(self, worse: tuple[str, ...]) -> str:

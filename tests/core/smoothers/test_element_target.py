@@ -1,0 +1,185 @@
+"""Optimisers with a target of the elements: layers stay, scrambled ones return, and the target decides what is kept."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hexmend.mesh.element_target import Target
+from hexmend.mesh.hexahedron import EDGES
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import measure, measure_against_target, target_quality
+from hexmend.run import StoppingCriteria, iterate, smooth
+from hexmend.smoothers import METHODS
+from tests.core.grids import grid
+
+OPTIMISERS = sorted(name for name, method in METHODS.items() if method.optimises)
+
+
+def edge_lengths(mesh):
+    """Means of the four parallel edges of each hex, (m, 3)."""
+    ends = mesh.points[mesh.hexes[:, EDGES]]
+    return np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).reshape(-1, 3, 4).mean(axis=2)
+
+
+def as_given(mesh, weight=0.0):
+    return mesh.with_element_target(Target(edge_lengths(mesh), weight))
+
+
+def stretched(n=4, height=0.1):
+    lattice = grid(n)
+    return lattice.with_points(lattice.points * [1, 1, height])
+
+
+def shaken(mesh, amplitude, seed=0):
+    """Nodes displaced by a share of the lengths of a stretched lattice; the target stays."""
+    shift = np.random.default_rng(seed).uniform(-1, 1, mesh.points.shape) * np.ptp(mesh.points, axis=0) * amplitude
+    return mesh.with_points(mesh.points + shift * mesh.free[:, None])
+
+
+def layered(layers=10, first=1e-3, growth=1.3, bump=0.02):
+    """Layers over a bump, whose heights grow from its surface; returns the mesh and the height of each node's layer."""
+    lattice = grid(8, 4, layers)
+    level = lattice.points[:, 2].astype(int)
+    heights = np.concatenate([[0], np.cumsum(first * growth ** np.arange(layers))])
+    x, y = lattice.points[:, 0] / 8, lattice.points[:, 1] / 8
+    z = heights[level] + bump * np.sin(np.pi * x) ** 2 * (1 - heights[level] / heights[-1])
+    gaps = np.diff(heights)[np.minimum(level, layers - 1)]
+    return lattice.with_points(np.column_stack([x, y, z])), gaps
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.5])
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_a_mesh_like_its_target_stays(name, weight):
+    mesh = as_given(stretched(), weight)
+    result = smooth(mesh, METHODS[name](), StoppingCriteria(max_iterations=5))
+    np.testing.assert_allclose(result.mesh.points, mesh.points, atol=1e-9)
+
+
+@pytest.mark.parametrize("weight", [0.0, 0.5])
+@pytest.mark.parametrize("name", OPTIMISERS)
+def test_a_scrambled_lattice_returns_to_its_lengths(name, weight):
+    lattice = as_given(stretched(3), weight)
+    result = smooth(shaken(lattice, 0.08), METHODS[name](), StoppingCriteria(max_iterations=400))
+    assert result.after.inverted == 0
+    assert target_quality(result.mesh).min() > 0.999
+    np.testing.assert_allclose(result.mesh.points, lattice.points, atol=5e-3)
+
+
+@pytest.mark.parametrize("boundary", ["fixed", "slide"])
+def test_mend_untangles_layers_and_keeps_their_heights(boundary):
+    made, gaps = layered()
+    shift = np.random.default_rng(1).uniform(-1, 1, made.points.shape) * np.column_stack(
+        [0 * gaps + 0.05, 0 * gaps, gaps]
+    )
+    mesh = as_given(made).with_points(made.points + shift * made.free[:, None])
+    before = measure(mesh.points, mesh.hexes)
+    result = smooth(mesh, METHODS["mend"](boundary=boundary), StoppingCriteria(max_iterations=100))
+    after = measure(result.mesh.points, mesh.hexes)
+    assert before.n_inverted > 0 == after.n_inverted
+    assert after.scaled_jacobian.min() > 0.95 * measure(made.points, made.hexes).scaled_jacobian.min()
+    ratios = edge_lengths(result.mesh)[:, 2] / edge_lengths(made)[:, 2]
+    assert np.abs(ratios - 1).max() < 0.1
+
+
+def test_the_ideal_target_loses_the_layers():
+    made, _ = layered()
+    result = smooth(made, METHODS["mend"]())
+    assert edge_lengths(result.mesh)[:32, 2].min() > 2 * edge_lengths(made)[:32, 2].max()
+
+
+def test_the_size_brings_back_sizes_that_the_shape_does_not():
+    """Cubes of two sizes in a row of fixed length: the shape alone is content with any scale."""
+    lattice = grid(4, 2, 2)
+    planes = np.array([0, 0.5, 1, 2.5, 4.0])  # lengths along x: 0.5, 0.5, 1.5, 1.5
+    points = lattice.points.copy()
+    points[:, 0] = planes[lattice.points[:, 0].astype(int)]
+    made = lattice.with_points(points)
+    lengths = np.repeat(edge_lengths(made)[:, :1], 3, axis=1)  # cubes of these sizes
+    moved = made.with_points(np.where(made.free[:, None], made.points + [0.3, 0, 0], made.points))
+    errors = []
+    for weight in (0.0, 5.0):
+        result = smooth(moved.with_element_target(Target(lengths, weight)), METHODS["mend"]())
+        volume = edge_lengths(result.mesh).prod(axis=1) / lengths.prod(axis=1)
+        errors.append(np.abs(np.log(volume)).mean())
+    assert errors[1] < errors[0]
+
+
+def test_the_kept_iterate_is_the_best_against_the_target():
+    """From unit cubes to a target of flat hexes the ideal q falls all the way."""
+    lattice = grid(4)
+    lengths = np.ones((64, 3))
+    lengths[:16, 2] = 0.5
+    mesh = lattice.with_element_target(Target(lengths))
+    result = smooth(mesh, METHODS["global-nr"]())
+    assert result.kept > 0
+    assert result.after.q_mean < result.before.q_mean
+    assert target_quality(result.mesh).mean() > target_quality(mesh).mean()
+    objectives = [row["objective"] for row in result.history]
+    assert objectives == sorted(objectives, reverse=True)
+
+
+def test_the_recorded_objective_is_that_against_the_target():
+    mesh = shaken(as_given(stretched(3)), 0.05)
+    first = next(iter(iterate(mesh, METHODS["mend"](), StoppingCriteria(max_iterations=3))))
+    against = measure_against_target(mesh, first.points, first.quality)
+    assert first.objective == pytest.approx(np.square(against.eta).sum())
+    assert first.quality.q == pytest.approx(measure(first.points, mesh.hexes).q)
+
+
+def test_moves_are_small_only_against_the_lengths_of_layers():
+    """Layers far below the tolerance, in mean edge lengths, still move until they are as the target wants them."""
+    lattice = grid(3)
+    thin = lattice.with_points(lattice.points * [1, 1, 1e-6])
+    mesh = shaken(as_given(thin), 0.05)
+    result = smooth(mesh, METHODS["mend"]())
+    assert np.abs(result.mesh.points[:, 2] - thin.points[:, 2]).max() < 1e-9
+
+
+def test_methods_without_an_energy_say_that_they_ignore_the_target():
+    mesh = as_given(stretched(3))
+    result = smooth(mesh, METHODS["laplacian"](), StoppingCriteria(max_iterations=2))
+    assert "Laplacian takes no account of the target" in result.message
+    assert "target" not in smooth(stretched(3), METHODS["laplacian"](), StoppingCriteria(max_iterations=2)).message
+
+
+def test_a_target_of_cubes_is_as_none():
+    mesh = shaken(grid(3), 0.1)
+    aimed = mesh.with_element_target(Target(np.ones((27, 3))))
+    one, other = (smooth(each, METHODS["mend"]()).mesh.points for each in (mesh, aimed))
+    np.testing.assert_allclose(one, other, atol=1e-3)
+    ideal, against = measure(mesh.points, mesh.hexes), target_quality(aimed)
+    np.testing.assert_allclose(against, ideal.q)
+
+
+def test_sliding_planes_return_to_a_stretched_lattice():
+    lattice = stretched(4)
+    low, high = lattice.points.min(axis=0), lattice.points.max(axis=0)
+    inside = (lattice.points > low) & (lattice.points < high)  # coordinates that stay in the planes of the block
+    shift = np.random.default_rng(0).uniform(-1, 1, lattice.points.shape) * [0.25, 0.25, 0.025]
+    mesh = as_given(lattice).with_points(lattice.points + inside * shift)
+    result = smooth(mesh, METHODS["mend"](boundary="slide"))
+    np.testing.assert_allclose(result.mesh.points, lattice.points, atol=1e-4)
+
+
+def test_quality_against_a_target_takes_the_rest_from_the_ideal():
+    mesh = as_given(stretched(3))
+    ideal = measure(mesh.points, mesh.hexes)
+    against = measure_against_target(mesh, mesh.points, ideal)
+    assert against.q == pytest.approx(1)
+    assert against.sigma is ideal.sigma
+    assert ideal.q.max() < 0.5
+    assert measure_against_target(Mesh(mesh.points, mesh.hexes), mesh.points, ideal) is ideal
+
+
+def test_mend_keeps_an_iterate_that_is_a_little_worse_in_its_worst_corner_but_better_against_the_target():
+    mesh = as_given(stretched(3))
+    start = measure_against_target(mesh, mesh.points, measure(mesh.points, mesh.hexes))
+    start = replace(start, eta=start.eta + 1)
+    worse = replace(start, q=0.97 * start.q, scaled_jacobian=0.97 * start.scaled_jacobian, eta=0.5 * start.eta)
+    harmful = replace(worse, q=0.5 * start.q, scaled_jacobian=0.5 * start.scaled_jacobian)
+    mend = METHODS["mend"]()
+    assert mend.rank(start, worse) < mend.rank(start, harmful)
+    assert mend.rank(start, worse) <= mend.rank(start, start)
+    guarded = METHODS["mend"](guard=True)
+    assert guarded.rank(start, worse) > guarded.rank(start, start)
