@@ -174,7 +174,7 @@ class Result:
     surface: SurfaceChange | None = None
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
-    target_q: tuple[float, float] | None = None
+    target_q: tuple[float, ...] | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:
