@@ -84,7 +84,7 @@ def test_mend_untangles_layers_and_keeps_their_heights(boundary):
 
 def test_the_ideal_target_loses_the_layers():
     made, _ = layered()
-    result = smooth(made, METHODS["mend"]())
+    result = smooth(made, METHODS["mend"](target="ideal"))
     assert edge_lengths(result.mesh)[:32, 2].min() > 2 * edge_lengths(made)[:32, 2].max()
 
 
