@@ -178,7 +178,7 @@ class Result:
     materials: Mapping[str, MaterialVolume] = field(default_factory=dict)
     active: ActiveSet | None = None
     layers: tuple[LayerReport, ...] = ()
-    target_q: tuple[float, float] | None = None
+    target_q: tuple[float, ...] | None = None
 
     @property
     def worse(self) -> tuple[str, ...]:

@@ -135,11 +135,11 @@ def _directions(mesh: Mesh, one: np.ndarray, other: np.ndarray) -> list[tuple[np
         rows = left & (np.abs(units @ normal) > 0.5)
         deviation = np.linalg.norm(np.cross(units[rows], normal), axis=1)
         if deviation.max() > _PARALLEL:
-            at = np.flatnonzero(rows)[deviation.argmax()]
+            at, first = np.flatnonzero(rows)[deviation.argmax()], left.argmax()
+            angle = np.degrees(np.arcsin(min(deviation.max(), 1)))
             raise MeshError(
                 f"the nodes {one[at]} and {other[at]} are not opposite each other: the line between them is inclined "
-                f"by {np.degrees(np.arcsin(min(deviation.max(), 1))):.3g} degrees to that of the nodes {one[left.argmax()]} "
-                f"and {other[left.argmax()]}"
+                f"by {angle:.3g} degrees to that of the nodes {one[first]} and {other[first]}"
             )
         axis = np.abs(normal).argmax()
         along = np.delete(lines[rows], axis, axis=1)
@@ -172,8 +172,8 @@ def _rotated(mesh: Mesh, pairs: np.ndarray, first: str, second: str) -> LinearMo
     if deviation.max(initial=0) > 1e3 * _PARALLEL:
         at = int(deviation.argmax())
         raise MeshError(
-            f"node {other[at]} of {second!r} is {deviation[at]:.3g} mean edge lengths from the image of node {one[at]} of "
-            f"{first!r} under the rotation of the wedge"
+            f"node {other[at]} of {second!r} is {deviation[at]:.3g} mean edge lengths from the image of node {one[at]} "
+            f"of {first!r} under the rotation of the wedge"
         )
     return LinearMotion.in_planes(one, normal).merge(LinearMotion.tying(other, one, rotation))
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from itertools import pairwise
-
-import numpy as np
 
 from hexmend.aliases import reads_old_names
 from hexmend.boundary import SurfaceChange, surface_change
 from hexmend.iteration import Iteration, Outcome, Result, StoppingCriteria
-from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
+from hexmend.layers import LayerReport, Layers
 from hexmend.mesh.element_target import Target
 from hexmend.mesh.mesh import Mesh
 from hexmend.mesh.rules import MotionRules
@@ -21,9 +18,9 @@ from hexmend.quality.material_volumes import MaterialVolume, volume_changes
 from hexmend.run.interface_messages import interface_message
 from hexmend.run.messages import describe_change, kept_message
 from hexmend.run.recipe import Recipe, Stage
+from hexmend.run.shape_watch import ShapeWatch
 from hexmend.run.stage_run import StageRun
 from hexmend.smoothers import METHODS, Smoother
-from hexmend.target import recovered_lengths
 from hexmend.terminal_text import count_phrase
 
 
@@ -46,8 +43,6 @@ class Run(Iterator[Iteration]):
     mesh, smoother
         As given; the mesh has the rules of motion of a recipe, and where a stage slides, its periodic pairs move as
         one.
-    layers : Layers
-        Boundary layers of the mesh as given.
     start : Iteration
         Number 0: the mesh as given.
     last : Iteration
@@ -73,9 +68,9 @@ class Run(Iterator[Iteration]):
         self.mesh = mesh
         diagnostics = {"stage": 1, "method": self._stages[0].smoother.name}
         quality = measure(mesh.points, mesh.hexes)
-        self.layers = find_layers(mesh, quality)
+        self._shapes = ShapeWatch(mesh, quality)
         smoother = self._stages[0].smoother
-        judged = measure_against_target(smoother.with_target(mesh, self.layers, quality), mesh.points, quality)
+        judged = measure_against_target(self._shapes.with_target(smoother), mesh.points, quality)
         self.start = Iteration(0, mesh.points, quality, 0.0, 0.0, diagnostics, smoother.norm, judged)
         self.history = [self.start.row()]
         self.outcome: Outcome | None = None
@@ -190,17 +185,11 @@ class Run(Iterator[Iteration]):
     @property
     def message(self) -> str:
         """Result, reason of the end, and figures that are worse than before, as sentences."""
-        before, after = self._summaries()
-        mesh = self.mesh.with_points(self.best.points)
-        return self._message(before, after, mesh, volume_changes(self.mesh, mesh), self._layer_reports())
+        volumes = volume_changes(self.mesh, self.mesh.with_points(self.best.points))
+        return self._message(*self._summaries(), volumes, self._shapes.reports(self.best.points))
 
     def _message(
-        self,
-        before: Summary,
-        after: Summary,
-        mesh: Mesh,
-        volumes: Mapping[str, MaterialVolume],
-        walls: Sequence[LayerReport],
+        self, before: Summary, after: Summary, volumes: Mapping[str, MaterialVolume], walls: tuple[LayerReport, ...]
     ) -> str:
         at, inverted = self.last, self.best.quality.n_inverted
         text = self.outcome.value if self.outcome is not None else "Running."
@@ -212,14 +201,13 @@ class Run(Iterator[Iteration]):
         words = [text, f"{count_phrase(at.number, 'iteration')} in {at.seconds:.3g} s; {move}{left}.", *decided]
         if not self._kept_last:
             words.append(kept_message(self.best.number))
-        words.append(interface_message(self.mesh, mesh, volumes))
-        instead = "" if inverted else self.stage.smoother.regression_hint(regressions(before, after, self._target_q))
-        grading = describe_losses(walls)
-        if not grading and walls and self._target is not None:
-            grading = self.layers_message
-        elif not grading and self.outcome is not None and self._target is None:
-            grading = grading_message(self.mesh, mesh, self.start.quality)
-        return " ".join(filter(None, [*words, describe_regressions(before, after, self._target_q), instead, grading]))
+        words.append(interface_message(self.mesh, self.mesh.with_points(self.best.points), volumes))
+        target_q = self._target_q
+        words.append(describe_regressions(before, after, target_q))
+        if not inverted:
+            words.append(self.stage.smoother.regression_hint(regressions(before, after, target_q)))
+        words.append(self._shapes.message(self._target, self.best.points, walls, self.outcome is not None))
+        return " ".join(filter(None, words))
 
     @property
     def _kept_last(self) -> bool:
@@ -230,7 +218,7 @@ class Run(Iterator[Iteration]):
         before, after = self._summaries()
         several = isinstance(self.smoother, Recipe) or len(self._stage_runs) > 1
         mesh = self.mesh.with_points(self.best.points).with_element_target(self._target)
-        volumes, walls = volume_changes(self.mesh, mesh), self._layer_reports()
+        volumes, walls = volume_changes(self.mesh, mesh), self._shapes.reports(self.best.points)
         return Result(
             mesh=mesh,
             before=before,
@@ -238,7 +226,7 @@ class Run(Iterator[Iteration]):
             method=Recipe.name if several else self.smoother.name,
             parameters={} if several else self.stage.smoother.values(),
             outcome=self.outcome or Outcome.STOPPED,
-            message=self._message(before, after, mesh, volumes, walls),
+            message=self._message(before, after, volumes, walls),
             iterations=self.last.number,
             kept=self.best.number,
             seconds=self.last.seconds,
@@ -258,35 +246,20 @@ class Run(Iterator[Iteration]):
         sliding = next((one.smoother for one in self._stage_runs if one.smoother.slides or by_rule), None)
         return None if sliding is None else surface_change(self.mesh, mesh, sliding.feature_angle)
 
-    @cached_property
-    def _given_lengths(self) -> np.ndarray:
-        """Lengths of the hexes as given, recovered where the mesh is noisy, (m, 3)."""
-        return recovered_lengths(self.mesh, self.start.quality)
-
-    def _layer_reports(self) -> tuple[LayerReport, ...]:
-        """Return the layers of the mesh as given and of the result."""
-        if not self.layers:
-            return ()
-        return layer_report(self.layers, self.mesh, self.mesh.with_points(self.best.points), self._given_lengths)
+    @property
+    def _target_q(self) -> tuple[float, ...] | None:
+        """Least q of target of the mesh as given and of the result; None without a target."""
+        return self._shapes.target_q(self._target, self.start, self.best)
 
     @property
-    def _target_q(self) -> tuple[float, float] | None:
-        """Least q of target of the mesh as given and of the result; None without a target."""
-        target = self._target
-        if target is None:
-            return None
-        mesh = self.mesh.with_element_target(target)
-        judged = (measure_against_target(mesh, one.points, one.quality) for one in (self.start, self.best))
-        before, after = (float(one.q.min()) for one in judged)
-        return before, after
+    def layers(self) -> Layers:
+        """Boundary layers of the mesh as given."""
+        return self._shapes.layers
 
     @property
     def layers_message(self) -> str:
         """The layers that were found and whether the run keeps them, as a sentence; "" without layers."""
-        if not self.layers:
-            return ""
-        kept = "kept" if self._target is not None else "not kept"
-        return f"Boundary layers at {self.layers.names} are {kept}."
+        return self._shapes.layers_message(self._target)
 
     @property
     def _target(self) -> Target | None:
@@ -300,8 +273,7 @@ class Run(Iterator[Iteration]):
 
     def _stage_of(self, stage: Stage, number: int, start: Iteration, last: Iteration, *old: StageRun) -> StageRun:
         """Begin a stage; its target is made from the mesh as given, whatever earlier stages have done."""
-        mesh = stage.smoother.with_target(self.mesh, self.layers, self.start.quality)
-        return StageRun(mesh, stage, number, start, last, *old)
+        return StageRun(self._shapes.with_target(stage.smoother), stage, number, start, last, *old)
 
     @property
     def _stage_run(self) -> StageRun:

@@ -43,6 +43,9 @@ class FolderPlace(Protocol):
     def contains(self, path: Path) -> bool:
         """Return True if a path is of the format, whatever the content of a file is."""
 
+    def parts(self, path: Path) -> list[Path]:
+        """Return the files that a mesh is read from."""
+
     def is_same(self, a: Path, b: Path) -> bool:
         """Return True if two paths lead to one existing mesh."""
 

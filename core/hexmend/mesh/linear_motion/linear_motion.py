@@ -161,32 +161,29 @@ class LinearMotion:
         Parameters
         ----------
         number : (n,) int
-            New number of each node, -1 if it is removed.
+            New number of each node, -1 if it is removed. Nodes that followed a removed one follow one of them.
 
         Returns
         -------
         LinearMotion
-
-        Raises
-        ------
-        MeshError
-            If a node is removed that others follow.
         """
-        tied, master, rotations = self.tied, self.master, self.rotations
-        gone = (number[master] < 0) & (number[tied] >= 0)
-        if gone.any():
-            raise MeshError(
-                f"node {master[gone][0]} is removed, but node {tied[gone][0]} moves with it: remove both, or end the "
-                "linear motion of the mesh first"
-            )
-        stay, follow = number[self.nodes] >= 0, number[tied] >= 0
-        return LinearMotion(
-            number[self.nodes[stay]],
-            self.projectors[stay],
-            number[tied[follow]],
-            number[master[follow]],
-            rotations[follow],
-        )
+        stay = number[self.tied] >= 0
+        tied, master, rotations = self.tied[stay], self.master[stay], self.rotations[stay]
+        # The first node tied to a removed master takes its place; it is then tied to itself.
+        orphans, heir = np.unique(master[number[master] < 0], return_inverse=True)
+        rows = np.flatnonzero(number[master] < 0)
+        first = rows[np.unique(heir, return_index=True)[1]]
+        nodes, projectors = self.nodes.copy(), self.projectors.copy()
+        for node, row in zip(orphans, first, strict=True):
+            own = nodes == node
+            nodes[own] = tied[row]
+            projectors[own] = subspaces.rotated(projectors[own], rotations[[row]])
+        turns, names = rotations[first][heir], tied[first][heir]
+        master, rotations = master.copy(), rotations.copy()
+        rotations[rows] = rotations[rows] @ turns.transpose(0, 2, 1)
+        master[rows] = names
+        kept = number[nodes] >= 0
+        return LinearMotion(number[nodes[kept]], projectors[kept], number[tied], number[master], rotations)
 
     @cached_property
     def ranks(self) -> np.ndarray:

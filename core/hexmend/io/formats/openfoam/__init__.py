@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hexmend.io.base.format import Capability, deferred, register
-from hexmend.io.formats.openfoam.case import SUFFIXES, find_case, times
+from hexmend.io.formats.openfoam.case import PARTS, SUFFIXES, ZONES, existing_part, find_case, times
 from hexmend.mesh.mesh import Mesh
 
 __all__ = ["find_case", "times"]
@@ -21,6 +21,14 @@ class CasePlace:
     def contains(self, path: Path) -> bool:
         """Return True for the folder or a file of a case; for a `.foam` file even if there is no mesh beside it."""
         return path.suffix.lower() in SUFFIXES or find_case(path) is not None
+
+    def parts(self, path: Path) -> list[Path]:
+        """Return the files of polyMesh that a mesh is read from; none without a mesh."""
+        files = find_case(path)
+        if files is None:
+            return []
+        others = [existing_part(files.mesh, name) for name in PARTS[1:] + ZONES]
+        return [one for one in (files.points, *others) if one is not None and one.is_file()]
 
     def is_same(self, a: Path, b: Path) -> bool:
         """Return True if two paths lead to one case."""

@@ -190,10 +190,10 @@ def _included(file: FoamFile, name: str, required: bool, depth: int) -> Iterator
 def _patch(file: FoamFile, name: str, entries: Mapping[str, Value]) -> Patch:
     label = f"patch {quoted(name)}"
     kind, other = file.word(entries, "type", label), file.word(entries, "neighbourPatch", label, "")
-    count, first = (
-        _count(file, file.word(entries, key, label), f"{key} of {label}") for key in ("nFaces", "startFace")
-    )
-    return Patch(name, kind, first, count, other)
+    numbers = {
+        key: _count(file, file.word(entries, key, label), f"{key} of {label}") for key in ("nFaces", "startFace")
+    }
+    return Patch(name, kind, numbers["startFace"], numbers["nFaces"], other)
 
 
 def _count(file: FoamFile, word: str, label: str) -> int:

@@ -11,7 +11,9 @@ from hexmend.errors import FileError
 #: Suffixes of the empty file by which ParaView opens a case.
 SUFFIXES = (".foam", ".openfoam")
 #: Files of a polyMesh folder by which it can be opened; each may be compressed (.gz).
-_PARTS = ("points", "faces", "owner", "neighbour", "boundary")
+PARTS = ("points", "faces", "owner", "neighbour", "boundary")
+#: Files of zones in a polyMesh folder, which need not exist.
+ZONES = ("cellZones", "faceZones", "pointZones")
 _TIME = re.compile(r"[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?\Z")
 
 
@@ -61,7 +63,7 @@ def find_case(path: Path) -> CaseFiles | None:
         nested = (folder / "constant" / "polyMesh", folder / "polyMesh", folder)
     elif path.suffix.lower() in SUFFIXES:
         nested = (path.absolute().parent / "constant" / "polyMesh",)
-    elif path.is_file() and path.name.removesuffix(".gz") in _PARTS:
+    elif path.is_file() and path.name.removesuffix(".gz") in PARTS:
         nested = (path.absolute().parent,)
     else:
         return None

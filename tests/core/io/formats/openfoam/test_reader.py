@@ -10,6 +10,7 @@ from hexmend import io
 from hexmend.io.formats.openfoam import times
 from hexmend.mesh.hexahedron import FACES
 from hexmend.quality import summarise
+from hexmend.study.batch.task import content_hash
 from tests.core.grids import grid
 from tests.core.io.formats.openfoam.foam_cases import (
     CUBE,
@@ -54,6 +55,15 @@ def test_a_case_is_named_by_its_folders_and_files(named, tmp_path):
     write_cube(tmp_path / "cube")
     (tmp_path / "cube" / "cube.foam").touch()
     assert io.read(tmp_path / "cube" / named).name == "cube"
+
+
+def test_a_study_knows_a_case_by_the_files_of_its_mesh(tmp_path):
+    mesh = write_cube(tmp_path / "cube")
+    before = content_hash(tmp_path / "cube")
+    (tmp_path / "cube/0").mkdir()
+    assert content_hash(mesh / "points") == before
+    (mesh / "owner").write_bytes((mesh / "owner").read_bytes() + b"// a comment")
+    assert content_hash(tmp_path / "cube") != before
 
 
 def test_a_region_belongs_to_the_case_around_it(tmp_path):

@@ -1,0 +1,82 @@
+"""Shapes of hexes in a run: targets of its stages, layers before and after, and what is said of them."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from hexmend.iteration import Iteration
+from hexmend.layers import LayerReport, describe_losses, find_layers, grading_message, layer_report
+from hexmend.mesh.element_target import Target
+from hexmend.mesh.mesh import Mesh
+from hexmend.quality import ElementQuality, measure_against_target
+from hexmend.smoothers import Smoother
+from hexmend.target import recovered_lengths
+
+
+class ShapeWatch:
+    """Layers of the mesh of a run, from which targets of stages are made and with which its result is compared.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As given to the run.
+    quality : ElementQuality
+        Of its hexes.
+
+    Attributes
+    ----------
+    layers : Layers
+        Boundary layers of the mesh as given.
+    """
+
+    def __init__(self, mesh: Mesh, quality: ElementQuality):
+        self.layers = find_layers(mesh, quality)
+        self._mesh, self._quality = mesh, quality
+
+    def with_target(self, smoother: Smoother) -> Mesh:
+        """Return the mesh as given with the target of a stage, whatever earlier stages have done."""
+        return smoother.with_target(self._mesh, self.layers, self._quality)
+
+    def reports(self, points: np.ndarray) -> tuple[LayerReport, ...]:
+        """Compare the layers of the mesh as given and with other points (n, 3)."""
+        if not self.layers:
+            return ()
+        return layer_report(self.layers, self._mesh, self._mesh.with_points(points), self._given_lengths)
+
+    def target_q(self, target: Target | None, *iterations: Iteration) -> tuple[float, ...] | None:
+        """Least q of target of the hexes at some iterations; None without a target."""
+        if target is None:
+            return None
+        mesh = self._mesh.with_element_target(target)
+        return tuple(float(measure_against_target(mesh, one.points, one.quality).q.min()) for one in iterations)
+
+    def layers_message(self, target: Target | None) -> str:
+        """The layers that were found and whether a stage keeps them, as a sentence; "" without layers."""
+        kept = "kept" if target is not None else "not kept"
+        return f"Boundary layers at {self.layers.names} are {kept}." if self.layers else ""
+
+    def message(self, target: Target | None, points: np.ndarray, walls: tuple[LayerReport, ...], ended: bool) -> str:
+        """Tell what has become of layers, or of the lengths of hexes in a mesh without layers; "" for nothing.
+
+        Parameters
+        ----------
+        target : Target or None
+            Of the last stage.
+        points : (n, 3) float64
+            Of the result.
+        walls : tuple of LayerReport
+            Of `reports` at these points.
+        ended : bool
+            False while the run goes on: lengths are not compared then.
+        """
+        losses = describe_losses(walls)
+        if losses or target is not None:
+            return losses or self.layers_message(target)
+        return grading_message(self._mesh, self._mesh.with_points(points), self._quality) if ended else ""
+
+    @cached_property
+    def _given_lengths(self) -> np.ndarray:
+        """Lengths of the hexes as given, recovered where the mesh is noisy, (m, 3)."""
+        return recovered_lengths(self._mesh, self._quality)
