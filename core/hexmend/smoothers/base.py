@@ -65,6 +65,11 @@ class Smoother(Parametrised, ABC):
         """True if nodes of the boundary slide on the surface."""
         return False
 
+    @property
+    def keeps_layers(self) -> bool:
+        """True if boundary layers keep their heights by a target."""
+        return False
+
     def movable(self, mesh: Mesh) -> np.ndarray:
         """Mark the nodes that the method may move, (n,) bool: the free ones, and those that slide."""
         return mesh.free
