@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import threading
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -70,9 +71,7 @@ class MeshEnergy:
         self.omitted = as_omitted_corners(omitted, mesh.n_hexes)
         self.unit = mesh.mean_edge_length or 1.0
         self.nodes = np.flatnonzero(mesh.free).astype(np.int32)
-        self._lengths = wanted_lengths(mesh)
-        weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
-        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, weight)
+        self._set_target(mesh)
         self._scratch = threading.local()
 
     @cached_property
@@ -84,6 +83,26 @@ class MeshEnergy:
     def sparsity(self) -> BlockSparsity:
         """Sparsity pattern of the Hessian: pairs of free nodes that share a hex."""
         return BlockSparsity(self.mesh)
+
+    def _set_target(self, mesh: Mesh) -> None:
+        """Take over the target of a mesh with the same hexes."""
+        self._lengths = wanted_lengths(mesh)
+        weight = 0.0 if mesh.element_target is None else mesh.element_target.size_weight
+        self.target = None if self._lengths is None else TargetMatrices(self.unit / self._lengths, weight)
+        for name in ("hex_sizes", "node_lengths", "precision"):  # they follow from the lengths
+            self.__dict__.pop(name, None)
+
+    def without_size(self) -> MeshEnergy:
+        """Return the energy in which only the shape counts, with the scale of the present edges; itself if that is so.
+
+        In tangled layers sigma may be many times the volume that is wanted, so that the size would outweigh the shape.
+        """
+        target = self.mesh.element_target
+        if target is None or target.size_weight == 0:
+            return self
+        other = copy.copy(self)
+        other._set_target(self.mesh.with_element_target(replace(target, size_weight=0.0)))
+        return other
 
     @cached_property
     def hex_sizes(self) -> np.ndarray | float:

@@ -55,7 +55,8 @@ class SlidingEnergy(MeshEnergy):
         gradient = super().gradient(x, delta)
         rows, nodes, unit = self._rows, self.sliding.nodes, self.unit
         size = np.linalg.norm(step[rows], axis=1)
-        far = _PROBE_LENGTH / np.maximum(size, np.finfo(float).tiny)[:, None]
+        lengths = 1.0 if self.node_lengths is None else np.minimum(self.node_lengths[rows], 1.0)
+        far = _PROBE_LENGTH * lengths / np.maximum(size, np.finfo(float).tiny)[:, None]
         aims = (x[nodes] + far * step[rows]) * unit
         leads = (self.sliding.project(aims) / unit - x[nodes]) / far
         slopes = np.einsum("ki,ki->k", leads, gradient[rows])

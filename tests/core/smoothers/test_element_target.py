@@ -82,6 +82,17 @@ def test_mend_untangles_layers_and_keeps_their_heights(boundary):
     assert np.abs(ratios - 1).max() < 0.1
 
 
+def test_mend_untangles_thin_layers_whose_size_counts():
+    """Nodes are displaced by ten thousand times the height of the layers, along them: sigma is as much too large."""
+    lattice = grid(4, 4, 6)
+    thin = lattice.with_points(lattice.points * [1, 1, 1e-4])
+    shift = np.random.default_rng(3).uniform(-1, 1, thin.points.shape) * [0.3, 0.3, 5e-5]
+    mesh = as_given(thin, 0.5).with_points(thin.points + shift * thin.free[:, None])
+    result = smooth(mesh, METHODS["mend"]())
+    assert result.before.inverted > 0 == result.after.inverted
+    np.testing.assert_allclose(result.mesh.points, thin.points, rtol=1e-3, atol=1e-7)
+
+
 def test_the_ideal_target_loses_the_layers():
     made, _ = layered()
     result = smooth(made, METHODS["mend"](target="ideal"))

@@ -120,7 +120,7 @@ class Mend(ObjectiveSmoother):
         newton, locked = NewtonConfig(self.solver_iterations), locked_corners(mesh, quality)
         energy = energy.with_objective(energy.norm, locked)
         config = UntanglingConfig(self.initial_epsilon, newton=newton)
-        untangled = yield from untangle(mesh, energy, quality, locked, config)
+        untangled = yield from untangle(mesh, energy.without_size(), quality, locked, config)
         points, omitted = untangled.points, untangled.omitted
         if omitted.any() and not self.slides:
             decision = omission_message(omitted, locked)
